@@ -109,7 +109,8 @@ def _equilibrium(sheet: Discrete, scene: Scene) -> tuple[np.ndarray, Status, Seq
     """q (N,) under the full load of a scene on a sheet's mesh, how the path there ended, and notes."""
     mesh, own = sheet.plan.mesh, sheet.settings
     if sheet.model == "plate":
-        return plate_statics.equilibrium(DiscretePlate(mesh, scene))
+        q, _, _, status, notes = plate_statics.solved(DiscretePlate(mesh, scene))
+        return q, status, notes
     if sheet.model == "shell":
         return shell_statics.trace_on(shell_statics.discretise(mesh, scene, law=own["law"]))
     options = own["layers"], own["law"], own["clamp"]

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from lumped.actuators import Drive
 from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
@@ -94,9 +93,7 @@ def modes(
     inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
     bodies = rotary_masses(scene, problem.assembly.lattice)
     mass = sp.csc_array(transform.T @ (sp.kron(inertia, sp.eye_array(3)) + bodies) @ transform)
-    blocks = problem.assembly.at(float(about == "deformed")).tangent(at)
-    for item in problem.items:
-        item.add_tangent(at, Drive(), 1.0, blocks)
+    blocks = problem.tangent(at, float(about == "deformed"))
     stiffness = problem.system.matrix(blocks)
     wanted, shift = count + rigid, _shift(scene)
 

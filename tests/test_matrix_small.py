@@ -14,14 +14,14 @@ from sheetbench.choices import SUITES
 
 VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "compare --duration 0.004 --elements 2": [
-        (("two-edges-settling",), ("{pressed}",), ("{natural}",)),
+        (("two-edges-settling",), ("{pressed}",), ("{natural}",), ("{touching}",)),
         (("--grid", "3"), ("--grid", "3x4")),
         (("--calibration", "hyperelastic"), ("--k", "550")),
         (("--json",), ("--out", "{folder}")),
     ],
     "calibrate --out {folder}": [
         (("--calibration", "neo-hookean"), ("--calibration", "central"), ()),
-        (("two-edges-settling",), ("{pressed}",), ("{natural}",)),
+        (("two-edges-settling",), ("{pressed}",), ("{natural}",), ("{touching}",)),
         tuple(("--for", code) for code in ("mujoco", "sofa", "numpy", "newton")),
         (("--grid", "3"), ("--grid", "3x4")),
     ],
@@ -55,6 +55,17 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--unknown", "natural.kxx"), ("--unknown", "patch1.natural.kxx"), ("--unknown", "natural.exx")),
         OUTPUTS[:3],
     ],
+    "identify {touching} --measured {displacements}": [
+        (("--lumped", "3"), ("--model", "shell", "--elements", "2")),
+        (("--unknown", "obstacle1.z"), ("--unknown", "young")),
+        OUTPUTS[:2],
+    ],
+    "compare {touching} --elements 2": [
+        (("--lumped", "3"), ("--lumped", "3x4"), ("--lumped", "4", "--grading", "auto")),
+        ((), ("--reference", "solid"), ("--branch", "buckled"), ("--reference", "plate")),
+        OUTPUTS,
+    ],
+    "stability {touching} --vary obstacle --lumped 3 --elements 2 --workers 1": [OUTPUTS[:3]],
     "modes {natural} --lumped 3 --elements 2": [
         ((), ("--about", "deformed"), ("--buckling",), ("--state-space", "3", "--about", "deformed")),
         (("--json",), ("--out", "{folder}"), ()),
@@ -65,7 +76,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         OUTPUTS[:3],
     ],
     "tradeoff --repeats 1 --elements 3 --plate 2 --workers 1": [
-        (("{pressed}",), ("{weightless}",), ("{natural}",)),
+        (("{pressed}",), ("{weightless}",), ("{natural}",), ("{touching}",)),
         (("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped=", "--lumped-pair", "3:4")),
         (("--calibration", "hyperelastic"), ("--calibration", "auto"), ("--grading", "auto")),
         (("--shell", "2", "--solid", ""), ("--shell", "", "--solid", "2")),
@@ -75,7 +86,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         (("--lumped", "3x4", "--calibration", "hyperelastic", "--json"), ("--k", "550", "--out", "{folder}")),
     ],
     "crosscheck --plate 2,3 --shell 2,3 --judges= --workers 1": [
-        (("one-edge-clamped",), ("{pressed}",), ("{natural}",)),
+        (("one-edge-clamped",), ("{pressed}",), ("{natural}",), ("{touching}",)),
         (("--lumped", "3,4,5"), ("--lumped", "3,4")),
         (("--solid", ""), ("--solid", "1,2")),
         (("--calibration", "hyperelastic"), ("--grading", "0.4")),
@@ -113,7 +124,8 @@ DEAR = {("--vary", "time-step"), ("--calibration", "hyperelastic")}  # a fifth o
 def cases():
     """Return every row under its name."""
     for verb, row in ROWS:
-        marks = [pytest.mark.nightly] if set(row) >= DEAR else []
+        rare = set(row) >= DEAR or ("{touching}",) in row or "{touching}" in verb
+        marks = [pytest.mark.nightly] if rare else []
         yield pytest.param(verb, row, id=f"{verb} {named(row)}", marks=marks)
 
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from comparisons.calibration import damping
 from comparisons.calibration.damping import ModeDamping
-from comparisons.codes.lattice import lattice_files
 from comparisons.models.expected_error import ExpectedError
 from lumped import Calibration
 from sheetbench.answers.files import write_text
@@ -31,20 +30,6 @@ class SheetCalibration(Calibration):
     expected: ExpectedError | None = None
     modes: tuple[ModeDamping, ...] = ()
     lattice: tuple[dict[str, Write], list[str]] = field(default=({}, []), compare=False)
-
-    @classmethod
-    def of(
-        cls,
-        springs: Calibration,
-        scene: Scene,
-        expected: ExpectedError | None = None,
-        modes: tuple[ModeDamping, ...] = (),
-        code: str | None = None,
-    ) -> SheetCalibration:
-        """Return springs as those of a scene. Raises BadInput for what the code does not have."""
-        own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
-        lattice = ({}, []) if code is None else lattice_files(scene, springs, code)
-        return cls(**own, found=springs, scene=scene, expected=expected, modes=modes, lattice=lattice)
 
     @property
     def parts(self) -> tuple[Calibration, Scene]:

@@ -57,14 +57,14 @@ def keys(
     option: str = "--",
 ) -> dict[str, Any]:
     """Return the keys of [material] that say this; none of nothing. Raises BadInput by the options' names."""
-    given = {
-        "loss-factor": loss_factor,
-        "damping-ratio": damping_ratio,
-        "log-decrement": log_decrement,
-        "quality": quality,
-        "prony": prony,
+    measures: dict[str, Any] = {  # and the loss factor that each says
+        "loss-factor": (loss_factor, lambda value: value),
+        "damping-ratio": (damping_ratio, lambda value: 2.0 * value),
+        "log-decrement": (log_decrement, lambda value: 2.0 * value / hypot(2.0 * pi, value)),
+        "quality": (quality, lambda value: 1.0 / value),
+        "prony": (prony, None),
     }
-    named = [name for name, value in given.items() if value is not None]
+    named = [name for name, (value, _) in measures.items() if value is not None]
     where = " and ".join(option + name for name, value in (("at", at), ("band", band)) if value is not None)
     if len(named) > 1:
         raise BadInput(f"{' and '.join(option + name for name in named)}: give one of them")
@@ -76,21 +76,14 @@ def keys(
         if where:
             raise BadInput(f"{option}prony and {where}: measured moduli have a band of their own")
         return _series(prony)
-    value = given[named[0]]
-    assert isinstance(value, float | int)
+    value, loss = measures[named[0]]
     if not value > 0.0:
         raise BadInput(f"{option}{named[0]} = {value:g}: must be greater than 0")
-    factor = {
-        "loss-factor": value,
-        "damping-ratio": 2.0 * value,
-        "log-decrement": 2.0 * value / hypot(2.0 * pi, value),
-        "quality": 1.0 / value,
-    }[named[0]]
     if (at is None) == (band is None):
         raise BadInput(
             f"{option}{named[0]}: give {option}at HZ, for one damper a spring, or {option}band LOW HIGH"
         )
-    return {"loss_factor": factor, "frequency": at, "band": band}
+    return {"loss_factor": loss(value), "frequency": at, "band": band}
 
 
 def ratios(scene: Scene, springs: lumped.Calibration) -> tuple[ModeDamping, ...]:

@@ -103,12 +103,14 @@ def command(
     with two adjacent edges clamped. --export writes the lattice of the SCENE, or of the sheet with one edge
     clamped.
     """
+    from dataclasses import fields
+
     from comparisons.calibration import damping
     from comparisons.calibration.answer import SheetCalibration, to_toml
     from comparisons.calibration.calibrate import calibrate, expected, subject
     from comparisons.codes.cell_moduli import given_coefficients, homogenise
     from comparisons.codes.files import WRITERS
-    from comparisons.codes.lattice import CODES
+    from comparisons.codes.lattice import CODES, lattice_files
     from comparisons.codes.setup import require_damper, setup, squares_of
     from comparisons.models.sizes import require_room
     from sheetbench.errors import BadInput, require_choice, require_effect
@@ -156,5 +158,7 @@ def command(
         off = expected(of, springs) if foretold else None
         out.export(export, of, springs)
         modes = damping.ratios(of, springs)
-        answer = SheetCalibration.of(springs, of, expected=off, modes=modes, code=for_)
+        own = {one.name: getattr(springs, one.name) for one in fields(springs)}
+        files = ({}, []) if for_ is None else lattice_files(of, springs, for_)
+        answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -71,8 +71,8 @@ def command(
     and positions of held edges; outputs the probes' displacements.
     """
     from comparisons.models.grids import parse_elements
-    from comparisons.modes.linear import linearise
     from comparisons.modes.spectra import spectra
+    from comparisons.modes.state_space import linearise
     from sheetbench.errors import NoEquilibrium
     from sheetbench.scenes import scene_of
 

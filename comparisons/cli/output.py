@@ -94,7 +94,7 @@ class Output:
         with ExitStack() as stack:
             self._store_files = [FILE]
             yield {
-                "store": stack.enter_context(campaign(self._folder and self._folder.path)),
+                "store": stack.enter_context(campaign(None if self._folder is None else self._folder.path)),
                 "pool": stack.enter_context(pool_of(options.scheduler, options.wait, console.warn)),
                 "progress": self.progress,
                 "workers": options.workers or os.cpu_count() or 1,

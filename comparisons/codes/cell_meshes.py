@@ -11,9 +11,7 @@ from scipy.spatial import Delaunay
 
 from comparisons.codes.cell import Cell, Place, from_toml
 from sheetbench.errors import BadInput, require_effect
-from sheetbench.scenes import Sheet
 
-SPACINGS = 8  # cells along the shorter side, unless a spacing is given
 SEED, SIDE, JITTER = 7, 5, 0.25  # of the unstructured mesh: points along a side, their shift over the spacing
 
 
@@ -22,38 +20,27 @@ def cell_of(
 ) -> Cell:
     """The cell of a mesh's name, with its nodes `spacing` [m] apart, or of a file that ends in .toml.
 
-    thickness [m]: of bricks; hinge: the energy of the others' hinges, of `comparisons.codes.cell.HINGES`,
-    "length" unless given. Raises BadInput for what is missing, and for what has no effect on this cell.
+    thickness [m]: of bricks, of which one is in the thickness; hinge: the energy of the others' hinges, of
+    `comparisons.codes.cell.HINGES`, "length" unless given. Raises BadInput for another name, for what is
+    missing, and for what has no effect on this cell.
     """
-    of_file = cell.endswith(".toml")
-    if cell == BRICKS:
-        require_effect(f"on {BRICKS}, which have no hinges", {"hinge": hinge})
-    if of_file:
+    if cell.endswith(".toml"):
         require_effect(f"on {cell}, which has its own", {"spacing": spacing, "hinge": hinge})
         return from_toml(Path(cell))
-    if cell in NAMES and not (isinstance(spacing, float | int) and spacing > 0.0):
+    if cell not in NAMES:
+        raise BadInput(f"cell = {cell!r}: one of {', '.join(NAMES)}, or a file")
+    if not (isinstance(spacing, float | int) and spacing > 0.0):
         raise BadInput(f"spacing = {str(spacing)[:20]}: the distance of nodes, in metres, is needed")
-    if cell == BRICKS and not thickness:
-        raise BadInput(f"thickness = {thickness}: of bricks, in metres, is needed")
-    return mesh(cell, spacing or 0.0, thickness or 0.0, hinge or "length")
-
-
-def cell_on(sheet: Sheet, cell: str, spacing: float | None = None, hinge: str | None = None) -> Cell:
-    """`cell_of` on a sheet, nodes an eighth of its shorter side apart unless given."""
-    usual = None if cell.endswith(".toml") else min(sheet.lengths) / SPACINGS
-    return cell_of(cell, usual if spacing is None else spacing, sheet.thickness, hinge)
-
-
-def mesh(name: str, spacing: float, thickness: float, hinge: str = "length") -> Cell:
-    """The cell of a mesh with this distance [m] between its nodes; of bricks one through the thickness [m].
-    Raises BadInput for another name."""
-    if name not in NAMES:
-        raise BadInput(f"cell = {name!r}: one of {', '.join(NAMES)}, or a file")
-    if name == BRICKS:
+    if cell == BRICKS:
+        require_effect(f"on {BRICKS}, which have no hinges", {"hinge": hinge})
+        if not thickness:
+            raise BadInput(f"thickness = {thickness}: of bricks, in metres, is needed")
         return _bricks(spacing, thickness)
-    periods, nodes, triangles = MESHES[name]()
+    periods, nodes, triangles = MESHES[cell]()
     nodes = np.column_stack([nodes, np.zeros(len(nodes))])
-    return Cell(name, spacing * np.asarray(periods, dtype=float), spacing * nodes, triangles, hinge)
+    return Cell(
+        cell, spacing * np.asarray(periods, dtype=float), spacing * nodes, triangles, hinge or "length"
+    )
 
 
 _Parts = tuple[np.ndarray, np.ndarray, tuple[tuple[Place, ...], ...]]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import cell_on
+from comparisons.codes.cell_meshes import cell_of
 from comparisons.codes.coefficients import best_hinge, limit_error, nearest
 from comparisons.codes.homogenise import Moduli, moduli_of
 from comparisons.codes.parameters import Parameter, parameters
@@ -19,6 +19,7 @@ from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
 from sheetbench.scenes.meaning.words import sheet_in_words
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
+SPACINGS = 8  # cells along the shorter side, unless a spacing is given
 MISSED = 0.01  # of the sheet's modulus 11
 
 
@@ -170,7 +171,9 @@ def homogenise(
     scene, given = scene_of(scene), dict(coefficients or {})
     require_plain(scene, "--cell")
     if isinstance(cell, str):
-        cell = cell_on(scene.sheet, cell, spacing, hinge)
+        if spacing is None and not cell.endswith(".toml"):
+            spacing = min(scene.sheet.lengths) / SPACINGS
+        cell = cell_of(cell, spacing, scene.sheet.thickness, hinge)
     else:
         require_effect("on a Cell, which has its own", {"spacing": spacing, "hinge": hinge})
     if unknown := set(given) - set(cell.units()):

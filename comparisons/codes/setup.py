@@ -18,13 +18,13 @@ from typing import Any
 import numpy as np
 
 from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import mesh as cell_of_triangles
+from comparisons.codes.cell_meshes import cell_of
 from comparisons.codes.coefficients import best_hinge, limit_error, nearest
 from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
 from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.parameters import Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
-from comparisons.codes.springs import hinged_springs, layered_springs, tetrahedral_cell, triangular_cell
+from comparisons.codes.springs import layered_springs, tetrahedral_cell, triangular_cell
 from comparisons.codes.table import CODES, Code
 from comparisons.models.grids import GridLike
 from sheetbench.answers.answer import Answer
@@ -240,9 +240,10 @@ def setup(
         cell = tetrahedral_cell(spacing, found["layers"])
     elif row.elements == "springs":
         cell = triangular_cell(name, spacing)
-        found = hinged_springs(cell, scene.material, scene.sheet.thickness)
+        own = {"lambda_h": 0.0, "mu_h": 0.0}  # it has no membrane but its springs
+        found = nearest(cell, scene.material, scene.sheet.thickness, own)
     else:
-        cell = cell_of_triangles(name, spacing, scene.sheet.thickness, row.hinge)
+        cell = cell_of(name, spacing, hinge=row.hinge)
         found = nearest(cell, scene.material, scene.sheet.thickness)
     best = best and at_rest and not coefficients
     found |= coefficients or {}

@@ -6,6 +6,7 @@ Squares are cut into five tetrahedra each, neighbours mirrored, so that they sha
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -13,11 +14,11 @@ import numpy as np
 from scipy.optimize import brentq
 
 from comparisons.codes.cell import Cell, Place
-from comparisons.codes.cell_meshes import mesh
-from comparisons.codes.coefficients import TURNED, least_error, nearest
+from comparisons.codes.cell_meshes import cell_of
+from comparisons.codes.coefficients import TURNED, least_error
 from comparisons.codes.homogenise import Moduli, moduli_of
 from fem_reference.surface.materials import section_of
-from sheetbench.scenes import Material, Scene
+from sheetbench.scenes import Scene
 
 FIVE = (
     ((0, 0, 0), (1, 1, 0), (1, 0, 1), (0, 1, 1)),
@@ -37,39 +38,27 @@ def five(i: int, j: int) -> list[list[tuple[int, int, int]]]:
 
 def tetrahedral_cell(spacing: float, height: float) -> Cell:
     """Two layers of nodes, with springs "k" along every side of the tetrahedra between."""
-    sides: dict[tuple[Place, ...], None] = {}
-    for i in range(2):
-        for j in range(2):
-            for corners in five(i, j):
-                for a, b in combinations(corners, 2):
-                    first, second = sorted((_place(*a), _place(*b)))
-                    at = first[1:]
-                    ends = ((first[0], 0, 0), (second[0], second[1] - at[0], second[2] - at[1]))
-                    sides[ends] = None
-    nodes = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (-0.5, 0.5)]
-    places = np.array(nodes) * [spacing, spacing, height]
-    springs = tuple((a, b, "k") for a, b in sides)
-    return Cell("tetrahedra", 2.0 * spacing * np.eye(2), places, springs=springs)
-
-
-def _place(i: int, j: int, layer: int) -> Place:
-    return (i % 2) * 4 + (j % 2) * 2 + layer, i // 2, j // 2
+    cells = (corners for i in range(2) for j in range(2) for corners in five(i, j))
+    places = [[(i % 2 * 4 + j % 2 * 2 + layer, i // 2, j // 2) for i, j, layer in cell] for cell in cells]
+    nodes = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (-0.5, 0.5)])
+    periods = 2.0 * spacing * np.eye(2)
+    return Cell("tetrahedra", periods, nodes * [spacing, spacing, height], springs=_along_sides(places))
 
 
 def triangular_cell(name: str, spacing: float) -> Cell:
     """A mesh of triangles without a membrane of its own: springs "k" along its sides, hinges by angle."""
-    cell = mesh(name, spacing, 0.0, "angle")
+    cell = cell_of(name, spacing, hinge="angle")
+    return replace(cell, springs=_along_sides(cell.triangles))
+
+
+def _along_sides(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Place, str], ...]:
+    """Springs "k" between every two corners of elements, each once."""
     sides: dict[tuple[Place, Place], None] = {}
-    for triangle in cell.triangles:
-        for a, b in combinations(triangle, 2):
-            (n, i, j), second = sorted((a, b))
-            sides[(n, 0, 0), (second[0], second[1] - i, second[2] - j)] = None
-    return replace(cell, springs=tuple((a, b, "k") for a, b in sides))
-
-
-def hinged_springs(cell: Cell, material: Material, thickness: float) -> dict[str, float]:
-    """The nearest springs and hinges of a triangular cell."""
-    return nearest(cell, material, thickness, {"lambda_h": 0.0, "mu_h": 0.0})
+    for element in elements:
+        for a, b in combinations(element, 2):
+            (first, i, j), (second, *to) = sorted((a, b))
+            sides[(first, 0, 0), (second, to[0] - i, to[1] - j)] = None
+    return tuple((a, b, "k") for a, b in sides)
 
 
 def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[str, float]:

@@ -16,14 +16,15 @@ that does not get there says so in its Solution's status. docs/plugin.py is a sh
 
 from __future__ import annotations
 
-import ast
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from hashlib import sha256
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
+from modulefinder import ModuleFinder
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
@@ -205,21 +206,11 @@ def _files_of(file: Path) -> dict[str, Path]:
     """Return a file and what it imports from its own folder, modules and packages, by their paths in
     there."""
     folder = file.resolve().parent
-    found: dict[str, Path] = {}
-    waiting = [file.resolve()]
-    while waiting:
-        path = waiting.pop()
-        name = path.relative_to(folder).as_posix()
-        if name in found:
-            continue
-        found[name] = path
-        for imported in _imported(path):
-            module, package = folder / f"{imported}.py", folder / imported
-            if module.is_file():
-                waiting.append(module)
-            elif (package / "__init__.py").is_file():
-                waiting.extend(package.rglob("*.py"))
-    return found
+    finder = ModuleFinder(path=[str(folder)])
+    with suppress(SyntaxError, ValueError):  # reported when it is loaded
+        finder.run_script(str(file.resolve()))
+    found = [Path(at) for module in finder.modules.values() if (at := getattr(module, "__file__", None))]
+    return {path.relative_to(folder).as_posix(): path for path in {file.resolve(), *found}}
 
 
 def _files_of_module(name: str) -> dict[str, Path]:
@@ -238,16 +229,3 @@ def _digest(files: Mapping[str, Path], *more: str) -> str:
     """Return what follows from the files' names and contents, and from more texts."""
     lines = [f"{name} {sha256(path.read_bytes()).hexdigest()}" for name, path in sorted(files.items())]
     return sha256("\n".join([*more, *lines]).encode()).hexdigest()
-
-
-def _imported(path: Path) -> Iterator[str]:
-    """Return the first parts of the names that a file imports."""
-    try:
-        tree = ast.parse(path.read_bytes())
-    except (SyntaxError, ValueError):  # reported when it is loaded
-        return
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name.partition(".")[0] for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
-            yield node.module.partition(".")[0]

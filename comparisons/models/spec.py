@@ -80,7 +80,8 @@ class Spec(ABC):
     @property
     def size(self) -> str:
         """The grid, or both of a pair, or the elements; nothing where they are left open."""
-        return ":".join(counted(self.settings[name]) for name in ("coarser", *SIZES) if name in self.settings)
+        sizes = (self.settings.get(name) for name in ("coarser", "grid", "elements"))
+        return ":".join(counted(size) for size in sizes if size is not None)
 
     @property
     def series(self) -> str:
@@ -232,7 +233,9 @@ def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
     kind = next((one for one in (Lattice, LatticePair) if model == one.NAME), None)
     if kind is None and model not in REFERENCES:
         return External(model, settings)
-    own = {key: tuple(value) if isinstance(value, list) else value for key, value in settings.items()}
+    own: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value for key, value in settings.items()
+    }
     names = [one.name for one in fields(kind or Elements)]
     if kind is not None:
         if unknown := [key for key in own if key not in names]:

@@ -55,17 +55,9 @@ def half(scene: Scene, axis: int) -> Scene:
     lengths = {f"length_{'xy'[axis]}": scene.sheet.lengths[axis] / 2.0}
     loads = [part for load in scene.loads if (part := _half_load(load, scene, axis)) is not None]
     supports = [support for support in scene.supports if support.edge != cut]
-    return Scene(
-        name=scene.name,
-        title=scene.title,
-        sheet=scene.sheet.model_copy(update=lengths),  # not validated: half a sheet may be thicker than wide
-        material=scene.material,
-        gravity=scene.gravity,
-        supports=(*supports, Symmetric(edge=cut)),
-        loads=tuple(loads),
-        springs=scene.springs,
-        dampers=scene.dampers,
-    )
+    sheet = scene.sheet.model_copy(update=lengths)  # not validated: half a sheet may be thicker than wide
+    held = (*supports, Symmetric(edge=cut))
+    return scene.replace(sheet=sheet, supports=held, loads=tuple(loads), probes={})
 
 
 def whole(part: Solution, scene: Scene, axis: int) -> Solution:

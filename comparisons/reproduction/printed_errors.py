@@ -66,35 +66,21 @@ class Cell:
 
 
 def cells() -> list[Cell]:
-    """Every printed error, in its order."""
-    return [_cell(*of, value) for of, value in published_errors().items()]
-
-
-def _cell(test: int, component: str, probe: str, value: float) -> Cell:
-    row, column = PROBES.index(probe), COMPONENTS.index(component)
-    model, experiment = (abs(printed(test, source)[row, column]) for source in ("model", "experiment"))
-    of = {
-        "experiment": _relative(model, experiment, experiment),
-        "model": _relative(model, experiment, model),
-    }
-    larger = _relative(model, experiment, max(model, experiment))
-    by_source = {name: _digits(computed, value) for name, computed in of.items()}
-    matching = [name for name, digits in by_source.items() if digits]
-    return Cell(
-        test=test,
-        component=component,
-        probe=probe,
-        printed=value,
-        of_experiment=of["experiment"],
-        of_model=of["model"],
-        of_larger=larger,
-        of="both" if len(matching) == 2 else matching[0] if matching else "neither",
-        digits=_digits(larger, value) or next(filter(None, by_source.values()), ""),
-    )
-
-
-def _relative(model: float, experiment: float, size: float) -> float:
-    return abs(model - experiment) / size if size else 0.0
+    """Return every printed error, in its order."""
+    found = []
+    for (test, component, probe), value in published_errors().items():
+        at = PROBES.index(probe), COMPONENTS.index(component)
+        model, experiment = (abs(printed(test, source)[at]) for source in ("model", "experiment"))
+        a, b, c = (
+            abs(model - experiment) / size if size else 0.0
+            for size in (experiment, model, max(model, experiment))
+        )
+        digits = [_digits(error, value) for error in (a, b, c)]
+        of = {(True, True): "both", (True, False): "experiment", (False, True): "model"}
+        whose = of.get((bool(digits[0]), bool(digits[1])), "neither")
+        kept = next(filter(None, (digits[2], *digits)), "")
+        found.append(Cell(test, component, probe, value, a, b, c, whose, kept))
+    return found
 
 
 def _digits(computed: float, value: float) -> str:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from comparisons.scoring.answers import HEADERS
+import numpy as np
+
+from comparisons.scoring.answers import HEADERS, PLACES
 from comparisons.scoring.reference import Reference, document, references
 from comparisons.scoring.score import Place, own_models
 from sheetbench.answers.answer import Answer
@@ -93,51 +95,44 @@ def _toml(case: Reference) -> str:
     return to_toml(case.scene)
 
 
+def _places(case: Reference) -> Iterator[tuple[list[Any], np.ndarray, np.ndarray, Sequence[float]]]:
+    """Yield what names every row of a case, its values and their bars, and where the probe is [m]."""
+    if case.suite == "modes":
+        for number, both in enumerate(zip(case.values[:, None], case.bars[:, None], strict=True), 1):
+            yield [number], *both, ()
+        return
+    for (name, at), u, by in zip(case.scene.probes.items(), case.values, case.bars, strict=True):
+        if case.time is None:
+            yield [name], u, by, at
+        else:
+            yield from (([name, time], u[n], by[n], at) for n, time in enumerate(case.time.tolist()))
+
+
 def _values(cases: Sequence[Reference]) -> str:
-    """Values and bars as CSV."""
-    if cases[0].suite == "modes":
-        rows: list[list[Any]] = [["case", "mode", "frequency", "bar"]]
-        for case in cases:
-            rows += [
-                [case.name, n + 1, f, by]
-                for n, (f, by) in enumerate(zip(case.values, case.bars, strict=True))
-            ]
-        return _csv(rows)
-    head = ["ux", "uy", "uz", "bar_x", "bar_y", "bar_z"]
-    rows = [["case", "probe", *(["time"] if cases[0].suite == "motion" else []), "x", "y", *head]]
-    for case in cases:
-        for probe, u, by in zip(case.scene.probes.items(), case.values, case.bars, strict=True):
-            name, point = probe
-            if case.time is None:
-                rows.append([case.name, name, *point, *u, *by])
-            else:
-                rows += [
-                    [case.name, name, time, *point, *u[n], *by[n]]
-                    for n, time in enumerate(case.time.tolist())
-                ]
-    return _csv(rows)
+    """Values and bars as CSV; x, y [m]: where the probe is."""
+    names, numbers = _columns(cases[0].suite)
+    places, bars = (("x", "y"), ("bar_x", "bar_y", "bar_z")) if len(numbers) == 3 else ((), ("bar",))
+    rows = ([case.name, *named, *at, *u, *by] for case in cases for named, u, by, at in _places(case))
+    return _csv([*names, *places, *numbers, *bars], rows)
 
 
 def _form(cases: Sequence[Reference]) -> str:
-    """A file of answers with the numbers left out; x, y [m]: where the probe is."""
-    suite = cases[0].suite
-    places = [] if suite == "modes" else ["x", "y"]
-    rows: list[list[Any]] = [[*HEADERS[suite], "seconds", *places]]
-    for case in cases:
-        if suite == "modes":
-            rows += [[case.name, n + 1, "", ""] for n in range(len(case.values))]
-        elif case.time is None:
-            rows += [[case.name, probe, "", "", "", "", *at] for probe, at in case.scene.probes.items()]
-        else:
-            rows += [
-                [case.name, probe, time, "", "", "", "", *at]
-                for probe, at in case.scene.probes.items()
-                for time in case.time.tolist()
-            ]
-    return _csv(rows)
+    """A file of answers with the numbers left out."""
+    names, numbers = _columns(cases[0].suite)
+    places = ("x", "y") if len(numbers) == 3 else ()
+    rows = (
+        [case.name, *named, *[""] * len(u), "", *at] for case in cases for named, u, _, at in _places(case)
+    )
+    return _csv([*names, *numbers, "seconds", *places], rows)
 
 
-def _csv(rows: Sequence[Sequence[Any]]) -> str:
+def _columns(suite: str) -> tuple[list[str], list[str]]:
+    """Return the columns that say where, and those of numbers."""
+    where = [name for name in HEADERS[suite] if name in PLACES]
+    return where, [name for name in HEADERS[suite] if name not in PLACES]
+
+
+def _csv(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
+    csv.writer(text, lineterminator="\n").writerows([header, *rows])
     return text.getvalue()

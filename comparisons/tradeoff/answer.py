@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import inf
-from typing import Annotated, Any
+from typing import Any
 
 from comparisons.sweep import load
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
 from comparisons.sweep.model_error import share_of_tolerance
-from comparisons.tradeoff.row import MotionRow, TradeoffRow
+from comparisons.tradeoff.row import TRADED, MotionRow, TradeoffRow
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.solution import Status, comparable
@@ -21,10 +21,6 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 
 STATED = 0.01  # the tolerance whose parts are said
-SHOWN = (
-    *("number", "series", "size", "unknowns", "iterations", "setup_seconds", "seconds", "quickest"),
-    *("slowest", "peak_memory_bytes", "error", "bar", "field_error", "front", "status"),
-)
 SHOWN_MOTION = (
     *("model", "size", "integrator", "step", "steps", "unknowns", "seconds_per_second", "peak_memory_bytes"),
     *("error", "step_error", "period_error", "damping", "front", "status"),
@@ -54,20 +50,12 @@ class Priced(Answer):
     @property
     def warnings(self) -> list[str]:
         """What to hold against the times."""
-        return load.warnings(
-            [row.load_average for row in self.rows], [row.solve_seconds for row in self.rows]
-        )
+        return load.warnings([row.load_average for row in self.rows], [row.samples for row in self.rows])
 
     @property
     def known(self) -> str:
         """The reference's uncertainty in words."""
         return "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
-
-    @property
-    def numbered(self) -> list[Any]:
-        """The rows with their numbers, and whether they are on the front."""
-        front = self.front
-        return [replace(row, number=i, front=i in front) for i, row in enumerate(self.rows)]
 
     def figures(self) -> tuple[Picture, ...]:
         drawn = Picture(self.file_name, self.DRAWN, (self,))
@@ -89,15 +77,10 @@ class Priced(Answer):
         )
 
 
-@dataclass(frozen=True)
-class Orders:
-    """Of a family: the rows that have errors, the orders of both errors in h, of the time in the unknowns."""
-
-    series: Annotated[str, Column("model", prose=True)]
-    rows: Annotated[int, NUMBER("d")]
-    error_order: Annotated[float | None, NUMBER("z.2f")]
-    field_error_order: Annotated[float | None, NUMBER("z.2f")]
-    time_order: Annotated[float | None, NUMBER("z.2f")]
+ORDERS = (
+    *(Column("model", prose=True), NUMBER("d", "rows"), NUMBER("z.2f", "error order")),
+    *(NUMBER("z.2f", "field error order"), NUMBER("z.2f", "time order")),
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -114,21 +97,22 @@ class Tradeoff(Priced):
     reasons: tuple[str, ...] = ()
 
     @property
-    def orders(self) -> list[Orders]:
-        """The orders of every family."""
-        families = grouped([row.series for row in self.rows])
-        return [self._orders(name, [self.rows[i] for i in numbers]) for name, numbers in families.items()]
-
-    def _orders(self, name: str, family: list[TradeoffRow]) -> Orders:
-        rows = [row for row in family if row.error is not None]
-        sizes = [row.cell_size for row in rows]
-        return Orders(
-            series=name,
-            rows=len(rows),
-            error_order=error_order(sizes, [row.error for row in rows], self.uncertainty),
-            field_error_order=error_order(sizes, [row.field_error for row in rows], self.field_uncertainty),
-            time_order=order([row.unknowns or 0 for row in rows], [row.seconds or 0.0 for row in rows]),
-        )
+    def orders(self) -> list[dict[str, Any]]:
+        """Of every family: the rows that have errors, the orders of both errors in h, of the time in the
+        unknowns."""
+        found = []
+        for name, numbers in grouped([row.ask.spec.series for row in self.rows]).items():
+            rows = [self.rows[i] for i in numbers if self.rows[i].error is not None]
+            sizes = [row.cell_size for row in rows]
+            unknowns = [row.known.get("unknowns") or 0 for row in rows]
+            errors, fields = [row.error for row in rows], [row.field_error for row in rows]
+            orders = {
+                "error_order": error_order(sizes, errors, self.uncertainty),
+                "field_error_order": error_order(sizes, fields, self.field_uncertainty),
+                "time_order": order(unknowns, [row.seconds or 0.0 for row in rows]),
+            }
+            found.append({"series": name, "rows": len(rows), **orders})
+        return found
 
     def document(self) -> dict[str, Any]:
         return {
@@ -136,7 +120,7 @@ class Tradeoff(Priced):
             "scene": self.scene.document(),
             "rows": [row.as_dict() for row in self.rows],
             "front": self.front,
-            "orders": [asdict(orders) for orders in self.orders],
+            "orders": self.orders,
             "reference": {
                 **self.reference.as_dict(),
                 "uncertainty": self.uncertainty,
@@ -146,19 +130,24 @@ class Tradeoff(Priced):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        costs = "Cost and error; solve: median of the repeats"
+        front, costs = self.front, "Cost and error; solve: median of the repeats"
         orders = "Observed orders: of errors in the cell size, of time in the unknowns"
-        rows = Table.of(TradeoffRow, self.numbered, costs, "tradeoff", fields=SHOWN)
-        return rows, Table.of(Orders, self.orders, orders, "orders")
+        rows = ((i, *row.cells(), i in front, row.status) for i, row in enumerate(self.rows))
+        families = (one.values() for one in self.orders)
+        return (
+            Table.listed(costs, TRADED, rows, "tradeoff"),
+            Table.listed(orders, ORDERS, families, "orders"),
+        )
 
     def notes(self) -> list[str]:
+        truth = self.reference
         explained = (
-            f"errors against {self.reference.label} ({self.reference.unknowns} unknowns), whose own "
+            f"errors against {truth.label} ({truth.known.get('unknowns')} unknowns), whose own "
             f"uncertainty is {self.known}: the grid convergence index of n, ¾ n and ½ n elements. error: at "
             "the probes; field error: root mean square over the sheet. One thread; times on warm code; "
             "memory: growth of the process."
         )
-        taken = share_of_tolerance(STATED, self.reference.model_error, self.uncertainty, self.reference.model)
+        taken = share_of_tolerance(STATED, truth.model_error, self.uncertainty, truth.ask.spec.model)
         return [*self.reasons, *self.cheapest(), *filter(None, [taken]), explained, *self.warnings]
 
     def complaints(self) -> list[str]:
@@ -172,7 +161,7 @@ class Tradeoff(Priced):
         )
 
     def choices(self) -> dict[str, Any]:
-        return {"reference": self.reference.settings}
+        return {"reference": self.reference.ask.spec.settings}
 
     @property
     def succeeded(self) -> bool:
@@ -235,7 +224,9 @@ class DynamicTradeoff(Priced):
             f"Motion over {self.duration:g} s. cost: time per simulated second; step error: the part by "
             "the lattice's steps; period: its error; damping: damping ratio"
         )
-        return (Table.of(MotionRow, self.numbered, caption, "motion", fields=SHOWN_MOTION),)
+        front = self.front
+        rows = [replace(row, front=i in front) for i, row in enumerate(self.rows)]
+        return (Table.of(MotionRow, rows, caption, "motion", fields=SHOWN_MOTION),)
 
     def notes(self) -> list[str]:
         lattices = " · ".join(self.lattices)

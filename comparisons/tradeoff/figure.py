@@ -30,16 +30,16 @@ def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
     figure = Figure(layout="constrained")
     ratios = None if style.narrow else (1.35, 1.0)
     left, right = figure.subplots(*style.panels(2), sharey=True, width_ratios=ratios)
-    families = grouped([row.series for row in tradeoff.rows])
+    families = grouped([row.ask.spec.series for row in tradeoff.rows])
     colours = cycle(SERIES)  # lattices take the first ones
-    orders = {family.series: family.error_order for family in tradeoff.orders}
+    orders = {family["series"]: family["error_order"] for family in tradeoff.orders}
     on_front = set(tradeoff.front)
     for name, numbers in families.items():
         known = [i for i in numbers if tradeoff.rows[i].error]  # logarithmic axes have no zero
         if not known:
             continue
         rows = [tradeoff.rows[i] for i in known]
-        model = rows[0].model
+        model = rows[0].ask.spec.model
         colour = REFERENCE_COLOURS.get(model) or next(colours)
         line: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
         if model in REFERENCE_COLOURS:
@@ -84,7 +84,7 @@ def _against_time(
     error = [100 * (row.error or 0.0) for row in rows]
     axis.plot(median, error, label=label, markerfacecolor="white", **line)
     for row, t, e, kept in zip(rows, median, error, on_front, strict=True):
-        samples = [1e3 * s for s in row.solve_seconds]
+        samples = [1e3 * s for s in row.samples]
         axis.plot([min(samples), max(samples)], [e, e], color=line["color"], lw=0.6, alpha=0.6, zorder=1)
         if kept:
             axis.plot([t], [e], color=line["color"], marker=line["marker"], ms=4.6, zorder=4)
@@ -96,7 +96,7 @@ def _against_time(
 
 def _size(row: TradeoffRow) -> str:
     """Counts along both sides, or one where they are alike."""
-    counts = [size.split("×")[:2] for size in row.size.split(":")]
+    counts = [size.split("×")[:2] for size in row.ask.spec.size.split(":")]
     return ":".join(along[0] if len(set(along)) == 1 else "×".join(along) for along in counts)
 
 

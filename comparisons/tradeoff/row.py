@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import statistics
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Annotated, Any
@@ -11,93 +10,49 @@ import numpy as np
 
 from comparisons.comparison.measures import difference, largest, measured_alike
 from comparisons.external.plugins import shown_name
-from comparisons.models.spec import counted
 from comparisons.sweep.solved import Solved
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, TableUnit
 from sheetbench.scenes.language.summary import milliseconds
 
 MEMORY = TableUnit("B", "MB", 1e-6)
-FRONT = Column(words=("yes", ""))
+FRONT = Column("front", words=("yes", ""))
+OWN = ("label", "status", "message", "cell_size", "started", "finished", "error", "field_error")
+MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes", "bar")
 # in the JSON where they are known
 _OF_AN_ANSWER = ("load_factor", "model_error", "load_average", "probes", "machine", "versions", "traceback")
+TRADED = (
+    *(NUMBER("d", "row"), Column("model", prose=True), "size", NUMBER("d", "unknowns")),
+    *(NUMBER("d", "factorisations", detail=True), MILLISECONDS(".1f", "set-up", detail=True)),
+    *(MILLISECONDS(".2f", "solve"), MILLISECONDS(".2f", "from", detail=True)),
+    *(MILLISECONDS(".2f", "to", detail=True), MEMORY(".1f", "memory"), PERCENT(".3g", "error")),
+    *(PERCENT(".2g", "own bar", detail=True), PERCENT(".3g", "field error"), FRONT),
+    Column("status", detail=True),
+)
 
 
 @dataclass(frozen=True)
-class TradeoffRow:
-    """A solve at rest and its errors, None where there is nothing to measure.
+class TradeoffRow(Solved):
+    """A row of the table of solves, at rest, with its errors, fractions, None where there is nothing to
+    measure."""
 
-    A run that ended without an answer has its settings and its status. series: the family whose order is
-    looked for; cell_size [m]: along the shorter side, where the settings tell; solve_seconds: every sample;
-    error, field_error: fractions; bar: by which the model says that it may be off, likewise; model_error:
-    what it leaves out on every mesh, of a reference; started, finished: UTC; number, front: in a table.
-    """
-
-    model: str
-    label: str
-    settings: Mapping[str, Any]
-    status: Annotated[str, Column(detail=True)]
-    message: str
-    series: Annotated[str, Column("model", prose=True)]
-    cell_size: float | None
-    started: str
-    finished: str
-    unknowns: Annotated[int | None, NUMBER("d")] = None
-    iterations: Annotated[int | None, NUMBER("d", "factorisations", detail=True)] = None
-    solve_seconds: tuple[float, ...] = ()
-    setup_seconds: Annotated[float | None, MILLISECONDS(".1f", "set-up", detail=True)] = None
-    peak_memory_bytes: Annotated[int | None, MEMORY(".1f", "memory")] = None
-    error: Annotated[float | None, PERCENT(".3g")] = None
-    field_error: Annotated[float | None, PERCENT(".3g", "field error")] = None
-    bar: Annotated[float | None, PERCENT(".2g", "own bar", detail=True)] = None
-    model_error: float | None = None
-    load_factor: float | None = None
-    probes: Mapping[str, Any] | None = None
-    load_average: float | None = None
-    machine: Mapping[str, Any] | None = None
-    versions: Mapping[str, Any] | None = None
-    traceback: str | None = None
-    number: Annotated[int, NUMBER("d", "row")] = 0
-    front: Annotated[bool, FRONT] = False
-
-    @classmethod
-    def of(cls, found: Solved, error: float | None = None, field_error: float | None = None) -> TradeoffRow:
-        """Return the row of a solve, with its errors."""
-        spec, sides = found.ask.spec, found.ask.scene.sheet.lengths
-        own = ("unknowns", "iterations", "setup_seconds", "load_factor", "probes", "traceback")
-        known: dict[str, Any] = {name: found.row.get(name) for name in own}
-        known |= {name: value for name, value in found.row.get("columns", {}).items() if name != "field"}
-        known |= {name: value for name, value in found.row.get("cost", {}).items() if name != "samples"}
-        cells = _cells(spec.settings)
-        return cls(
-            model=shown_name(spec.model),
-            label=found.label,
-            settings=spec.settings,
-            status=found.status,
-            message=found.message,
-            series=spec.series,
-            cell_size=min(sides) / cells if cells else None,
-            started=found.started,
-            finished=found.finished,
-            solve_seconds=found.samples,
-            error=error,
-            field_error=field_error,
-            **known,
-        )
+    error: float | None = None
+    field_error: float | None = None
 
     @property
-    def seconds(self) -> Annotated[float | None, MILLISECONDS(".2f", "solve")]:
-        """Median of the solve's samples [s]."""
-        return statistics.median(self.solve_seconds) if self.solve_seconds else None
+    def known(self) -> dict[str, Any]:
+        """The answer's document, its further columns and its cost in one."""
+        return {**self.row, **self.row.get("columns", {}), **self.row.get("cost", {})}
 
     @property
-    def quickest(self) -> Annotated[float | None, MILLISECONDS(".2f", "from", detail=True)]:
-        """The least of the samples [s]."""
-        return min(self.solve_seconds, default=None)
+    def model_error(self) -> float | None:
+        """What a reference leaves out on every mesh, a fraction."""
+        return self.known.get("model_error")
 
     @property
-    def slowest(self) -> Annotated[float | None, MILLISECONDS(".2f", "to", detail=True)]:
-        """The largest of the samples [s]."""
-        return max(self.solve_seconds, default=None)
+    def cell_size(self) -> float | None:
+        """Size of a cell along the shorter side [m], where the settings tell."""
+        cells = _cells(self.ask.spec.settings)
+        return min(self.ask.scene.sheet.lengths) / cells if cells else None
 
     @property
     def cost(self) -> float | None:
@@ -109,17 +64,30 @@ class TradeoffRow:
         """What the row is called in sentences."""
         return self.label
 
-    @property
-    def size(self) -> str:
-        """The grid, or both of a pair, or the elements, as requested; nothing where there are none."""
-        sizes = (self.settings.get(name) for name in ("coarser", "grid", "elements"))
-        return ":".join(counted(size) for size in sizes if size is not None)
+    def cells(self) -> tuple[Any, ...]:
+        """Return the values of `TRADED` between the row's number and whether it is on the front."""
+        spec, known = self.ask.spec, self.known
+        unknowns, iterations, setup, memory, bar = (known.get(name) for name in MEASURED)
+        times = (setup, self.seconds, min(self.samples, default=None), max(self.samples, default=None))
+        return (
+            spec.series,
+            spec.size,
+            unknowns,
+            iterations,
+            *times,
+            memory,
+            self.error,
+            bar,
+            self.field_error,
+        )
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        found = {key: value for key, value in asdict(self).items() if key not in ("number", "front")}
-        known = {key: value for key, value in found.items() if key not in _OF_AN_ANSWER or value is not None}
-        return known | {"solve_seconds": {"median": self.seconds, "samples": self.solve_seconds}}
+        spec, known = self.ask.spec, self.known
+        own = {name: getattr(self, name) for name in OWN} | {name: known.get(name) for name in MEASURED}
+        own |= {"model": shown_name(spec.model), "settings": spec.settings, "series": spec.series}
+        own |= {name: known[name] for name in _OF_AN_ANSWER if known.get(name) is not None}
+        return own | {"solve_seconds": {"median": self.seconds, "samples": self.samples}}
 
 
 def _cells(settings: Mapping[str, Any]) -> int | None:
@@ -141,7 +109,7 @@ class MotionRow:
     period by a fraction, the damping by a difference. None where a run has no answer, or does not swing.
     """
 
-    model_error, solve_seconds = None, ()
+    model_error, samples = None, ()
     model: str
     size: str
     integrator: str
@@ -161,7 +129,6 @@ class MotionRow:
     load_average: float | None = None
     machine: Mapping[str, Any] | None = None
     versions: Mapping[str, Any] | None = None
-    number: int = 0
     front: Annotated[bool, FRONT] = False
 
     @classmethod
@@ -214,7 +181,7 @@ class MotionRow:
     def as_dict(self) -> dict[str, Any]:
         """For JSON; machine and versions where there is an answer."""
         found = asdict(self)
-        del found["front"], found["number"]  # the document has the rows' numbers
+        del found["front"]  # the document has the rows' numbers
         if self.machine is None:
             del found["machine"], found["versions"]
         return found

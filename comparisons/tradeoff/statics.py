@@ -13,7 +13,7 @@ rows of a family whose errors are well above the uncertainty.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -63,8 +63,8 @@ def tradeoff(
     at_probes, field = (limit(finer, of) if truth.usable else None for of in ("probes", "field"))
     return Tradeoff(
         scene,
-        tuple(TradeoffRow.of(row, *_errors(row, truth, shares)) for row in rows),
-        TradeoffRow.of(truth),
+        tuple(TradeoffRow(**vars(row), **_errors(row, truth, shares)) for row in rows),
+        TradeoffRow(**vars(truth)),
         None if at_probes is None else at_probes.error,
         None if field is None else _ratio(field.bar, field.answer, shares),
         reasons,
@@ -77,11 +77,11 @@ def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
     return Elements("shell", max([least, *(2 * int(n) for n in shells)]))
 
 
-def _errors(row: Solved, truth: Solved, shares: np.ndarray) -> tuple[float | None, float | None]:
+def _errors(row: Solved, truth: Solved, shares: np.ndarray) -> dict[str, Any]:
     if not (row.usable and truth.usable):
-        return None, None
+        return {}
     field, known = row.values("field"), truth.values("field")
-    return error(row.u, truth.u), _ratio(field - known, known, shares)
+    return {"error": error(row.u, truth.u), "field_error": _ratio(field - known, known, shares)}
 
 
 def _ratio(off: np.ndarray, known: np.ndarray, shares: np.ndarray) -> float | None:

@@ -22,6 +22,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.sparse import csr_matrix
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import EPSILON, answer
@@ -78,17 +79,14 @@ def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
 def _solved(begin: float, sheet: DiscretePlate, label: str, settings: dict[str, Any]) -> Solution:
     """The answer of a plate whose making began at that moment. A direct solution, refined once, has no other
     residual than the rounding of K u, which a small rigid motion neither strains nor loads."""
-    flat = sheet.placed(np.zeros(sheet.size), 1.0)
     ready = now()
-    q, status, notes = equilibrium(sheet)
+    q, matrix, force, status, notes = solved(sheet)
     done = now()
-    singular = status is Status.SINGULAR
-    shape = sheet.shape(flat, 1.0)
-    matrix, force = sheet.whole_tangent(shape), applied(sheet)
     left = matrix @ q - force
     held = np.where(sheet.is_held, left, 0.0)
     size = float(np.linalg.norm(force) + np.linalg.norm(held))
     rounding = ROUNDINGS * EPSILON * (abs(matrix) @ np.abs(q) + np.abs(force))
+    singular = status is Status.SINGULAR
     return answer(
         sheet,
         q,
@@ -109,20 +107,18 @@ def _solved(begin: float, sheet: DiscretePlate, label: str, settings: dict[str, 
     )
 
 
-def applied(sheet: DiscretePlate) -> np.ndarray:
-    """Return the forces (N,) of loads and commands in full on the flat sheet."""
-    flat = sheet.shape(np.zeros(sheet.size), 1.0)
-    return sheet.external(flat) - sheet.internal(flat)
-
-
-def equilibrium(sheet: DiscretePlate) -> tuple[np.ndarray, Status, tuple[str, ...]]:
-    """Return q (N,) under the full load, the status and notes."""
-    q = sheet.placed(np.zeros(sheet.size), 1.0)
+def solved(
+    sheet: DiscretePlate,
+) -> tuple[np.ndarray, csr_matrix, np.ndarray, Status, tuple[str, ...]]:
+    """Return q (N,) under the full load, K (N, N), the forces (N,) of loads and commands in full on the flat
+    sheet, the status and notes."""
+    q, flat = sheet.placed(np.zeros(sheet.size), 1.0), sheet.shape(np.zeros(sheet.size), 1.0)
     with one_blas_thread():
-        matrix = sheet.whole_tangent(sheet.shape(q, 1.0))
+        matrix, force = sheet.whole_tangent(sheet.shape(q, 1.0)), sheet.external(flat) - sheet.internal(flat)
         try:
-            q = solve_free(matrix, applied(sheet), q, sheet.free)
+            q = solve_free(matrix, force, q, sheet.free)
         except SingularMatrixError as error:
-            return q, Status.SINGULAR, (str(error),)
+            return q, matrix, force, Status.SINGULAR, (str(error),)
     own = sheet.at_rest(1.0).strains[0]
-    return q, *judge(sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, own)
+    judged = judge(sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, own)
+    return q, matrix, force, *judged

@@ -241,15 +241,22 @@ class SpringCells(Family):
     def energies(self, u: np.ndarray) -> np.ndarray:
         """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
         less that of the links along its sides."""
+        stored: np.ndarray = cells.energies(u, self.arrays, self._area_alone)
+        return stored
+
+    @cached_property
+    def _area_alone(self) -> Any:
         areas = self.constants.copy()
         areas[:, 1:] = 0.0
-        stored: np.ndarray = cells.energies(u, self.arrays, self.law.tag(areas))
-        return stored
+        return self.law.tag(areas)
+
+    @cached_property
+    def _there(self) -> tuple[bool, bool]:
+        return bool(self.stiffness[:, 0].any()), bool(self.stiffness[:, 1:].any())
 
     def by_name(self, energies: np.ndarray) -> dict[str, float]:
         """Return both sums, of the springs that there are."""
-        there = self.stiffness[:, 0].any(), self.stiffness[:, 1:].any()
-        sums = zip(self.names, energies.sum(axis=0).tolist(), there, strict=True)
+        sums = zip(self.names, energies.sum(axis=0).tolist(), self._there, strict=True)
         return {name: energy for name, energy, has in sums if name and has}
 
     def damped(self, time: float) -> SpringCells:

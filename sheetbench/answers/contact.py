@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
@@ -37,10 +37,6 @@ class ContactState:
         deepest = float(over.max(initial=0.0))
         undecided = int((np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)).sum())
         return cls(float(area[touching].sum()), deepest, int(touching.sum()), undecided)
-
-    def document(self) -> dict[str, Any]:
-        """Return the JSON object."""
-        return asdict(self)
 
 
 def friction_notes(scene: Scene) -> list[str]:

@@ -6,7 +6,7 @@ Part of the question's language: it holds no mechanics, so both solvers and any 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
@@ -233,7 +233,7 @@ class Solution(Answer):
             "probes": dict(zip(points, moved, strict=True)),
             "reactions": self.reactions,
             "energies": self.energies,
-            "contacts": {name: contact.document() for name, contact in self.contacts.items()},
+            "contacts": {name: asdict(contact) for name, contact in self.contacts.items()},
             "balance": self.balance.document() if self.balance is not None else None,
         }
 

@@ -10,11 +10,12 @@ from matplotlib.pyplot import subplots
 import fem_reference
 import lumped
 from comparisons.cli import modes
-from comparisons.models.spec import spec_of
+from comparisons.models.spec import Elements, spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.modes.state_space import Linearisation
 from comparisons.reproduction import figure, nearest
 from comparisons.stability import tiles as stability_figure
+from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import trials
 from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
@@ -37,8 +38,9 @@ def test_a_modulus_is_off_its_target_by_the_difference():
 
 
 def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front():
-    row = TradeoffRow("shell", "", {}, "converged", "", "shell", None, "", "")
-    table, _ = Tradeoff(scenes.load("two-edges-clamped"), (), row, None, None).tables()
+    scene = scenes.load("two-edges-clamped")
+    row = TradeoffRow(Ask(scene, Elements("shell", 2)), "converged")
+    table, _ = Tradeoff(scene, (), row, None, None).tables()
     assert [column.name for column in table.brief().columns] == [
         "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
     ]  # fmt: skip

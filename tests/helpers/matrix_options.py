@@ -35,6 +35,7 @@ FILES = {
     "history = { time = [0.0, 0.002], factor = [0.0, 1.0] }\n[[patch]]\n"
     "shape = { rectangle = { x = [0.03, 0.07], y = [0.0, 0.1] } }\n"
     "natural = { curvature = [9.0, 0.0, 0.0] }\n",
+    "touching": '[[obstacle]]\nkind = "plane"\nposition = [0.0, 0.0, -0.003]\n',
     "weightless": "",
 }
 SHEET = """name = "{name}"

@@ -73,19 +73,14 @@ class CalculiX:
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
         """Return the static answer. Raises BadInput without the program or for settings it cannot use."""
-        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
-        program = shutil.which(PROGRAM)
-        if program is None:
-            raise BadInput(f"model = 'calculix': needs {self.needs}")
-        began = perf_counter()
+        began, bricks = perf_counter(), self._bricks(scene, settings)
         note = _refusal(scene, settings["linear"])
-        bricks = Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
         displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
         ready, status = began, Status.REFUSED
         if not note:
             text = deck(scene, bricks, settings["linear"])
             ready = perf_counter()
-            times, found, iterations, note = _carried_out(program, text, settings["time_limit"], bricks)
+            times, found, iterations, note = _carried_out(text, settings["time_limit"], bricks)
             status = Status.CONVERGED if not note and times[-1] == 1.0 else Status.DIVERGED
             if len(found):
                 load_factor, displacement = float(times[-1]), found[-1]
@@ -106,20 +101,15 @@ class CalculiX:
 
         Raises BadInput without the program, and for scenes and settings that it does not take.
         """
-        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
         if note := self.refusal_of_motion(scene, settings):
             raise BadInput(f"calculix: {note}")
-        program = shutil.which(PROGRAM)
-        if program is None:
-            raise BadInput(f"model = 'calculix': needs {self.needs}")
-        began = perf_counter()
-        bricks = Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
+        began, bricks = perf_counter(), self._bricks(scene, settings)
         nodes, _ = bricks.weights(scene.probe_points())
         count = max(1, round(duration / every))
         steps = Steps(float(duration) / count / SUBSTEPS, float(duration), SUBSTEPS, np.unique(nodes))
         text = deck(scene, bricks, False, steps)
         ready = perf_counter()
-        times, found, _, note = _carried_out(program, text, settings["time_limit"], bricks)
+        times, found, _, note = _carried_out(text, settings["time_limit"], bricks)
         ended = perf_counter()
         return moved(
             self,
@@ -134,10 +124,15 @@ class CalculiX:
             (ready - began, ended - ready),
         )
 
+    def _bricks(self, scene: Scene, settings: Mapping[str, Any]) -> Bricks:
+        """Return the mesh. Raises BadInput without the program or for settings it cannot use."""
+        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
+        if shutil.which(PROGRAM) is None:
+            raise BadInput(f"model = 'calculix': needs {self.needs}")
+        return Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
 
-def _carried_out(
-    program: str, deck: str, seconds: float, bricks: Bricks
-) -> tuple[np.ndarray, np.ndarray, int, str]:
+
+def _carried_out(deck: str, seconds: float, bricks: Bricks) -> tuple[np.ndarray, np.ndarray, int, str]:
     """Return times and displacements as `displacements` has them, none where the run failed before
     any, its iterations, and why it failed, "" if it did not."""
     times, found, why = np.zeros(0), np.zeros((0, *bricks.positions.shape)), ""
@@ -145,7 +140,7 @@ def _carried_out(
         folder = Path(kept)
         (folder / f"{JOB}.inp").write_text(deck, encoding="ascii")
         try:
-            output_of([program, JOB], folder, seconds)
+            output_of([shutil.which(PROGRAM) or PROGRAM, JOB], folder, seconds)
             times, found = displacements(_read(folder, "dat"), len(bricks.positions))
         except Failed as error:
             why = f"CalculiX: {error}"

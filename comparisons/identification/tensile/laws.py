@@ -40,22 +40,25 @@ def energy(law: str, constants: Sequence[float]) -> Energy:
     return Energy(constants[0] / 6.0) if law == "neo-hookean" else WORDS[law].energy(*constants)
 
 
-def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
-    """Engineering stress (n,) [Pa] of an incompressible sheet."""
-    m, w, x = {
+def kinematics(test: str, stretch: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return m, w and I₁ − 3, (n,) each."""
+    return {
         "uniaxial": (1.0 / stretch, stretch**-2.0, stretch**2 + 2.0 / stretch - 3.0),
         "pure-shear": (np.ones_like(stretch), stretch**-3.0, stretch**2 + stretch**-2.0 - 2.0),
         "equibiaxial": (stretch**2, stretch**-5.0, 2.0 * stretch**2 + stretch**-4.0 - 3.0),
     }[test]
+
+
+def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
+    """Engineering stress (n,) [Pa] of an incompressible sheet."""
+    m, w, x = kinematics(test, stretch)
     slope = of.c10 / (1.0 - x / of.limit) if of.limit else of.c10 + 2.0 * of.c20 * x + 3.0 * of.c30 * x * x
     return np.asarray(2.0 * (slope + of.c01 * m) * (stretch - w))
 
 
 def largest_x(curve: Curve) -> float:
-    """Return the largest I₁ − 3 of a curve: half the stress of f′ = 1 is λ − w, and x its own integral."""
-    s = curve.stretch
-    x = {"uniaxial": s**2 + 2.0 / s, "pure-shear": s**2 + s**-2.0 + 1.0, "equibiaxial": 2.0 * s**2 + s**-4.0}
-    return float(x[curve.test].max() - 3.0)
+    """Return the largest I₁ − 3 of a curve."""
+    return float(kinematics(curve.test, curve.stretch)[2].max())
 
 
 @dataclass(frozen=True)
@@ -80,9 +83,8 @@ class Fit:
         return energy(self.law, list(self.constants.values()))
 
 
-def fit(law: str, curves: Sequence[Curve], free: bool = False) -> Fit | None:
-    """Return the law's constants nearest to the curves, `free` of bounds; None where there are too few
-    rows."""
+def fit(law: str, curves: Sequence[Curve]) -> Fit | None:
+    """Return the law's constants nearest to the curves; None where there are too few rows."""
     scale = [float(np.abs(curve.stress).max()) for curve in curves]
     rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
     if rows < len(keys) + (3 if len(keys) > 1 else 2):
@@ -100,7 +102,7 @@ def fit(law: str, curves: Sequence[Curve], free: bool = False) -> Fit | None:
         parts = zip(curves, scale, strict=True)
         return np.concatenate([(stress(of, c.test, c.stretch) - c.stress) / s for c, s in parts])
 
-    ends = (-inf, inf) if free else tuple(map(np.array, _BOUNDS[law]))
+    ends = tuple(map(np.array, _BOUNDS[law]))
     start = np.clip([1.0, *[0.01] * (len(keys) - 1)], *ends)
     found = least_squares(misfit, start, bounds=ends, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12)
     left, rss = found.fun, float(found.fun @ found.fun)

@@ -9,7 +9,17 @@ from typing import Annotated, Any
 import numpy as np
 
 from comparisons.identification.tensile.curves import Curve, read, require_loading
-from comparisons.identification.tensile.laws import LAWS, POISSON, Fit, chosen, energy, fit, largest_x, stress
+from comparisons.identification.tensile.laws import (
+    LAWS,
+    POISSON,
+    Fit,
+    chosen,
+    energy,
+    fit,
+    kinematics,
+    largest_x,
+    stress,
+)
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, TableUnit, number, unit
@@ -44,13 +54,12 @@ class MisfitRow:
 
 @dataclass(frozen=True, repr=False)
 class TensileFit(Answer):
-    """curves: as measured; fits: of every law; free: those without bounds, where bounds matter; law: the one
-    that the curves ask for, None where no law fits stably."""
+    """curves: as measured; fits: of every law; law: the one that the curves ask for, None where no law fits
+    stably."""
 
     file_name = "tensile"
     curves: tuple[Curve, ...]
     fits: tuple[Fit, ...]
-    free: tuple[Fit, ...]
     law: Fit | None
 
     @property
@@ -70,7 +79,7 @@ class TensileFit(Answer):
             return None
         most = max(map(largest_x, self.curves))
         stretches = np.linspace(1.0, 10.0, 20_001)
-        at = float(np.interp(most, 2.0 * stretches**2 + stretches**-4.0 - 3.0, stretches))
+        at = float(np.interp(most, kinematics("equibiaxial", stretches)[2], stretches))
         near = [f for f in self.fits if f.rms <= 2.0 * self.law.rms]
         ends = [f.energy for f in near]
         for f in near:  # mooney-rivlin at the ends of c2, c1 following
@@ -95,7 +104,6 @@ class TensileFit(Answer):
             "law": self.law.law if self.law else None,
             "covered": {kind: list(ends) for kind, ends in self.covered.items()},
             "laws": [asdict(f) for f in self.fits],
-            "free": [asdict(f) for f in self.free],
             "curves": [
                 {"test": c.test, "file": c.file, "stretch": c.stretch, "stress": c.stress}
                 for c in self.curves
@@ -109,7 +117,7 @@ class TensileFit(Answer):
         return "Tensile test", f"{rows} rows, stretch covered: {covered}", ""
 
     def tables(self) -> tuple[Table, ...]:
-        return constants(self.fits, self.free), misfits(self.fits, self.free, self.law)
+        return constants(self.fits), misfits(self.fits, self.law)
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("tensile", "comparisons.identification.tensile.figure:compose", (self,)),)
@@ -148,25 +156,21 @@ class TensileFit(Answer):
         return self.law is not None
 
 
-def _named(fits: Sequence[Fit], free: Sequence[Fit]) -> list[tuple[str, Fit]]:
-    return [*((fit.law, fit) for fit in fits), *((f"{fit.law}, unbounded", fit) for fit in free)]
-
-
-def constants(fits: Sequence[Fit], free: Sequence[Fit]) -> Table:
+def constants(fits: Sequence[Fit]) -> Table:
     """Return a row per constant of every law."""
     rows = [
-        ConstantRow(law, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
-        for law, fit in _named(fits, free)
+        ConstantRow(fit.law, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
+        for fit in fits
         for key, value in fit.constants.items()
     ]
     return Table.of(ConstantRow, rows, "Constants and their 95 % intervals", "constants", grouped=True)
 
 
-def misfits(fits: Sequence[Fit], free: Sequence[Fit], chosen: Fit | None) -> Table:
+def misfits(fits: Sequence[Fit], chosen: Fit | None) -> Table:
     """Return a row per law."""
     rows = [
-        MisfitRow(law, f.young, f.rms, f.largest, CHOSEN if f is chosen else _against(f))
-        for law, f in _named(fits, free)
+        MisfitRow(fit.law, fit.young, fit.rms, fit.largest, CHOSEN if fit is chosen else _against(fit))
+        for fit in fits
     ]
     return Table.of(MisfitRow, rows, "Misfit, of the largest stress (root mean square)", "misfits")
 
@@ -197,6 +201,4 @@ def identify_tensile(
     for curve in measured:
         require_loading(curve)
     fits = tuple(found for law in LAWS if (found := fit(law, measured)) is not None)
-    bound = [f.law for f in fits if f.bound and f.law != "gent"]
-    free = tuple(found for law in bound if (found := fit(law, measured, free=True)) is not None)
-    return TensileFit(measured, fits, free, chosen(fits, measured))
+    return TensileFit(measured, fits, chosen(fits, measured))

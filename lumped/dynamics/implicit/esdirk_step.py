@@ -11,6 +11,8 @@ polynomials through the stages' powers (`tableau.CUMULATIVE`).
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from lumped.dynamics.implicit.compiled_stages import Stages
@@ -84,16 +86,18 @@ class EsdirkStep:
         if system.maxwell is not None:
             inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
         c1, within = 1.0 / (GAMMA * h), len(times) - (end.time == times[-1])
-        equations = [
-            StepEquation(*at, c1**2, c1)
-            for at in zip(inside, times.tolist(), u - a / c1**2, v - a / c1, strict=True)
-        ]
+        base_u, base_v = u - a / c1**2, v - a / c1
+
+        def solve(of: np.ndarray, found: np.ndarray) -> bool:
+            some = [StepEquation(inside[i], float(times[i]), base_u[i], base_v[i], c1**2, c1) for i in of]
+            return not newton.solve_equations(some, found, tolerance)
+
         a -= c1**2 * u
-        self._correct(equations[:within], theta[:within], u[:within], newton, small, tolerance)
+        self._correct(solve, theta[:within], u[:within], small)
         a += c1**2 * u
         if end.time == times[-1]:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
-        for i, maxwell in enumerate(one.maxwell for one in inside):
+        for i, maxwell in enumerate(one.maxwell for one in inside if start is not None):
             if maxwell is not None and start is not None:
                 memories[i] = memory = maxwell.after(u[i])
                 taken[i] -= maxwell.branches.stored(memory) - maxwell.branches.stored(start)
@@ -103,26 +107,21 @@ class EsdirkStep:
         return LatticeSamples(times, u, v, a, memories, taken, put_in)
 
     def _correct(
-        self,
-        equations: list[StepEquation],
-        theta: np.ndarray,
-        u: np.ndarray,
-        newton: Newton,
-        small: float,
-        tolerance: float | None,
+        self, solve: Callable[[np.ndarray, np.ndarray], bool], theta: np.ndarray, u: np.ndarray, small: float
     ) -> None:
-        """Put the solutions of equations at shares θ (k,) of a step, inside it, in place of polynomials u
-        (k, n, 3): those nearest to some shares first. What corrects them is of the third order at the step's
-        ends; what passes through it corrects the others, to begin with, and for good where it is small."""
+        """Put the solutions at shares θ (k,) of a step, inside it, in place of polynomials u (k, n, 3): those
+        nearest to some shares first. What corrects them is of the third order at the step's ends; what passes
+        through it corrects the others, to begin with, and for good where it is small. solve: puts those of
+        some equations, by number, in place of guesses, and returns whether all have one."""
         first = np.unique(np.abs(theta - NODES[:, None]).argmin(axis=1))
         others = np.delete(np.arange(len(theta)), first)
         for of in (first, others):
             if not len(of):
                 return
             found = u[of]
-            failures = newton.solve_equations([equations[i] for i in of], found, tolerance)
+            all_solved = solve(of, found)
             moved, u[of] = found - u[of], found
-            if of is first and len(others) and not failures:
+            if of is first and len(others) and all_solved:
                 shares = bubbles(theta[first], theta[others])
                 u[others] += (shares @ moved.reshape(len(first), -1)).reshape(len(others), *moved.shape[1:])
                 if not self.system.items and np.abs(moved).max() < small:

@@ -36,13 +36,17 @@ def polynomials(
     return out.reshape(3, len(theta), -1, 3)
 
 
+@njit(cache=True)
 def bubbles(nodes: np.ndarray, theta: np.ndarray) -> np.ndarray:
     """Values at shares θ (k,) of the polynomials θ³ (1 − θ)³ p(θ), p of least degree, that are one at one of
     the nodes (m,) and zero at the others, (k, m)."""
-    own = np.arange(len(nodes))
-    apart = np.concatenate([theta, nodes])[:, None, None] - nodes
-    apart = np.broadcast_to(apart, (len(apart), len(nodes), len(nodes))).copy()
-    apart[:, own, own] = 1.0
-    polynomial, (ends, own_ends) = apart.prod(axis=2), (x * (1.0 - x) for x in (theta, nodes))
-    found: np.ndarray = polynomial[: len(theta)] / polynomial[len(theta) + own, own]
-    return found * (ends[:, None] / own_ends) ** 3
+    found = np.empty((len(theta), len(nodes)))
+    for k in range(len(theta)):
+        for j in range(len(nodes)):
+            value = theta[k] * (1.0 - theta[k]) / (nodes[j] * (1.0 - nodes[j]))
+            value = value * value * value
+            for i in range(len(nodes)):
+                if i != j:
+                    value *= (theta[k] - nodes[i]) / (nodes[j] - nodes[i])
+            found[k, j] = value
+    return found

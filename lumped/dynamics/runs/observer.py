@@ -65,6 +65,7 @@ class LatticeObserver:
             ),
             *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
         ]
+        self._width = width(self.columns)
         self._observed: Observed | None = None
         plain = system.coupling is None and system.maxwell is None and system.natural is None
         plain = plain and not system.items
@@ -112,7 +113,7 @@ class LatticeObserver:
 
     def rows(self, samples: LatticeSamples) -> np.ndarray:
         """Return the numbers of samples, (k, width)."""
-        system, rows = self._system, np.empty((len(samples.time), width(self.columns)))
+        system, rows = self._system, np.empty((len(samples.time), self._width))
         rows[:, 0], rows[:, 4], rows[:, 5] = samples.time, samples.dissipated, samples.work
         motion = system.prescribed
         if motion.by_supports:  # integrators have the accelerations beside what is prescribed

@@ -10,7 +10,7 @@ from commands import json_of, one_line, run
 
 import sheetbench as sb
 from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import MESHES, mesh
+from comparisons.codes.cell_meshes import MESHES, cell_of
 from comparisons.codes.coefficients import limit_error, nearest
 from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.parameters import parameters_of
@@ -40,14 +40,14 @@ BENDING = {  # over k l, relaxed: a node between alternate diagonals gives way t
 @pytest.mark.parametrize("name", BENDING)
 def test_hinges_bend_as_the_closed_form_has_it(name):
     spacing = 0.7
-    found = moduli_of(mesh(name, spacing, 0.0), UNIT).named()
+    found = moduli_of(cell_of(name, spacing, 0.0), UNIT).named()
     for modulus, value in BENDING[name].items():
         assert found[modulus] == pytest.approx(spacing * value, abs=1e-10)
 
 
 @pytest.mark.parametrize("name", MESHES)
 def test_triangles_stretch_as_the_sheet_on_any_mesh(name):
-    found = moduli_of(mesh(name, 0.7, 0.0), {"lambda_h": 2.0, "mu_h": 3.0, "hinge": 0.0})
+    found = moduli_of(cell_of(name, 0.7, 0.0), {"lambda_h": 2.0, "mu_h": 3.0, "hinge": 0.0})
     assert found.membrane == pytest.approx(np.array([[8.0, 2, 0], [2, 8, 0], [0, 0, 3]]), abs=1e-10)
 
 
@@ -55,7 +55,7 @@ def test_triangles_stretch_as_the_sheet_on_any_mesh(name):
 def test_a_long_wave_costs_what_the_moduli_say(name):
     """Least frequency of n cells in a row that repeats: ω² = D11 q⁴ for a unit mass per area, q = 2π over
     the row; to the cell's size over the wave squared, (2π/32)²/12 = 0.3 %."""
-    cell = mesh(name, 1.0, 0.0)
+    cell = cell_of(name, 1.0, 0.0)
     count = round(32 / np.linalg.norm(cell.periods[0]))
     nodes = len(cell.nodes)
     stiffness = np.zeros((count * nodes, count * nodes))
@@ -100,7 +100,7 @@ def test_a_brick_locks_in_bending_as_its_closed_form_has_it():
     """Trilinear corners cannot curve: D11 has G h (l²/12) of parasitic shear beside plane strain through and
     across the thickness, (λ + 2μ) h³/12."""
     spacing, thickness = 0.02, 0.003
-    found = moduli_of(mesh("bricks", spacing, thickness), {"lambda": 5.0, "mu": 2.0})
+    found = moduli_of(cell_of("bricks", spacing, thickness), {"lambda": 5.0, "mu": 2.0})
     plane = 5.0 * 2.0 / (5.0 + 4.0) * 2.0  # λ of plane stress
     assert found.membrane[0] == pytest.approx(thickness * np.array([plane + 4.0, plane, 0.0]))
     assert found.bending[0, 0] == pytest.approx(9.0 * thickness**3 / 12 + 2.0 * thickness * spacing**2 / 12)
@@ -108,7 +108,7 @@ def test_a_brick_locks_in_bending_as_its_closed_form_has_it():
 
 
 def test_the_nearest_hinge_is_nearest():
-    cell = mesh("equilateral", 0.01, 0.0)
+    cell = cell_of("equilateral", 0.01, 0.0)
     best = nearest(cell, MATERIAL, THICKNESS)
     rigidity = MATERIAL.young * THICKNESS**3 / 12 / (1 - MATERIAL.poisson**2)
     nu = MATERIAL.poisson
@@ -124,7 +124,7 @@ def test_the_nearest_hinge_is_nearest():
 def test_the_limit_is_that_of_discrete_shells_on_the_published_sheet(name, share, off):
     """A discrete shell of hinges k = D/l was measured 48 % off with one diagonal; with alternate ones and
     half of k 8 % (on 17 × 17 nodes, 1 to 2 % from the limit)."""
-    cell = mesh(name, 0.188 / 16, 0.0)
+    cell = cell_of(name, 0.188 / 16, 0.0)
     rigidity = MATERIAL.young * THICKNESS**3 / 12 / (1 - MATERIAL.poisson**2)
     coefficients = nearest(cell, MATERIAL, THICKNESS) | {"hinge": share * rigidity / (0.188 / 16)}
     assert limit_error(SCENE, moduli_of(cell, coefficients), elements=8) == pytest.approx(off, abs=0.02)

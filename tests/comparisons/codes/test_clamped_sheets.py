@@ -9,7 +9,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 import fem_reference
-from comparisons.codes.cell_meshes import mesh
+from comparisons.codes.cell_meshes import cell_of
 from comparisons.codes.coefficients import STIFF, nearest
 from comparisons.codes.homogenise import moduli_of
 from fem_reference.surface.materials import Section, section_of
@@ -79,7 +79,7 @@ def off(name, edges, squares):
     """Mesh less plate at POINTS, over the plate's largest."""
     spacing = SIDE / squares
     high = round(squares / 0.75**0.5) * 0.75**0.5 * spacing if name == "equilateral" else SIDE  # whole rows
-    cell = mesh(name, spacing, THICKNESS)
+    cell = cell_of(name, spacing, THICKNESS)
     values = nearest(cell, SCENE.material, THICKNESS)
     got = moduli_of(cell, values)
     shear = STIFF * section_of(SCENE.material, THICKNESS).shear if got.shear is None else got.shear

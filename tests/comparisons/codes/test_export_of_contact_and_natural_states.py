@@ -40,7 +40,7 @@ def table(path):
         ("muscle-bands", (7, 3), True),
         ("strip-on-table", (5, 3), True),
         pytest.param("finger-on-cylinder", (7, 3), True, marks=pytest.mark.nightly),
-        ("finger-on-ball", (5, 3), True),
+        pytest.param("finger-on-ball", (5, 3), True, marks=pytest.mark.nightly),
         ("napkin-on-ball", (4, 4), False),  # unstable: no equilibrium in the folder
     ],
 )

@@ -6,7 +6,6 @@ import pytest
 from comparisons.comparison.comparison import compare, error
 from comparisons.models.spec import Lattice, pairs, spec_of
 from comparisons.scoring.reference import reference
-from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.answers.solution import Status
 from sheetbench.choices import CALIBRATIONS, EXTRAPOLATED
 from sheetbench.errors import BadInput
@@ -91,8 +90,7 @@ def test_pairs_are_written_and_refused():
     (candidate,) = pairs(scene, ["5:9"], ["consistent", "uniform"])
     assert candidate.settings == {"grid": [9, 9, 2], "coarser": [5, 5, 2], "calibration": "consistent"}
     assert candidate.series == "lumped-pair consistent"
-    row = TradeoffRow("lumped-pair", "", candidate.settings, "converged", "", candidate.series, None, "", "")
-    assert row.size == "5×5×2:9×9×2"
+    assert candidate.size == "5×5×2:9×9×2"
     for text, calibrations in (("5", ["consistent"]), ("5:9", ["uniform"])):
         with pytest.raises(BadInput, match="--lumped-pair"):
             pairs(scene, [text], calibrations)

@@ -12,7 +12,7 @@ from scipy.io import loadmat
 import lumped
 from comparisons.models.spec import Lattice
 from comparisons.modes import state_figure as figure
-from comparisons.modes.linear import linearise
+from comparisons.modes.state_space import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene

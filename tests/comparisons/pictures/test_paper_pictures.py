@@ -18,8 +18,9 @@ from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.spec import Lattice
 from comparisons.modes import figure as swinging
 from comparisons.modes import state_figure as responding
-from comparisons.modes.linear import linearise
 from comparisons.modes.spectra import spectra
+from comparisons.modes.state_space import linearise
+from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
@@ -64,8 +65,8 @@ def composed(scene, comparison):
     )
     rows = [
         TradeoffRow(
-            "lumped", "", {"grid": n}, "converged", "", "lumped consistent", 0.188 / n, "", "",
-            solve_seconds=(1e-3 * n,), error=0.1 / n,
+            Ask(scene, Lattice((n, n, 2), "consistent")), "converged", error=0.1 / n,
+            row={"cost": {"samples": [1e-3 * n]}},
         )
         for n in (3, 5, 9)
     ]  # fmt: skip

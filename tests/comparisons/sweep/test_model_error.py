@@ -158,13 +158,23 @@ CORNER = Scene(
 )
 
 
-LOADED = [ARCH, CORNER, load("two-edges-clamped"), load("curved-edge")]
+HANGING = Scene(  # bends far and hardly stretches: the first step alone is five times too far
+    name="hanging",
+    sheet=Sheet(length_x=0.12, length_y=0.08, thickness=0.0025),
+    material=Material(young=8e5, poisson=0.45, density=1100.0),
+    support=(Clamped(edge="x0"),),
+    gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+)
+
+
+LOADED = [ARCH, CORNER, HANGING, load("two-edges-clamped"), load("curved-edge")]
 
 
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("scene", LOADED, ids=lambda scene: scene.name)
 def test_the_law_of_strain_is_weighed_where_the_probes_answer_comes_from(scene):
-    """The largest stretch, in a corner, had said eight times as much."""
+    """The largest stretch, in a corner, had said eight times as much. To second order two laws' shifts are
+    known to a fifth, of which the bound has 1.3 times."""
     shell, *others = (
         fem_reference.solve(scene, elements=6, law=law)
         for law in ("st-venant-kirchhoff", "biot", "neo-hookean")
@@ -173,7 +183,7 @@ def test_the_law_of_strain_is_weighed_where_the_probes_answer_comes_from(scene):
     points = scene.probe_points()
     off = max(relative(found.displacement(points), shell.displacement(points)) for found in others)
     bound = model_error(scene, shell)
-    assert bound is not None and off <= bound.strain_law < 4.0 * off
+    assert bound is not None and off <= bound.strain_law < 1.3 * 1.2 * off
 
 
 @pytest.mark.sweep(6)

@@ -1,5 +1,7 @@
 """Contact of the lattice: derivatives, closed forms at rest, what is never walked through."""
 
+import sys
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -20,6 +22,7 @@ from contact_cases import (
 )
 from scipy.optimize import fsolve
 
+import fem_reference
 import lumped
 from lumped.actuators import Drive
 from lumped.statics.solver import build_problem
@@ -227,6 +230,34 @@ def test_moving_obstacle_ends_at_its_last_place():
     lifted = laid_strip(0.1, obstacles=(Plane(position=(0.0, 0.0, -0.1 - THICKNESS / 2), motion=press),))
     moved, placed = (solve(scene, (21, 3, 2)) for scene in (lifted, laid_strip(0.05)))
     assert moved.reactions["x0"] == pytest.approx(placed.reactions["x0"], rel=1e-6, abs=1e-9)
+
+
+def test_without_an_obstacle_nothing_of_contact_runs():
+    """Neither at rest nor in motion, by calls that a profiler sees; with one it sees hundreds."""
+    files = "lumped/contact/contact.py", "discrete/contact.py", "continuation/stiffening.py"
+
+    def calls(scene):
+        found = []
+
+        def seen(frame, event, _):
+            if event == "call" and frame.f_code.co_filename.endswith(files):
+                found.append(frame.f_code.co_name)
+
+        springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 3, 2))
+        sys.setprofile(seen)
+        try:
+            lumped.solve(scene, springs)
+            fem_reference.solve(scene, "shell", elements=(2, 1))
+            lumped.simulate(scene, springs, 0.01, integrator="esdirk")
+        finally:
+            sys.setprofile(None)
+        return found
+
+    assert len(calls(laid_strip(0.05))) > 300  # and has imported all
+    assert set(calls(laid_strip(0.05, obstacles=()))) <= {
+        "contacts",
+        "<genexpr>",
+    }  # an empty tuple, once a solve
 
 
 def test_what_statics_refuse():

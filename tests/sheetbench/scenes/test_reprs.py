@@ -13,7 +13,9 @@ import fem_reference
 import lumped
 import sheetbench as sb
 from comparisons.comparison.answer import Comparison
+from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
+from comparisons.sweep.solved import Ask
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
@@ -32,8 +34,8 @@ SPECTRA = Spectra(
     (Spectrum("lumped", "lumped 5×5×2", {}, FREQUENCIES, 0, 96, 0.1, lambda at: np.zeros((59, len(at), 3))),),
 )
 ROWS = [
-    TradeoffRow(model, label, {}, "converged", "", model, None, "", "", solve_seconds=(seconds,), error=error)
-    for model, label, seconds, error in (("lumped", "lumped 3", 2e-3, 4e-3), ("shell", "shell 4", 0.1, 1e-3))
+    TradeoffRow(Ask(SCENE, spec), "converged", error=error, row={"cost": {"samples": [seconds]}})
+    for spec, seconds, error in ((Lattice(3), 2e-3, 4e-3), (Elements("shell", 4), 0.1, 1e-3))
 ]
 TRADEOFF = Tradeoff(SCENE, tuple(ROWS), ROWS[1], 1e-4, 1e-4)
 

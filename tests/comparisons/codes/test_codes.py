@@ -188,6 +188,7 @@ def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(tmp_path, c
     said = " ".join(capsys.readouterr().out.split())
     assert "particle_vbd_kernels.py" in said and "least error in this scene" in said
     assert (tmp_path / "n" / "run_newton.py").exists()
+    assert json.loads((tmp_path / "n" / "sheet.json").read_text())["clamp"] == 2.0
     document = json.loads((tmp_path / "n" / "code.json").read_text())
     assert document["parameters"][1]["unit"] == "N/m" and document["limit_error"] < 0.05
 

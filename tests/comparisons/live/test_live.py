@@ -5,6 +5,8 @@ import json
 import socket
 import stat
 import webbrowser
+from base64 import b64decode
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -19,6 +21,8 @@ from comparisons.live import answers, server
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
+from sheetbench.answers.solution import Status
+from sheetbench.choices import CALIBRATIONS
 from sheetbench.errors import BadInput
 
 SCENE = sb.load("curved-edge")
@@ -89,6 +93,7 @@ def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
     lattices = [panel.read(query_of(panel, 1, name, k=600.0)).lattice for name in ("uniform", "consistent")]
     assert [(one.k, one.layer_distance) for one in lattices] == [(600.0, 0.002), (None, 0.002)]
     assert "k" not in Panel(SCENE, 2).sliders
+    assert not any(CALIBRATIONS[name].fitted for name in panel.calibrations)
     with pytest.raises(BadInput, match="near-square"):
         Panel(SCENE, 2, Lattice("3x9"))
 
@@ -143,10 +148,28 @@ def test_answers_are_those_of_compare(address, panel):
     both = sb.compare(scene, grid=5, calibration="consistent", elements=3, uncertainty=False)
     assert (lattice["number"], shell["number"]) == (7, 7)
     for message, solution in zip((lattice, shell), both.solutions, strict=True):
-        assert message["status"] == solution.status == "converged"
+        assert message["status"] == solution.status == "converged" and message["seconds"] > 0.0
         for name, u in both.probes(solution).items():
             np.testing.assert_allclose(message["probes"][name], u, rtol=1e-9, atol=1e-12)
     assert shell["error"] == pytest.approx(both.error(both.solutions[0]), rel=1e-6)
+    places = both.solutions[0].mesh.points[:, :2]
+    coarse, fine = (solution.displacement(places) for solution in both.solutions)
+    shown = np.frombuffer(b64decode(shell["difference"]["float32"]), "<f4")
+    np.testing.assert_allclose(shown, np.linalg.norm(coarse - fine, axis=1), rtol=1e-5, atol=1e-9)
+
+
+def test_there_is_no_error_where_the_lattice_has_no_answer(panel, monkeypatch):
+    question = panel.first()
+    found = replace(answers.solved(SCENE, question), status=Status.DIVERGED)
+    monkeypatch.setattr(answers, "solved", lambda *_: found)
+    assert answers.shell(SCENE, question)["error"] is None
+
+
+def test_a_pressure_has_a_slider_of_its_own():
+    scene = sb.load("pouch").replace(loads=({"kind": "pressure", "value": 100.0},))
+    panel = Panel(scene, 2, Lattice(3))
+    more = panel.read(query_of(panel, pressure=250.0))
+    assert panel.scene_of(more).loads[0].value == 250.0
 
 
 def test_springs_and_scene_can_be_had_as_text(address, panel):

@@ -220,9 +220,8 @@ def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
 def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return stiffness (c, 4 or 7) [N/m] and A·A, B·B, A·B (c, 3) [m²] and area (c,) [m²] without stress.
 
-    The springs of a sheet with a natural state keep constants q of the sides grown by the strain alone; its
-    stiffness here is that of the same q with these sides and area, `lumped.springs.laws.of_stiffness` solved
-    for it.
+    Where it is not flat at rest, of constants q (`lumped.springs.laws.of_stiffness`) of sides that grew by
+    the strain alone, with the sides and the area that go with the curvature too.
     """
     a, b = cells.sides.swapaxes(0, 1)
     flat = np.stack([(x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))], axis=1)

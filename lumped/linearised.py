@@ -218,7 +218,7 @@ def _inputs(
             place[row if holds_director(support) else row[free], axis] = 1.0
             moved = place.ravel()
             columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
-    for name in _muscles(scene):
+    for name in (f"{of}.{key}" for of in scene.natural_states for key in ("kxx", "kyy", "kxy")):
         _, pull, _ = rates(scene, calibration, problem, u, name)
         columns.append((name, pull.ravel(), nothing, nothing))
     names, *values = zip(*columns, strict=True)
@@ -244,13 +244,6 @@ def _loads(scene: Scene) -> list[tuple[str, Scene]]:
         *found,
         *([("gravity", bare.replace(gravity=scene.gravity))] if scene.gravity is not None else []),
     ]
-
-
-def _muscles(scene: Scene) -> list[str]:
-    """The natural curvatures of the sheet and of patches with their own, as parameters."""
-    every = {f"patch{n}.natural": patch.natural for n, patch in enumerate(scene.patches, start=1)}
-    owners = [name for name, own in {"natural": scene.natural, **every}.items() if own is not None]
-    return [f"{owner}.k{component}" for owner in owners for component in ("xx", "yy", "xy")]
 
 
 def _bent(scene: Scene) -> list[str]:

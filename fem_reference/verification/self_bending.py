@@ -35,8 +35,7 @@ def rows(name: str) -> Iterator[Row]:
     strain = np.pi**2 * THICKNESS**2 / (6.0 * (1.0 + POISSON) * LENGTH**2)
     heated = _scene(LENGTH, THICKNESS, Natural((strain, strain, 0.0)), *hinges)
     found = float(buckling(heated, "shell", 12).load_factors[0]) * strain
-    said = "strain at which a heated plate buckles"
-    yield relatively(name, said, "12 × 12", strain, KIRCHHOFF, found, 0.012)
+    yield relatively(name, "strain that buckles a heated plate", "12 × 12", strain, KIRCHHOFF, found, 0.012)
     h, tension, q = THICKNESS / 8.0, 0.05, 2.0 * np.pi**2 / LENGTH**2
     stretched = _scene(LENGTH, h, Natural(pretension=(tension, tension)), *hinges)
     rigidity = YOUNG * h**3 / (12.0 * (1.0 - POISSON**2))

@@ -27,7 +27,7 @@ NO_START = "the motion would start from no stable equilibrium"
 def kinks(scene: SceneFields) -> list[float]:
     """The times [s] at which a history, a command or a motion has a sample, increasing: between them all that
     is prescribed is smooth."""
-    natural = (scene.natural, scene.temperature, *(patch.natural for patch in scene.patches))
+    natural = (scene.temperature, *scene.natural_states.values())
     tables: list[OverTime | None] = [
         load.history for load in (scene.gravity, *scene.loads, *natural) if load is not None
     ]

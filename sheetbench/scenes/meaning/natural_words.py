@@ -21,17 +21,12 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
             source.of.last_factor * np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
             for part in (source.strain, source.curvature)
         )
-        parts = [
-            f"{100.0 * abs(e):.3g} % {'longer' if e > 0.0 else 'shorter'} along {axis}"
-            for e, axis in zip(strain, "xy", strict=False)
-            if e
-        ]
+        parts = list[str]()
+        for e, k, axis in zip(strain, curvature, "xy", strict=False):
+            way, towards = "longer" if e > 0.0 else "shorter", "+z" if k > 0.0 else "−z"
+            parts += [f"{100.0 * abs(e):.3g} % {way} along {axis}"] if e else []
+            parts += [f"an arc of radius {1e3 / abs(k):.4g} mm along {axis}, towards {towards}"] if k else []
         parts += [f"sheared by {strain[2]:.3g}"] if strain[2] else []
-        parts += [
-            f"an arc of radius {1e3 / abs(k):.4g} mm along {axis}, towards {'+z' if k > 0.0 else '−z'}"
-            for k, axis in zip(curvature, "xy", strict=False)
-            if k
-        ]
         parts += [f"twisted by {curvature[2]:.3g} 1/m"] if curvature[2] else []
         parts += ["held flat, stresses from {:.3g} to {:.3g} Pa".format(*_stresses(scene, source))]
         over = "" if source.of.history is None else f", over {source.of.history.time[-1]:g} s"

@@ -119,7 +119,12 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
             raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
         return [("patches", number - 1, key)]
     if natural := re.fullmatch(r"(?:patch(\d+)\.)?natural\.([ek])(xx|yy|xy)", name):
-        return [_natural(scene, name, *natural.groups())]
+        if (whose := name.rpartition(".")[0]) not in scene.natural_states:
+            raise BadInput(f"'{name}': the scene has no {whose}; give a first guess there")
+        patched, kind, key = natural.groups()
+        own: Path = () if patched is None else ("patches", int(patched) - 1)
+        part = {"e": "strain", "k": "curvature"}[kind]
+        return [(*own, "natural", part, ("xx", "yy", "xy").index(key))]
     if payload := re.fullmatch(r"mass(\d+)", name):
         if not 1 <= int(payload[1]) <= len(scene.masses):
             raise BadInput(f"'{name}': the scene has {len(scene.masses)} masses")
@@ -147,16 +152,6 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
             return paths
         raise BadInput(f"'{name}': edge '{of}' has no support or actuator of one curvature")
     raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
-
-
-def _natural(scene: SceneFields, name: str, patch: str | None, kind: str, component: str) -> Path:
-    """Return the place of a component of a natural strain or curvature."""
-    if patch is not None and not 1 <= int(patch) <= len(scene.patches):
-        raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
-    path: Path = (*(() if patch is None else ("patches", int(patch) - 1)), "natural")
-    if _value(scene, path) is None:
-        raise BadInput(f"'{name}': the scene has no {'.'.join(map(str, path))}; give a first guess there")
-    return (*path, {"e": "strain", "k": "curvature"}[kind], ("xx", "yy", "xy").index(component))
 
 
 def _holders(scene: SceneFields, kind: Any, edge: str) -> list[Path]:

@@ -135,11 +135,15 @@ class SceneFields(Frozen):
         return ", ".join([*fibres, *tapers, *drawn])
 
     @property
+    def natural_states(self) -> dict[str, Natural]:
+        """Natural strains and curvatures, of the sheet and of patches, under their names as parameters."""
+        every = {f"patch{n}.natural": patch.natural for n, patch in enumerate(self.patches, start=1)}
+        return {name: own for name, own in {"natural": self.natural, **every}.items() if own is not None}
+
+    @property
     def natural_by(self) -> str:
         """The words by which it is not flat and free of stress at rest, "" where it is."""
-        given = [key for key in ("natural", "temperature") if getattr(self, key) is not None]
-        each = enumerate(self.patches, start=1)
-        return ", ".join([*given, *(f"patch {n}.natural" for n, one in each if one.natural is not None)])
+        return ", ".join([*self.natural_states, *(["temperature"] if self.temperature is not None else [])])
 
     @property
     def pierced(self) -> bool:

@@ -248,3 +248,15 @@ def test_a_mesh_that_is_not_there_and_a_foreign_coefficient_are_refused():
         sb.cell("hexagons", 0.01, 0.001)
     with pytest.raises(BadInput, match="coefficient bend"):
         sb.calibrate(SCENE, cell="equilateral", coefficient={"bend": 1.0})
+
+
+def test_bending_of_codes_that_are_not_run_is_that_of_their_source():
+    """With ½ 3 hinge L²/(A₁ + A₂) θ² of ours: SOFA's ½ k/3 L²/(A₁ + A₂), C-IPC's m D/2 · 3 L²/(A₁ + A₂)."""
+    own = {"lambda_h": 3.0, "mu_h": 2.0, "hinge": 0.2}
+    rigidity = 7.0 * THICKNESS**2 / 12.0
+    for code, name, value in (
+        ("sofa", "bendingStiffness", 1.8),
+        ("c-ipc", "bendingStiffMult", 0.2 / rigidity),
+    ):
+        keys = {key.parameter: key.value for key in parameters_of(CODES[code], own, SCENE)}
+        assert keys[name] == pytest.approx(value)

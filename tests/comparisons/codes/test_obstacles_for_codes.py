@@ -5,6 +5,7 @@ import json
 import pytest
 from contact_cases import bent_over, laid_strip
 
+from comparisons.codes.files import _geom
 from comparisons.codes.setup import setup
 from sheetbench.scenes import Plane, Sphere
 
@@ -32,3 +33,16 @@ def test_obstacles_are_written(code, tmp_path):
 def test_others_refuse_them():
     note = " ".join(setup(bent_over(), "genesis", 2, best=False).notes())
     assert "No files: obstacle: Genesis" in note
+
+
+def test_mujocos_cylinder_is_long_and_friction_has_tangents():
+    """Its size is radius and half length; condim 3 is a normal and two tangents, 1 a normal alone."""
+    rod = {
+        "kind": "cylinder",
+        "position": [0.0] * 3,
+        "axis": [0.0, 1.0, 0.0],
+        "radius": 0.01,
+        "friction": 0.3,
+    }
+    assert 'size="0.01 0.5"' in _geom(rod) and 'condim="3"' in _geom(rod)
+    assert 'condim="1"' in _geom({**rod, "friction": 0.0})

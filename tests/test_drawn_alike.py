@@ -65,13 +65,11 @@ def seeds(model, drawn):
     return [seed if seed in OFTEN[model] else pytest.param(seed, marks=pytest.mark.nightly) for seed in drawn]
 
 
-@pytest.mark.sweep(2)
 @pytest.mark.parametrize("seed", seeds("lattice", [*ALIGNED, *OBLIQUE]))
 def test_a_lattice_answers_alike(seed):
     assert max(changed_by(draw(seed, seed in OBLIQUE), lattice).values()) < 1e-9
 
 
-@pytest.mark.sweep(2)
 @pytest.mark.parametrize("seed", seeds("shell", [*ALIGNED, *OBLIQUE]))
 def test_a_shell_answers_alike(seed):
     assert max(changed_by(draw(seed, seed in OBLIQUE), shell).values()) < 1e-9

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import inf
-from typing import Annotated, Any
+from typing import Any
 
 from comparisons.sweep import load
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
@@ -77,15 +77,10 @@ class Priced(Answer):
         )
 
 
-@dataclass(frozen=True)
-class Orders:
-    """Of a family: the rows that have errors, the orders of both errors in h, of the time in the unknowns."""
-
-    series: Annotated[str, Column("model", prose=True)]
-    rows: Annotated[int, NUMBER("d")]
-    error_order: Annotated[float | None, NUMBER("z.2f")]
-    field_error_order: Annotated[float | None, NUMBER("z.2f")]
-    time_order: Annotated[float | None, NUMBER("z.2f")]
+ORDERS = (
+    *(Column("model", prose=True), NUMBER("d", "rows"), NUMBER("z.2f", "error order")),
+    *(NUMBER("z.2f", "field error order"), NUMBER("z.2f", "time order")),
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -102,23 +97,22 @@ class Tradeoff(Priced):
     reasons: tuple[str, ...] = ()
 
     @property
-    def orders(self) -> list[Orders]:
-        """The orders of every family."""
-        families = grouped([row.ask.spec.series for row in self.rows])
-        return [self._orders(name, [self.rows[i] for i in numbers]) for name, numbers in families.items()]
-
-    def _orders(self, name: str, family: list[TradeoffRow]) -> Orders:
-        rows = [row for row in family if row.error is not None]
-        sizes = [row.cell_size for row in rows]
-        return Orders(
-            series=name,
-            rows=len(rows),
-            error_order=error_order(sizes, [row.error for row in rows], self.uncertainty),
-            field_error_order=error_order(sizes, [row.field_error for row in rows], self.field_uncertainty),
-            time_order=order(
-                [row.known.get("unknowns") or 0 for row in rows], [row.seconds or 0.0 for row in rows]
-            ),
-        )
+    def orders(self) -> list[dict[str, Any]]:
+        """Of every family: the rows that have errors, the orders of both errors in h, of the time in the
+        unknowns."""
+        found = []
+        for name, numbers in grouped([row.ask.spec.series for row in self.rows]).items():
+            rows = [self.rows[i] for i in numbers if self.rows[i].error is not None]
+            sizes = [row.cell_size for row in rows]
+            unknowns = [row.known.get("unknowns") or 0 for row in rows]
+            errors, fields = [row.error for row in rows], [row.field_error for row in rows]
+            orders = {
+                "error_order": error_order(sizes, errors, self.uncertainty),
+                "field_error_order": error_order(sizes, fields, self.field_uncertainty),
+                "time_order": order(unknowns, [row.seconds or 0.0 for row in rows]),
+            }
+            found.append({"series": name, "rows": len(rows), **orders})
+        return found
 
     def document(self) -> dict[str, Any]:
         return {
@@ -126,7 +120,7 @@ class Tradeoff(Priced):
             "scene": self.scene.document(),
             "rows": [row.as_dict() for row in self.rows],
             "front": self.front,
-            "orders": [asdict(orders) for orders in self.orders],
+            "orders": self.orders,
             "reference": {
                 **self.reference.as_dict(),
                 "uncertainty": self.uncertainty,
@@ -136,11 +130,14 @@ class Tradeoff(Priced):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        costs = "Cost and error; solve: median of the repeats"
+        front, costs = self.front, "Cost and error; solve: median of the repeats"
         orders = "Observed orders: of errors in the cell size, of time in the unknowns"
-        front = self.front
         rows = ((i, *row.cells(), i in front, row.status) for i, row in enumerate(self.rows))
-        return Table.listed(costs, TRADED, rows, "tradeoff"), Table.of(Orders, self.orders, orders, "orders")
+        families = (one.values() for one in self.orders)
+        return (
+            Table.listed(costs, TRADED, rows, "tradeoff"),
+            Table.listed(orders, ORDERS, families, "orders"),
+        )
 
     def notes(self) -> list[str]:
         truth = self.reference

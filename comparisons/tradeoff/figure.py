@@ -32,7 +32,7 @@ def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
     left, right = figure.subplots(*style.panels(2), sharey=True, width_ratios=ratios)
     families = grouped([row.ask.spec.series for row in tradeoff.rows])
     colours = cycle(SERIES)  # lattices take the first ones
-    orders = {family.series: family.error_order for family in tradeoff.orders}
+    orders = {family["series"]: family["error_order"] for family in tradeoff.orders}
     on_front = set(tradeoff.front)
     for name, numbers in families.items():
         known = [i for i in numbers if tradeoff.rows[i].error]  # logarithmic axes have no zero

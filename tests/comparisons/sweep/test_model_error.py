@@ -186,12 +186,6 @@ def test_the_law_of_strain_is_weighed_where_the_probes_answer_comes_from(scene):
     assert bound is not None and off <= bound.strain_law < 1.3 * 1.2 * off
 
 
-def test_the_thick_sheet_with_four_clamps_is_within_what_is_said():
-    """h/a 0.12, ν 0.45: 2.0 % above bricks of CalculiX's whose faces at the edges are held in the mean."""
-    found = of_numbers(0.12, 0.45, True, 1.5e-6, 1.5e-5)
-    assert found.value > (1.669 - 1.635) / 1.635
-
-
 @pytest.mark.sweep(6)
 @pytest.mark.parametrize("clamped", [("x0",), ("x0", "x1"), ("x0", "x1", "y0", "y1")], ids=len)
 @pytest.mark.parametrize("poisson", [-0.3, 0.0, 0.3, 0.45, 0.49])

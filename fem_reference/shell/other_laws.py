@@ -61,11 +61,8 @@ def shift(scene: Scene, answer: Solution) -> float | None:
                 other = HyperelasticElement.of(
                     sheet.plan.corners, scene.material, scene.sheet.thickness, LAWS[law]
                 )
-                state, forces, left = (
-                    start,
-                    rest,
-                    np.zeros(1),
-                )  # what is left of the answer's own residual counts not
+                # what is left of the answer's own residual does not count
+                state, forces, left = start, rest, np.zeros(1)
                 for _ in range(STEPS):
                     shape = forces.shape
                     change = element.forces(shape.operator, other.stress(shape.strain) - shape.elastic)

@@ -11,7 +11,13 @@ from lumped.grid_lines import grid_lines
 from lumped.supports import constrain
 from sheetbench.scenes import Sheet, load
 from sheetbench.scenes.meaning.region import sides_of_shapes
-from sheetbench.scenes.objects.grading import as_settings, of_settings, through
+from sheetbench.scenes.objects.grading import (
+    as_settings,
+    lines_for_all,
+    of_settings,
+    places_with_lines,
+    through,
+)
 from sheetbench.scenes.objects.shapes import Shape
 
 SHEET = Sheet(length_x=0.16, length_y=0.04, thickness=1e-3)
@@ -116,3 +122,30 @@ def test_a_slit_that_is_not_open_is_named_with_the_grid_that_opens_it():
     reason = resolve(strip, Lattice(grid=9)).reasons["grading_reason"]
     assert "sides at x = 60.2 mm lie within cells, where a slit is not open: that takes 81 masses" in reason
     assert "lie within" not in resolve(strip, Lattice(grid=(81, 21))).reasons["grading_reason"]
+
+
+@pytest.mark.parametrize(
+    ("places", "lines", "kept"),
+    [
+        ([0.09], 5, []),  # a tenth of a mean cell from an end, of 1
+        ([0.11], 5, [0.11]),
+        (
+            [0.6, 1.2, 2.0, 2.8, 3.4],
+            8,
+            [0.6, 1.2, 2.8, 3.4],
+        ),  # of an odd number of cells none is in the middle
+        ([0.6, 2.0, 3.4], 8, [0.6, 3.4]),
+        ([0.6, 2.0, 3.4], 9, [0.6, 2.0, 3.4]),
+    ],
+)
+def test_places_that_have_a_line(places, lines, kept):
+    assert places_with_lines(places, 4.0, lines) == kept
+
+
+@pytest.mark.parametrize(
+    ("places", "lines"),
+    [([0.08, 1.9], 6), ([0.08, 2.0, 3.92], 7), ([1.0, 2.0, 3.0], 5)],  # one in the middle: an odd number
+)
+def test_lines_that_are_enough_for_all_places(places, lines):
+    assert lines_for_all(places, 4.0) == lines
+    assert places_with_lines(places, 4.0, lines) == places

@@ -7,8 +7,6 @@ import sys
 
 import numpy as np
 
-LARGEST = 1500  # masses
-
 
 def differences(lattice):
     """Matrices that take positions (n, 3) to the vectors that springs see: along links, across cells."""
@@ -174,8 +172,8 @@ def equilibrium(lattice, along, steps=1):
 
     The load comes in `steps`, in twice as many where Newton does not converge; then contact stiffens.
     """
-    if len(lattice["positions"]) > LARGEST:
-        sys.exit(f"dense tangents, for {LARGEST} masses at most: write a lattice of a smaller --grid")
+    if len(lattice["positions"]) > 1500:
+        sys.exit("dense tangents, for 1500 masses at most: write a lattice of a smaller --grid")
     print(f"statics of {len(lattice['positions'])} masses, load in {steps} step(s)", file=sys.stderr)
     shared = neighbours(along)
     n, holds = len(lattice["positions"]), len(lattice["hold_axis"])

@@ -59,6 +59,15 @@ def test_a_half_strip_up_to_its_plane_of_symmetry_has_the_whole_strips_factor():
     assert half == pytest.approx(whole, rel=1e-12)
 
 
+def test_a_strip_of_one_cell_has_half_of_both_edges_reductions():
+    """Its twisting spring D66/b and its shear springs S b (1 − s)/4 in series are D66 (b − 2 λ)/b²."""
+    b, twisting, shear, share, lost = 0.02, 0.02, 600.0, 0.3, 1e-3
+    in_series = b**2 / (twisting * (b - 2.0 * lost))
+    both = b / twisting / (in_series - 4.0 / (shear * b * (1.0 - share)))
+    found = edge_factor(1, b, twisting, shear, share, lost, both=True)
+    assert found == pytest.approx(1.0 - 0.5 * (1.0 - both), rel=1e-12)
+
+
 def test_a_strip_that_only_rounding_holds_has_no_factor():
     """It ended in an error of the linear algebra: layers three metres apart shear without resistance."""
     assert np.isnan(edge_factor(3, 0.01, 0.02, 1e-17, 0.3, 5e-3, both=True))

@@ -35,8 +35,8 @@ def command(
             "young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other constants of "
             "fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE, tilt_EDGE "
             "(of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag "
-            "(of the air), natural.kxx (or patch1.natural.exx, …), mass1, obstacle1.z; several with commas. "
-            "Default: young.",
+            "(of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z; several with "
+            "commas. Default: young.",
             "NAMES",
             listed=True,
         ),

@@ -52,9 +52,9 @@ def test_every_model_moves_it_as_the_shell_does(model, scale, within, of_force):
     moved = motion((0.0, 1e-3 * scale, 0.01 * scale), (0.1 * scale, -0.1 * scale, 2e-3 * scale))
     scene = driven(moved, gravity=Gravity(acceleration=(0.0, 0.0, -9.81 * scale)))
     points = np.random.default_rng(0).uniform(0.0, 0.188, (50, 2))
-    found = lattice(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=4)
+    found = lattice(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=6)
     assert found.status is Status.CONVERGED
-    expected = shell(scene, 8)
+    expected = shell(scene, 12)
     truth, wrench = expected.displacement(points), expected.actuators["x1"]
     assert np.abs(found.displacement(points) - truth).max() < within * np.abs(truth).max()
     assert wrench.shape == (1, 6)

@@ -88,6 +88,7 @@ def test_a_gradient_of_temperature_bends_and_a_bimetal_is_timoshenkos():
 def test_pretension_is_the_strain_that_pulls_so_much():
     of = scene(natural=Natural(pretension=(2.0, 1.0)))
     strain, _ = (part[0] for part in natural_at(of, np.zeros((1, 2))).at())
+    assert "% shorter along x" in dict(natural_in_words(of))["natural"]
     stiffness = 1e6 * 0.002 / 0.91 * np.array([[1.0, 0.3], [0.3, 1.0]])
     np.testing.assert_allclose(-stiffness @ np.diag(strain), [2.0, 1.0])
 

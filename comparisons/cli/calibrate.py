@@ -113,6 +113,7 @@ def command(
     from comparisons.codes.lattice import CODES, lattice_files
     from comparisons.codes.setup import require_damper, setup, squares_of
     from comparisons.models.sizes import require_room
+    from lumped import Calibration
     from sheetbench.errors import BadInput, require_choice, require_effect
 
     if toml and output.json:
@@ -158,7 +159,7 @@ def command(
         off = expected(of, springs) if foretold else None
         out.export(export, of, springs)
         modes = damping.ratios(of, springs)
-        own = {one.name: getattr(springs, one.name) for one in fields(springs)}
+        own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
         files = ({}, []) if for_ is None else lattice_files(of, springs, for_)
         answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -67,6 +67,17 @@ def test_sofas_scene_has_what_it_names():
     assert len(set(order)) == len(order)
 
 
+def test_sofas_springs_and_masses_are_damped_as_ours():
+    scene = CORNER.replace(material=CORNER.material.replace(damping_time=2e-3, damping_rate=3.0))
+    lattice = described(scene, 3)
+    sheet = ElementTree.fromstring(to_sofa(lattice, scene)).find("Node")
+    springs = np.array(sheet.find("SpringForceField").attrib["spring"].split(), float).reshape(-1, 5)
+    assert springs[:, 3].tolist() == lattice.links.damping.tolist() and lattice.links.damping.all()
+    assert float(sheet.find("EulerImplicitSolver").attrib["rayleighMass"]) == 3.0
+    masses = sheet.find("DiagonalMass").attrib["vertexMass"].split()
+    assert list(map(float, masses)) == lattice.mass.tolist()
+
+
 def test_what_they_do_not_have_is_refused():
     with pytest.raises(BadInput, match="area and strain springs of cells; take --calibration central"):
         to_sofa(described(CORNER, method="consistent"), CORNER)

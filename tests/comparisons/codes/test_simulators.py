@@ -13,6 +13,7 @@ import lumped
 from comparisons.codes.arrays import arrays
 from comparisons.codes.lattice import CODES, READERS
 from comparisons.codes.sofa import to_sofa
+from comparisons.codes.tables import tables
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene
@@ -65,6 +66,26 @@ def test_sofas_scene_has_what_it_names():
     order = [child.tag for child in sheet]
     assert order.index("MechanicalObject") < order.index("SpringForceField")
     assert len(set(order)) == len(order)
+
+
+def test_sofas_springs_and_masses_are_damped_as_ours():
+    scene = CORNER.replace(material=CORNER.material.replace(damping_time=2e-3, damping_rate=3.0))
+    lattice = described(scene, 3)
+    sheet = ElementTree.fromstring(to_sofa(lattice, scene)).find("Node")
+    springs = np.array(sheet.find("SpringForceField").attrib["spring"].split(), float).reshape(-1, 5)
+    assert springs[:, 3].tolist() == lattice.links.damping.tolist() and lattice.links.damping.all()
+    assert float(sheet.find("EulerImplicitSolver").attrib["rayleighMass"]) == 3.0
+    masses = sheet.find("DiagonalMass").attrib["vertexMass"].split()
+    assert list(map(float, masses)) == lattice.mass.tolist()
+
+
+def test_loads_and_holds_keep_their_signs():
+    loads = tables(described(CORNER, 3))["loads.csv"].splitlines()[1:]
+    force = sum(np.array(row.split(",")[1:], float) for row in loads)
+    assert force == pytest.approx([0.05, 0.0, 0.1])
+    bent = described(scenes.load("curved-edge"), 3)
+    held = [hold.displacement for hold in bent.holds]
+    assert arrays(bent)["hold_displacement"].tolist() == held and any(held)
 
 
 def test_what_they_do_not_have_is_refused():

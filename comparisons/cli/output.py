@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -42,12 +42,16 @@ class Output:
     """The terminal, the JSON document and the folder of a verb that runs."""
 
     def __init__(
-        self, options: OutputOptions, about: Mapping[str, Any], folder: Folder | None, style: FigureStyle
+        self,
+        options: OutputOptions,
+        about: Mapping[str, Any],
+        folder: Folder | None,
+        styles: Sequence[FigureStyle],
     ) -> None:
         self._options = options
         self._about = about
         self._folder = folder
-        self._style = style
+        self._styles = styles
         self._store_files: list[str] = []
         self._notes: list[str] = []
         self._spinner = ExitStack()
@@ -131,7 +135,7 @@ class Output:
         document = {**report.document, "warnings": [*own, *messages.shown]}
         pictures = () if self._options.no_pictures else report.pictures
         notes = (*report.notes, *self._notes)
-        report = replace(report, document=document, pictures=pictures, notes=notes).with_style(self._style)
+        report = replace(report, document=document, pictures=pictures, notes=notes).with_styles(self._styles)
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {reason}" for reason in self._folder.report(report, self.progress)]
@@ -216,7 +220,7 @@ class OutputOptions(Group):
 
         if self.terminal:
             startup.end()
-        style = parse_figure(self.figure)
+        styles = parse_figure(self.figure)
         with ExitStack() as stack:
             folder = None
             if scene is not None:
@@ -236,7 +240,7 @@ class OutputOptions(Group):
                     variant=variant,
                     overwrite=self.overwrite,
                 )
-            out = stack.enter_context(closing(Output(self, about or {}, folder, style)))
+            out = stack.enter_context(closing(Output(self, about or {}, folder, styles)))
             if self.terminal:
                 stack.enter_context(running(progress=out.progress))
             try:
@@ -257,7 +261,7 @@ class PictureOptions(OutputOptions):
         str | None,
         option(
             "With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
-            "pdf:single as wide as one column (89 mm), else as both (183 mm).",
+            "pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).",
             "FORMAT",
         ),
     ] = None

@@ -1,8 +1,8 @@
 """Pictures for papers: a column's width, no title, embedded fonts, the same bytes again, error bars."""
 
 import json
-from dataclasses import replace
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import matplotlib

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 Shown = TypeVar("Shown", bound="Answer")
 NOT_CONVERGED = 3
 NOTES = 3  # that a terminal shows without --verbose
+PICTURES = (".svg", ".png", ".pdf", ".gif")
 COMPILED = 5.0  # s, above which it is noted: loading takes less
 
 
@@ -168,19 +169,37 @@ class Output:
         for table in report.shown:
             console.show(table)
             if table.text:
+                console.blank()
                 console.note(table.text)
+        notes = list[str]()
         if (spent := clock.compiled()) > COMPILED:
-            console.note(
+            notes.append(
                 f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
             )
         shown = len(report.notes) if console.verbose else NOTES
-        for note in report.notes[:shown]:
-            console.note(note)
+        notes += report.notes[:shown]
         if (left := len(report.notes) - shown) > 0:
-            console.note(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
+            notes.append(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
         if self._folder is not None:
-            written = [*self._folder.written, "manifest.json", *self._store_files]
-            console.note(f"Files in {self._folder.path}: {', '.join(written)}")
+            notes.append(self._written(console.out.width))
+        if notes and not (report.shown and report.shown[-1].text):
+            console.blank()
+        for note in notes:
+            console.note(note)
+
+    def _written(self, width: int) -> str:
+        """Return the line that names the files in the folder, pictures first; --verbose: all of them."""
+        from textwrap import shorten
+
+        from comparisons.cli import console
+
+        assert self._folder is not None
+        written = [*self._folder.written, "manifest.json", *self._store_files]
+        names = ", ".join(sorted(written, key=lambda name: not name.endswith(PICTURES)))
+        head = f"{len(written)} files in {self._folder.path}: "
+        return head + (
+            names if console.verbose else shorten(names, max(width - len(head), 20), placeholder=" …")
+        )
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,11 @@ def with_natural(
             cells = np.arange(lattice.cell_areas.size)[lattice.kept]
             cells = np.tile(cells, len(family) // len(cells))[:, None]
             shares = np.ones(cells.shape)
-            stiffness = _of_natural_sides(family, state.at()[0].reshape(-1, 2, 2)[cells[:, 0]])
+            grown = family.sides.copy()
+            grown[..., :2] += family.sides[..., :2] @ state.at()[0].reshape(-1, 2, 2)[cells[:, 0]]
+            natural = of_stiffness(family.stiffness, grown, np.abs(np.linalg.det(grown[..., :2])))
+            drawn = of_stiffness(np.ones_like(family.stiffness), family.sides, family.area)
+            stiffness = (natural / drawn)[:, : family.stiffness.shape[1]]  # [N/m] for sides as drawn
         else:
             return lambda strain, curvature: family
         ends = lattice.positions[family.nodes[:, :2], 2].reshape(len(family), 2, -1).mean(axis=2)
@@ -76,15 +80,6 @@ def _cells_of(lattice: Lattice, links: Links) -> tuple[np.ndarray, np.ndarray]:
     order = np.argsort(every)
     place = order[np.searchsorted(every[order], own)]
     return cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
-
-
-def _of_natural_sides(cells: SpringCells, strain: np.ndarray) -> np.ndarray:
-    """Stiffness (c, 4 or 7) [N/m] for drawn sides that is that of the springs for sides grown by a strain."""
-    grown = cells.sides.copy()
-    grown[:, :, :2] += cells.sides[:, :, :2] @ strain
-    natural = of_stiffness(cells.stiffness, grown, np.abs(np.linalg.det(grown[:, :, :2])))
-    drawn = of_stiffness(np.ones_like(cells.stiffness), cells.sides, cells.area)
-    return (natural / drawn)[:, : cells.stiffness.shape[1]]
 
 
 def _natural(sides: Array, ends: Array, cells: Array, shares: Array, *forms: Array) -> Array:

@@ -219,10 +219,6 @@ class DiscretePlate(Discrete):
             out[name] = 0.5 * float(np.einsum("mq,mqi,mqi", self.elements.areas, strain, force))
         return out
 
-    def elastic(self, shape: SheetShape) -> float:
-        q, own = shape.q, self.at_rest(shape.at)
-        return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
-
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         return float(step @ (self.stiffness @ other))
 

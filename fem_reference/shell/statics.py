@@ -9,7 +9,6 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,7 +23,7 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import grown, natural_strains
+from fem_reference.shell.natural import grown
 from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
@@ -207,8 +206,7 @@ def _elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) ->
     require_law(law, LAWS, material)
     if law == STRAIN_LAW:
         own = section or section_at(scene, nodes)
-        plain = Element.build(nodes, grown(own, scene, nodes))
-        return replace(plain, natural=natural_strains(scene, nodes))
+        return Element.build(nodes, grown(own, scene, nodes))
     require_flat_at_rest(scene, f"the shell's law '{law}'")
     require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:

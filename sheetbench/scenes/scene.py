@@ -82,6 +82,8 @@ class Scene(SceneFields):
             return ""
         if self.material.law is not None:
             return f"{given}: not of rubber (law = '{self.material.law}'), whose strains it would multiply"
+        if self.material.branches.times and any(one.history for one in self.natural_states.values()):
+            return f"{given}: with a history it takes no Maxwell branches; leave either out"
         if self.natural is not None and self.natural.pretension is not None and not self.homogeneous:
             return f"natural.pretension: beside {self.varied_by}: give strain"
         if self.temperature is not None:

@@ -154,14 +154,14 @@ class DiscreteElements(Discrete):
         slow.bodies = [body.dragged(shape, drag) for body in self.bodies]
         return slow
 
-    def strain(self, change: np.ndarray, at: float = 1.0) -> np.ndarray:
+    def strain(self, change: np.ndarray, at: float) -> np.ndarray:
         """Return strains (m, k) of a change of the elements' vectors (m, a, 3), less the natural ones."""
         found = self.element.strain(change)
-        return found if self.natural is None else found - self.own_strain(at)
+        return found if self.natural is None else found - self.natural.at(*self.instant(at))
 
     def strains(self, q: np.ndarray) -> Strained:
-        strain = self.strain(self.gather(q))
-        return strain, self.element.stress(strain)
+        shape = self.shape(q, 1.0)
+        return shape.strain, shape.elastic
 
     def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
         return self.element.energies(shape.strain)

@@ -152,11 +152,6 @@ class Discrete(Output):
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
 
-    def own_strain(self, at: float) -> Any:
-        """What the model makes of the sheet's natural state at a load factor or time [s]; None where it has
-        none."""
-        return None if self.natural is None else self.natural.at(*self.instant(at))
-
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""
         turned = any(time in motion.time for motion in self.scene.motions().values())

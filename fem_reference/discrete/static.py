@@ -88,8 +88,8 @@ class Static(Creeping[StaticState, Forces]):
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
-        if self.prestrained:  # often all that loads it
-            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.own_strain(load_factor)))
+        if sheet.natural is not None:  # often all that loads it
+            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.at(load_factor)))
             size += sheet.measured(sheet.scatter(pull), sheet.scale)
         residual -= external
         on_rods = tuple(body.stress(shape) for body in sheet.bodies)

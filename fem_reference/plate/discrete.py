@@ -10,7 +10,7 @@ displacements and ρh³/12 on the tilts.
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import ClassVar
+from typing import ClassVar, cast
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
@@ -90,7 +90,7 @@ class DiscretePlate(Discrete):
 
     def at_rest(self, at: float) -> OwnStrains:
         """What it has without stress at a load factor or time [s]."""
-        return self.own_strain(at) or OwnStrains()
+        return OwnStrains() if self.natural is None else cast(OwnStrains, self.natural.at(*self.instant(at)))
 
     @cached_property
     def stiffness(self) -> csr_matrix:

@@ -307,7 +307,7 @@ class DiscreteShell(DiscreteElements):
         return inverted(self.element, self.gather(q))
 
     def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
-        return membrane_strain(self.element, self.strain(self.gather(q), at))
+        return membrane_strain(self.element, self.shape(q, at).strain)
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return q.reshape(-1, 3)[: self.nodes]

@@ -38,7 +38,6 @@ from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.scenes import Scene, require_uniform
-from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.rigid_motions import require_static
 
 LIMITS = Limits()
@@ -203,11 +202,10 @@ def _elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) ->
     default, of a section."""
     nodes = plan.corners
     material, thickness = scene.material, scene.sheet.thickness
-    require_law(law, LAWS, material)
+    require_law(law, LAWS, scene)
     if law == STRAIN_LAW:
         own = section or section_at(scene, nodes)
         return Element.build(nodes, grown(own, scene, nodes))
-    require_flat_at_rest(scene, f"the shell's law '{law}'")
     require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:
         raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")

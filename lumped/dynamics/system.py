@@ -305,8 +305,6 @@ class System:
     @property
     def least_energy(self) -> float:
         """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
-        if self.natural is None:
-            return 0.0
         return ROUNDED * self.assembly.force(np.zeros((self.assembly.pattern.size, 3)))[0]
 
 

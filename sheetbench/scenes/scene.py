@@ -64,8 +64,7 @@ class Scene(SceneFields):
         if self.layers:
             varied = None if self.homogeneous else self.varied_by
             yield "layer: ", varied and f"a laminate is the same all over, without {varied}"
-            heated = self.temperature is not None
-            yield "layer: ", misfit(self.layers, self.sheet, self.material, heated)
+            yield "layer: ", misfit(self.layers, self.sheet, self.material, self.temperature is not None)
         yield "", self._unnatural()
         yield "patch ", mismatched(self.patches, self.material)
         law = None if self.springs is None else self.material.law

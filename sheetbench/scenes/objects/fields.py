@@ -136,8 +136,7 @@ class SceneFields(Frozen):
 
     @property
     def natural_states(self) -> dict[str, Natural | Temperature]:
-        """What makes it other than flat and free of stress at rest, by name; strains and curvatures, of the
-        sheet and of patches, under those as parameters."""
+        """What makes it other than flat and free of stress at rest, under the names as parameters."""
         own = {f"patch{n}.natural": patch.natural for n, patch in enumerate(self.patches, start=1)}
         every = {"natural": self.natural, **own, "temperature": self.temperature}
         return {name: state for name, state in every.items() if state is not None}

@@ -93,6 +93,19 @@ def test_new_keeps_what_is_there(tmp_path, capsys):
     assert load(path).name == "mine"
 
 
+def test_new_refuses_what_is_hardly_meant_and_says_how_it_is_written(tmp_path, capsys):
+    path = tmp_path / "mine.toml"
+    for options, correction in (
+        (("--side", "120x80", "--thickness", "2"), '120 mm is written 0.12 or "120 mm"'),
+        (("--young", "0.25"), '0.25 MPa is written 0.25e6 or "0.25 MPa"'),
+        (("--side", "120mm,80mm"), "120x80mm"),
+    ):
+        assert run("new", str(path), *options) == 2
+        assert correction in one_line(capsys) and not list(tmp_path.iterdir())
+    assert run("new", str(path), "--side", "120x80mm", "--thickness", "2mm", "--young", "0.25MPa") == 0
+    assert load(path).sheet.lengths == pytest.approx((0.12, 0.08)) and load(path).title == ""
+
+
 def test_check_says_how_a_scene_moves_and_names_the_command_of_its_motion(tmp_path, capsys):
     scene = load("one-edge-clamped")
     there = Motion(time=(0.0, 0.1, 0.5), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.005), (0.0, 0.0, 0.0)))

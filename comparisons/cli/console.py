@@ -77,19 +77,24 @@ def heading(title: str, subtitle: str = "") -> None:
 
 
 def show(table: Table) -> None:
-    """Print a table, folded to the terminal's width; of any width where the output is no terminal."""
+    """Print an empty line and a table, folded to the terminal's width; of any width where the output is no
+    terminal."""
     from sheetbench.answers.layout import blocks
 
-    out.print()
+    blank()
     for line in _fitted(printable(table.caption)):
         out.print(Text(line, style="bold"), soft_wrap=True)
     for i, block in enumerate(blocks(table, out.width if out.is_terminal else None, printable)):
         if i > 0:
-            out.print()
+            blank()
         for line in block.head:
             out.print(Text(line, style="bold"), soft_wrap=True)
         for line in [printable(block.rule), *block.rows]:
             out.print(Text(line), soft_wrap=True)
+
+
+def blank() -> None:
+    """Print an empty line."""
     out.print()
 
 

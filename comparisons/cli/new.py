@@ -5,7 +5,6 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 from typing import Annotated
-from warnings import warn
 
 import typer
 
@@ -32,7 +31,7 @@ def command(
     from comparisons.cli import console
     from comparisons.models.quantities import checked
     from sheetbench.answers.files import to_json, write_text
-    from sheetbench.errors import BadInput, Implausible, require_choice
+    from sheetbench.errors import BadInput, require_choice
     from sheetbench.files import require_file
     from sheetbench.scenes import EDGES, Material, Scene, Sheet
     from sheetbench.scenes.language.schema import for_editors
@@ -52,8 +51,8 @@ def command(
     for edge in edges:
         require_choice("--clamped", edge, EDGES)
     text = template(file.stem, checked(Sheet, of_sheet), checked(Material, of_material), edges)
-    for slip in slips(Scene.model_validate(tomllib.loads(text))):
-        warn(Implausible(f"{file}: {slip}"), stacklevel=2)
+    if found := slips(Scene.model_validate(tomllib.loads(text))):
+        raise BadInput(f"{file} is not written: {'; '.join(found)}")
     write_text(file, text)
     write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))
     console.note(f"{file} written, and {SCHEMA} beside it for editors")

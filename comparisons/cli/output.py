@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 Shown = TypeVar("Shown", bound="Answer")
 NOT_CONVERGED = 3
 NOTES = 3  # that a terminal shows without --verbose
+PICTURES = (".svg", ".png", ".pdf", ".gif")
 COMPILED = 5.0  # s, above which it is noted: loading takes less
 
 
@@ -42,12 +43,16 @@ class Output:
     """The terminal, the JSON document and the folder of a verb that runs."""
 
     def __init__(
-        self, options: OutputOptions, about: Mapping[str, Any], folder: Folder | None, style: FigureStyle
+        self,
+        options: OutputOptions,
+        about: Mapping[str, Any],
+        folder: Folder | None,
+        styles: Sequence[FigureStyle],
     ) -> None:
         self._options = options
         self._about = about
         self._folder = folder
-        self._style = style
+        self._styles = styles
         self._store_files: list[str] = []
         self._notes: list[str] = []
         self._spinner = ExitStack()
@@ -131,7 +136,7 @@ class Output:
         document = {**report.document, "warnings": [*own, *messages.shown]}
         pictures = () if self._options.no_pictures else report.pictures
         notes = (*report.notes, *self._notes)
-        report = replace(report, document=document, pictures=pictures, notes=notes).with_style(self._style)
+        report = replace(report, document=document, pictures=pictures, notes=notes).with_styles(self._styles)
         missing: list[str] = []
         if self._folder is not None:
             missing = [f"No picture: {reason}" for reason in self._folder.report(report, self.progress)]
@@ -164,19 +169,37 @@ class Output:
         for table in report.shown:
             console.show(table)
             if table.text:
+                console.blank()
                 console.note(table.text)
+        notes = list[str]()
         if (spent := clock.compiled()) > COMPILED:
-            console.note(
+            notes.append(
                 f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
             )
         shown = len(report.notes) if console.verbose else NOTES
-        for note in report.notes[:shown]:
-            console.note(note)
+        notes += report.notes[:shown]
         if (left := len(report.notes) - shown) > 0:
-            console.note(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
+            notes.append(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
         if self._folder is not None:
-            written = [*self._folder.written, "manifest.json", *self._store_files]
-            console.note(f"Files in {self._folder.path}: {', '.join(written)}")
+            notes.append(self._written(console.out.width))
+        if notes and not (report.shown and report.shown[-1].text):
+            console.blank()
+        for note in notes:
+            console.note(note)
+
+    def _written(self, width: int) -> str:
+        """Return the line that names the files in the folder, pictures first; --verbose: all of them."""
+        from textwrap import shorten
+
+        from comparisons.cli import console
+
+        assert self._folder is not None
+        written = [*self._folder.written, "manifest.json", *self._store_files]
+        names = ", ".join(sorted(written, key=lambda name: not name.endswith(PICTURES)))
+        head = f"{len(written)} files in {self._folder.path}: "
+        return head + (
+            names if console.verbose else shorten(names, max(width - len(head), 20), placeholder=" …")
+        )
 
 
 @dataclass(frozen=True)
@@ -216,7 +239,7 @@ class OutputOptions(Group):
 
         if self.terminal:
             startup.end()
-        style = parse_figure(self.figure)
+        styles = parse_figure(self.figure)
         with ExitStack() as stack:
             folder = None
             if scene is not None:
@@ -236,7 +259,7 @@ class OutputOptions(Group):
                     variant=variant,
                     overwrite=self.overwrite,
                 )
-            out = stack.enter_context(closing(Output(self, about or {}, folder, style)))
+            out = stack.enter_context(closing(Output(self, about or {}, folder, styles)))
             if self.terminal:
                 stack.enter_context(running(progress=out.progress))
             try:
@@ -257,7 +280,7 @@ class PictureOptions(OutputOptions):
         str | None,
         option(
             "With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
-            "pdf:single as wide as one column (89 mm), else as both (183 mm).",
+            "pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).",
             "FORMAT",
         ),
     ] = None

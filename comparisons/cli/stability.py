@@ -39,7 +39,7 @@ def command(
     from sheetbench.errors import BadInput
     from sheetbench.scenes import scene_of
 
-    if parse_figure(output.figure).narrow:
+    if any(style.narrow for style in parse_figure(output.figure)):
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     loaded = scene_of(scene)
     with output.open(scene=loaded) as out:

@@ -122,7 +122,14 @@ class CodeSetup(Answer):
 
     def notes(self) -> list[str]:
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
-        notes = [f"Coefficients of hinges and springs {chosen}."]
+        notes = list[str]()
+        if why := self._refused():
+            notes.append(f"No files: {why}.")
+        elif coarse := self._too_coarse():
+            notes.append(coarse)
+        if left := undamped(self.code, self.scene.material):
+            notes.append(f"The scene's damping is left out: {left}.")
+        notes.append(f"Coefficients of hinges and springs {chosen}.")
         if self.limit_error is not None:
             notes.append(
                 "Error of an infinitely fine mesh with them in this scene: "
@@ -133,15 +140,9 @@ class CodeSetup(Answer):
                 "No SCENE was named, whose answer would choose the coefficients and tell their error; the "
                 "files hold the sheet clamped at x0 under its own weight."
             )
-        if left := undamped(self.code, self.scene.material):
-            notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Limits: {self.code.cannot}.")
         notes.append(f"Source: {self.code.source}.")
         notes.append(f"{self.code.title} ({self.code.licence}): tested by running it.")
-        if why := self._refused():
-            notes.append(f"No files: {why}.")
-        elif coarse := self._too_coarse():
-            notes.append(coarse)
         return notes
 
     def complaints(self) -> list[str]:

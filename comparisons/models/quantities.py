@@ -11,6 +11,7 @@ from sheetbench.scenes.language.refusals import in_one_line
 from sheetbench.scenes.language.units import amount, quantity
 
 Quantities = TypeVar("Quantities", bound=BaseModel)
+SIDES = "sides are written 0.188, 0.188x0.3 or 120x80mm"
 
 
 def sides(text: Any) -> dict[str, float]:
@@ -31,9 +32,9 @@ def sides(text: Any) -> dict[str, float]:
     try:
         lengths = [quantity(part, "m") for part in parts]
     except BadInput as error:
-        raise BadInput(f"--side = '{text}': {error}") from None
+        raise BadInput(f"--side = '{text}': {error}; {SIDES}") from None
     if len(lengths) > 2:
-        raise BadInput(f"--side = '{text}': not a side; write 0.188, 0.188x0.3 or 12cmx4cm")
+        raise BadInput(f"--side = '{text}': {SIDES}")
     return {"length_x": lengths[0], "length_y": lengths[-1]}
 
 

@@ -259,6 +259,13 @@ class Spectra(Answer):
             notes += _pairing_notes(self.against(spectrum.model))
         if len(self) > 1:
             notes.append("MAC: modal assurance criterion of both models' shapes, 1 where they are the same")
+        band = self.scene.material.band
+        if band and any(mode.asked is None for modes in self.damping for mode in modes):
+            notes.append(
+                "ζ requested –: the mode is outside the band of the loss factor, {:g} to {:g} Hz".format(
+                    *band
+                )
+            )
         if self[0].rigid:
             notes.append(f"{self[0].rigid} rigid-body modes, of frequency 0, are left out")
         if self.scene.actuators:

@@ -38,17 +38,26 @@ class FigureStyle:
 PLAIN = FigureStyle()
 
 
-def parse_figure(text: str | None) -> FigureStyle:
-    """Return the style that `--figure` asks for: formats with commas between them, a width after a colon, as
-    `pdf`, `pdf,png` or `svg:single`. Raises BadInput, naming the option."""
+def parse_figure(text: str | None) -> tuple[FigureStyle, ...]:
+    """Return the styles that `--figure` names, one per width: formats with commas between them, a width after
+    a colon for the formats before it, as `pdf`, `pdf,png:single` or `pdf:single,png:double`. Raises BadInput,
+    naming the option."""
     if text is None:
-        return PLAIN
-    names, colon, width = text.partition(":")
-    formats = tuple(dict.fromkeys(name.strip().lower() for name in names.split(",") if name.strip()))
-    if not formats:
-        raise BadInput(f"--figure = '{text}': name a format: {', '.join(FORMATS)}")
-    for name in formats:
+        return (PLAIN,)
+    styles, formats, seen = list[FigureStyle](), list[str](), set[str]()
+    for item in filter(str.strip, text.lower().split(",")):
+        name, colon, width = (part.strip() for part in item.partition(":"))
         require_choice("--figure", name, FORMATS)
-    if colon:
-        require_choice("the width in --figure", width.strip(), WIDTHS)
-    return FigureStyle(formats, narrow=width.strip() == "single", titled=False)
+        if name in seen:
+            raise BadInput(f"--figure = '{text}': {name} is there twice, and has one file")
+        seen.add(name)
+        formats.append(name)
+        if colon:
+            require_choice("the width in --figure", width, WIDTHS)
+            styles.append(FigureStyle(tuple(formats), narrow=width == "single", titled=False))
+            formats = []
+    if formats:
+        styles.append(FigureStyle(tuple(formats), titled=False))
+    if not styles:
+        raise BadInput(f"--figure = '{text}': name a format: {', '.join(FORMATS)}")
+    return tuple(styles)

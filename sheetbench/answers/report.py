@@ -6,7 +6,7 @@ what its tables, notes and pictures are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
@@ -71,9 +71,9 @@ class Picture:
             return str(why)
         return None
 
-    def with_style(self, style: FigureStyle) -> Picture:
-        """Return the picture in another style, and in its formats where it names some."""
-        return replace(self, style=style, formats=style.formats or self.formats)
+    def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
+        """Return the picture in each of the styles, and in its formats where it names some."""
+        return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
 
 
 @dataclass(frozen=True)
@@ -90,9 +90,9 @@ class Film(Picture):
             return str(why)
         return None
 
-    def with_style(self, style: FigureStyle) -> Picture:
+    def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
         """Return the same film."""
-        return self
+        return (self,)
 
 
 def _function(name: str) -> Callable[..., Any]:
@@ -137,17 +137,18 @@ class Report:
     def save(self, folder: Path | str, figure: str | None = None) -> tuple[str, ...]:
         """Write every file and picture into a folder; sentences that say why a picture is missing.
 
-        figure: pictures for a paper, as `--figure` has them: "pdf", "svg:single". Raises BadInput.
+        figure: pictures for a paper, as `--figure` has them: "pdf", "svg:single,png". Raises BadInput.
         """
-        styled, target = self.with_style(parse_figure(figure)), made(folder, "folder")
+        styled, target = self.with_styles(parse_figure(figure)), made(folder, "folder")
         for name, write in styled.files().items():
             write(target / name)
         missing = (picture.write(target) for picture in styled.pictures)
         return tuple(why for why in missing if why)
 
-    def with_style(self, style: FigureStyle) -> Report:
-        """Return the report with its pictures in another style."""
-        return replace(self, pictures=tuple(picture.with_style(style) for picture in self.pictures))
+    def with_styles(self, styles: Sequence[FigureStyle]) -> Report:
+        """Return the report with its pictures in each of the styles."""
+        pictures = tuple(one for picture in self.pictures for one in picture.with_styles(styles))
+        return replace(self, pictures=pictures)
 
     def __repr__(self) -> str:
         return self.text()

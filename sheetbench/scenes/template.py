@@ -43,7 +43,8 @@ def template(
         '# A scene for sheetbench. Numbers are in SI units (m, N, Pa, kg, s, rad); others are text: "2 mm".\n'
         "# What will be solved, in words:  sheetbench check FILE\n"
         "# Both models, side by side:  sheetbench compare FILE\n",
-        _block("", {"name": name, "title": ""}),
+        _block("", {"name": name}),
+        _commented(_block("", {"title": "Sheet under its own weight"})),
         _block("[sheet]", given["sheet"]),
         _block("[material]", given["material"]),
         _block("[gravity]", given["gravity"]),

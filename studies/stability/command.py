@@ -26,7 +26,7 @@ def command(
     Neighbouring masses, units of stiffness and families of springs are varied too. With --out an interrupted
     run is resumed.
     """
-    if parse_figure(output.figure).narrow:
+    if any(style.narrow for style in parse_figure(output.figure)):
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     with output.open() as out:
         with out.campaign(campaign) as run:

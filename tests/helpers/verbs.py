@@ -114,7 +114,7 @@ class Kept:
         with pytest.MonkeyPatch.context() as patch:
             screen = Console(file=stream, force_terminal=True, width=columns, color_system=None)
             patch.setattr(console, "out", screen)
-            Output(OutputOptions("any"), {}, None, PLAIN)._print(self.answer.report())
+            Output(OutputOptions("any"), {}, None, (PLAIN,))._print(self.answer.report())
         stream.flush()
         return stream.buffer.getvalue().decode(encoding)  # type: ignore[attr-defined]
 

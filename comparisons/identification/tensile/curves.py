@@ -58,6 +58,8 @@ def read(
     if any(column in columns.names for column in TRUE) and not set(ENGINEERING) & set(columns.names):
         stress = stress / stretch
     if up_to is not None:
+        if up_to <= 1.0:
+            raise BadInput(f"--up-to = {up_to:g}: a stretch, above 1; a strain of 50 % is a stretch of 1.5")
         stretch, stress = stretch[stretch <= up_to], stress[stretch <= up_to]
     curve = Curve(test, stretch, stress, str(path))
     require_loading(curve, columns)

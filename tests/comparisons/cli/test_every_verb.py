@@ -186,6 +186,14 @@ def test_the_main_figures_are_shown(kept, name, way):
         assert any(abs(scale * figure - n) <= digit for scale in SCALES for n, digit in printed), figure
 
 
+@pytest.mark.parametrize("name", ANSWERED)
+def test_a_screen_is_not_spent_on_empty_lines(kept, name):
+    """A comparison of three models at four probes, with its notes, has to fit into 40 lines."""
+    shown = kept(name).shown(100)
+    assert "\n\n\n" not in shown and not shown.endswith("\n\n")
+    assert not name.startswith("compare") or len(shown.splitlines()) <= 40
+
+
 def _last_digit(number):
     """The power of ten of a printed number's last digit."""
     mantissa, _, exponent = number.partition("e")

@@ -159,6 +159,8 @@ def test_a_silicone_file_is_read_as_the_machine_wrote_it():
     found = identify_tensile(str(measured_data("silicone-tensile/Ecoflex 00-30.csv")), up_to=2.5)
     assert len(found.curves[0].stretch) == 64
     assert found.law is not None and found.law.young == pytest.approx(47e3, rel=0.05)
+    with pytest.raises(BadInput, match=r"--up-to = 0\.5: a stretch, above 1"):
+        identify_tensile(str(measured_data("silicone-tensile/Ecoflex 00-30.csv")), up_to=0.5)
 
 
 @pytest.mark.parametrize(

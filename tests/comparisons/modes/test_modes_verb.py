@@ -122,6 +122,13 @@ def test_kinds_of_known_deflections():
     assert kinds(adjacent, np.stack(shapes[:2]), CELLS) == ["bending 1", "bending 2"]
 
 
+def test_a_mode_outside_the_band_has_no_requested_damping_and_a_note():
+    scene = scenes.load("one-edge-clamped").replace(loss_factor=0.12, band=(1e3, 2e3))
+    found = spectra(scene, Lattice(3), elements=2, count=1)
+    assert [mode["asked"] for mode in found.document()["damping"]["lumped"]] == [None]
+    assert "outside the band of the loss factor, 1000 to 2000 Hz" in " ".join(found.notes())
+
+
 @pytest.mark.parametrize("damped, within", [({"frequency": 6.0}, np.inf), ({"band": (1.0, 200.0)}, 0.1)])
 def test_damping_of_modes_is_told_as_asked_and_got(damped, within):
     """Branches keep it over the band; one damper has it at its frequency: ζ goes with the frequency."""
@@ -129,6 +136,7 @@ def test_damping_of_modes_is_told_as_asked_and_got(damped, within):
     found = spectra(scene, Lattice(5), elements=4, count=6)
     damping = found.document()["damping"]
     assert list(damping) == ["lumped", "shell"] and len(found.tables()) == 3
+    assert "ζ requested" not in " ".join(found.notes())
     for mode in damping["lumped"] + damping["shell"]:
         assert mode["asked"] == 0.06 and abs(mode["got"] / 0.06 - 1.0) < within
     if "frequency" in damped:

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import matplotlib
@@ -89,10 +90,14 @@ def composed(scene, comparison):
 
 
 def test_what_a_figure_may_be():
-    assert parse_figure(None) == PLAIN and not PLAIN.formats
-    assert parse_figure("pdf") == FigureStyle(("pdf",), narrow=False, titled=False)
-    assert parse_figure("PNG, svg:single") == FigureStyle(("png", "svg"), narrow=True, titled=False)
-    for wrong in ("", "eps", "pdf:wide", "pdf;png"):
+    pdf = FigureStyle(("pdf",), titled=False)
+    png = FigureStyle(("png",), narrow=True, titled=False)
+    assert parse_figure(None) == (PLAIN,) and not PLAIN.formats
+    assert parse_figure("pdf") == (pdf,)
+    assert parse_figure("PNG, svg:single") == (replace(png, formats=("png", "svg")),)
+    assert parse_figure("pdf:single,png:single") == (replace(png, formats=("pdf",)), png)
+    assert parse_figure("png:single, pdf") == parse_figure("png:single,pdf:double") == (png, pdf)
+    for wrong in ("", " ,", "eps", "pdf:wide", "pdf;png", "pdf:single,pdf"):
         with pytest.raises(BadInput, match="--figure"):
             parse_figure(wrong)
 
@@ -103,7 +108,7 @@ NAMES = ("probes", "history", "tradeoff", "locking", "responses", "modes")
 @pytest.mark.parametrize("name", NAMES)
 def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name):
     with matplotlib.rc_context(STYLE):
-        titled, paper = composed[name](PLAIN), composed[name](parse_figure("pdf:single"))
+        titled, paper = composed[name](PLAIN), composed[name](*parse_figure("pdf:single"))
     assert paper.get_figwidth() == pytest.approx(WIDTHS["single"])
     said = [text.get_text() for text in paper.findobj(matplotlib.text.Text)]
     assert not any(scene.title in text for text in said)
@@ -124,7 +129,7 @@ def test_the_same_picture_is_the_same_bytes_with_its_fonts(composed, tmp_path, n
     written = []
     for _ in range(2):
         with matplotlib.rc_context(STYLE):
-            save(composed[name](parse_figure("pdf")), files)
+            save(composed[name](*parse_figure("pdf")), files)
         written.append([path.read_bytes() for path in files])
     assert written[0] == written[1]
     pdf, svg = written[0]
@@ -158,10 +163,12 @@ def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect):
 def test_the_option(tmp_path, capsys):
     out = tmp_path / "out"
     arguments = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
-    assert run(*arguments, "--figure", "svg,pdf", "--out", str(out)) == 0
+    assert run(*arguments, "--figure", "svg:single,pdf", "--out", str(out)) == 0
     files = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["runs"]["modes"]["files"]
     drawn = {name for name in files if name.endswith((".png", ".pdf", ".svg"))}
     assert drawn == {"modes.svg", "modes.pdf"} and all((out / name).is_file() for name in drawn)
+    assert f'width="{72.0 * WIDTHS["single"]:f}pt"' in (out / "modes.svg").read_text(encoding="utf-8")
+    assert f"/MediaBox [ 0 0 {72.0 * WIDTHS['double']:.8f}".encode() in (out / "modes.pdf").read_bytes()
     capsys.readouterr()
     assert run(*arguments, "--figure", "svg") == 2
     assert "--figure: no effect without --out" in one_line(capsys)

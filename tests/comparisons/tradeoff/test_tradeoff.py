@@ -208,7 +208,7 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene):
         for spec, seconds, error in made
     ]
     found = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
-    for look in (PLAIN, parse_figure("pdf:single")):
+    for look in (PLAIN, *parse_figure("pdf:single")):
         drawn = compose(found, look)
         drawn.draw_without_rendering()
         boxes = {t.get_text(): t.get_window_extent() for t in drawn.axes[0].texts}

@@ -26,7 +26,6 @@ from lumped.statics.solver import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, require_no_branches
 from sheetbench.scenes.meaning.distances import obstacles_by_name
-from sheetbench.scenes.meaning.natural_state import sources_of
 from sheetbench.scenes.objects.supports import named
 
 
@@ -279,6 +278,6 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
     changes = [f"{name} moves over time; here it is where it ends" for name in moving]
     if any(load.history is not None for load in courses):
         changes.append("loads change over time in this scene; here they have their last values")
-    if any(source.of.history is not None for source in sources_of(scene)):
+    if any(state.history is not None for state in scene.natural_states.values()):
         changes.append("the natural state changes over time; here it has its last value")
     return tuple(changes)

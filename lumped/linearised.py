@@ -218,7 +218,8 @@ def _inputs(
             place[row if holds_director(support) else row[free], axis] = 1.0
             moved = place.ravel()
             columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
-    for name in (f"{of}.{key}" for of in scene.natural_states for key in ("kxx", "kyy", "kxy")):
+    bent = [of for of in scene.natural_states if of != "temperature"]
+    for name in (f"{of}.{key}" for of in bent for key in ("kxx", "kyy", "kxy")):
         _, pull, _ = rates(scene, calibration, problem, u, name)
         columns.append((name, pull.ravel(), nothing, nothing))
     names, *values = zip(*columns, strict=True)

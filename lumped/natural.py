@@ -28,34 +28,42 @@ from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
-Array = np.ndarray
-Maker = Callable[[Array, Array], Family]  # of strains and curvatures of cells (rows, columns, 2, 2)
-
 
 def with_natural(
     lattice: Lattice, families: Sequence[Family], state: NaturalState
-) -> Callable[[Array, Array], list[Family]]:
+) -> Callable[..., list[Family]]:
     """Return what makes the families of a sheet that is not flat at rest, of its cells' strain and curvature.
     Raises BadInput for springs of a per-direction law."""
 
-    def maker(family: Family) -> Maker:
+    def maker(family: Family) -> Callable[..., Family]:
         if isinstance(family, DirectionalLinks):
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
-            sides, stiffness = np.stack(2 * [family.offset[:, None]]), family.stiffness
+            sides, stiffness = np.stack(2 * [family.offset[:, None]]), family.stiffness  # (2, m, p, 3)
             cells, shares = _cells_of(lattice, family)
         elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
             sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
             cells = np.arange(lattice.cell_areas.size)[lattice.kept]
             cells = np.tile(cells, len(family) // len(cells))[:, None]
             shares = np.ones(cells.shape)
-            stiffness = _of_natural_sides(family, state.at()[0].reshape(-1, 2, 2)[cells[:, 0]])
+            grown = family.sides.copy()
+            grown[..., :2] += family.sides[..., :2] @ state.at()[0].reshape(-1, 2, 2)[cells[:, 0]]
+            natural = of_stiffness(family.stiffness, grown, np.abs(np.linalg.det(grown[..., :2])))
+            drawn = of_stiffness(np.ones_like(family.stiffness), family.sides, family.area)
+            stiffness = (natural / drawn)[:, : family.stiffness.shape[1]]  # [N/m] for sides as drawn
         else:
             return lambda strain, curvature: family
+        flat, plan = sides.prod(axis=0).sum(axis=-1).T, sides[:, :, None, :, :2]  # products (p, m)
         ends = lattice.positions[family.nodes[:, :2], 2].reshape(len(family), 2, -1).mean(axis=2)
 
-        def make(*forms: Array) -> Family:
-            natural = _natural(sides, ends, cells, shares, *forms)
+        def make(*forms: np.ndarray) -> Family:
+            """The family with √g₀ of links or √det g₀ of cells and δg₀ (1 + p, m)."""
+            e, k = (form.reshape(-1, 2, 2)[cells] for form in forms)
+            moved = [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends.T, strict=True)]
+            change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
+            by = np.einsum("mq,mqpi->pm", shares, change)
+            g = flat + by
+            natural = np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])
             if isinstance(family, Links):
                 return replace(family, rest_length=natural[0], natural=natural)
             return replace(family, stiffness=stiffness, natural=natural)
@@ -76,24 +84,3 @@ def _cells_of(lattice: Lattice, links: Links) -> tuple[np.ndarray, np.ndarray]:
     order = np.argsort(every)
     place = order[np.searchsorted(every[order], own)]
     return cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)
-
-
-def _of_natural_sides(cells: SpringCells, strain: np.ndarray) -> np.ndarray:
-    """Stiffness (c, 4 or 7) [N/m] for drawn sides that is that of the springs for sides grown by a strain."""
-    grown = cells.sides.copy()
-    grown[:, :, :2] += cells.sides[:, :, :2] @ strain
-    natural = of_stiffness(cells.stiffness, grown, np.abs(np.linalg.det(grown[:, :, :2])))
-    drawn = of_stiffness(np.ones_like(cells.stiffness), cells.sides, cells.area)
-    return (natural / drawn)[:, : cells.stiffness.shape[1]]
-
-
-def _natural(sides: Array, ends: Array, cells: Array, shares: Array, *forms: Array) -> Array:
-    """Return √g₀ of a link or √det g₀ of a cell, then δg₀ of products of sides (2, m, p, 3) at heights (m, 2)
-    [m], (1 + p, m), by strains and curvatures of cells (rows, columns, 2, 2)."""
-    e, k = (form.reshape(-1, 2, 2)[cells] for form in forms)
-    (a, b), plan = sides[:, :, None], sides[:, :, None, :, :2]
-    moved = [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends.T, strict=True)]
-    change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
-    by = np.einsum("mq,mqpi->pm", shares, change)
-    g = (a * b).sum(axis=-1)[:, 0].T + by
-    return np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])

@@ -83,7 +83,7 @@ class DiscreteElements(Discrete):
 
     def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
         before, after, element = self.gather(start), self.gather(end), self.element
-        first, last = (element.strain(change, self.own_strain(time)) for change in (before, after))
+        first, last = (self.strain(change, time) for change in (before, after))
         stress = element.stress(0.5 * (first + last))
         if self.tau:
             rate = (last - first) / h
@@ -154,19 +154,17 @@ class DiscreteElements(Discrete):
         slow.bodies = [body.dragged(shape, drag) for body in self.bodies]
         return slow
 
-    def strain(self, q: np.ndarray, at: float = 1.0) -> np.ndarray:
-        """Return the elements' strains (m, k) less the natural ones."""
-        return self.element.strain(self.gather(q), self.own_strain(at))
+    def strain(self, change: np.ndarray, at: float) -> np.ndarray:
+        """Return strains (m, k) of a change of the elements' vectors (m, a, 3), less the natural ones."""
+        found = self.element.strain(change)
+        return found if self.natural is None else found - self.natural.at(*self.instant(at))
 
     def strains(self, q: np.ndarray) -> Strained:
-        strain = self.strain(q)
-        return strain, self.element.stress(strain)
+        shape = self.shape(q, 1.0)
+        return shape.strain, shape.elastic
 
     def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
         return self.element.energies(shape.strain)
-
-    def elastic(self, shape: SheetShape) -> float:
-        return sum(self.energies_by_part(shape).values())
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         shape, element = self.shape(q, 0.0), self.element

@@ -54,7 +54,7 @@ class SheetShape:
     @cached_property
     def strain(self) -> Any:
         """(m, k), from the sheet's natural state."""
-        return self.sheet.element.strain(self.change, self.sheet.own_strain(self.at))
+        return self.sheet.strain(self.change, self.at)
 
     @cached_property
     def elastic(self) -> Any:

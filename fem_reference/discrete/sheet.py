@@ -35,12 +35,11 @@ from fem_reference.surface import loads
 from fem_reference.surface.actuator_forces import OnEdge, exerted
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.supports import Supports
-from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.meaning.motion import kinks
-from sheetbench.scenes.meaning.natural_state import NaturalState, sources_of
+from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 
 Binding = Callable[[Scene], BoundRods]
@@ -71,11 +70,6 @@ class Discrete(Output):
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
         material = scene.material
-        relaxes = moving and material.branches.times
-        if relaxes and any(one.of.history is not None for one in sources_of(scene)):
-            raise BadInput(
-                f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
-            )
         self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
         self.items: list[SheetItem] = []
@@ -157,11 +151,6 @@ class Discrete(Output):
     def kinks(self) -> np.ndarray:
         """Times [s] at which something prescribed bends its course."""
         return np.array(kinks(self.scene))
-
-    def own_strain(self, at: float) -> Any:
-        """What the model makes of the sheet's natural state at a load factor or time [s]; None where it has
-        none."""
-        return None if self.natural is None else self.natural.at(*self.instant(at))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""
@@ -295,9 +284,9 @@ class Discrete(Output):
     def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
         """Strain energy [J] of the sheet by part."""
 
-    @abstractmethod
     def elastic(self, shape: SheetShape) -> float:
         """Strain energy [J] of the sheet."""
+        return sum(self.energies_by_part(shape).values())
 
     @abstractmethod
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:

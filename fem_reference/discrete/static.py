@@ -52,7 +52,7 @@ class Static(Creeping[StaticState, Forces]):
     """A sheet of elements, ready for `trace_path`."""
 
     def __init__(self, sheet: DiscreteElements):
-        self.sheet = sheet
+        self.sheet, self.prestrained = sheet, sheet.natural is not None
 
     @property
     def symmetric(self) -> bool:
@@ -61,10 +61,6 @@ class Static(Creeping[StaticState, Forces]):
     @property
     def unknowns(self) -> int:
         return self.sheet.unknowns
-
-    @property
-    def prestrained(self) -> bool:
-        return self.sheet.natural is not None
 
     def rest(self) -> StaticState:
         """Flat, and free of stress where nothing acts on it."""
@@ -93,7 +89,7 @@ class Static(Creeping[StaticState, Forces]):
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
         if sheet.natural is not None:  # often all that loads it
-            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.own_strain(load_factor)))
+            pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.at(load_factor)))
             size += sheet.measured(sheet.scatter(pull), sheet.scale)
         residual -= external
         on_rods = tuple(body.stress(shape) for body in sheet.bodies)

@@ -10,7 +10,7 @@ displacements and ρh³/12 on the tilts.
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import ClassVar
+from typing import ClassVar, cast
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
@@ -90,7 +90,7 @@ class DiscretePlate(Discrete):
 
     def at_rest(self, at: float) -> OwnStrains:
         """What it has without stress at a load factor or time [s]."""
-        return self.own_strain(at) or OwnStrains()
+        return OwnStrains() if self.natural is None else cast(OwnStrains, self.natural.at(*self.instant(at)))
 
     @cached_property
     def stiffness(self) -> csr_matrix:
@@ -218,10 +218,6 @@ class DiscretePlate(Discrete):
             force = (section @ strain[..., None])[..., 0]
             out[name] = 0.5 * float(np.einsum("mq,mqi,mqi", self.elements.areas, strain, force))
         return out
-
-    def elastic(self, shape: SheetShape) -> float:
-        q, own = shape.q, self.at_rest(shape.at)
-        return 0.5 * self.stiffness_of(q, q, q) - float(np.sum(own.force * q)) + own.stored
 
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         return float(step @ (self.stiffness @ other))

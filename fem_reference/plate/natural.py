@@ -13,11 +13,10 @@ from fem_reference.surface.materials import Section
 
 
 class OwnStrains(NamedTuple):
-    """Membrane and bending strains (m, 9, 3) without stress; f (N,) [N, N·m] on all unknowns; W₀ [J]."""
+    """Membrane and bending strains (m, 9, 3) without stress; f (N,) [N, N·m] on all unknowns."""
 
     strains: tuple[np.ndarray | float, np.ndarray | float] = (0.0, 0.0)
     force: np.ndarray | float = 0.0
-    stored: float = 0.0
 
 
 def own_strains(
@@ -26,10 +25,9 @@ def own_strains(
     """Return those of e0 and k0 at the Gauss points (m, 9, 2, 2)."""
     xx_yy_2xy = np.array([1.0, 1.0, 2.0])
     strains = [xx_yy_2xy * form[..., [0, 1, 0], [0, 1, 1]] for form in (strain, -curvature)]
-    force, stored = np.zeros(size), 0.0
+    force = np.zeros(size)
     parts = (elements.membrane, section.membrane), (elements.curvature, section.bending)
     for (operator, stiffness), own in zip(parts, strains, strict=True):
         stress = elements.areas[..., None] * (stiffness @ own[..., None])[..., 0]
         np.add.at(force, elements.unknowns, np.einsum("mqic,mqi->mc", operator, stress))
-        stored += 0.5 * float(np.sum(own * stress))
-    return OwnStrains((strains[0], strains[1]), force, stored)
+    return OwnStrains((strains[0], strains[1]), force)

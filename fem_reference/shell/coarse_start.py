@@ -60,7 +60,7 @@ def plain(path: Path[StaticState, Forces]) -> bool:
 def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[StaticState]:
     """The state of a shell from the coordinates (N,) of another."""
     plan, at, finer = coarser.plan, coarser.element.reference[:, :9, :2], sheet.element
-    strain = at_nodes(at, plan.elements, coarser.strain(q)[:, MEMBRANE])
+    strain = at_nodes(at, plan.elements, coarser.shape(q, 1.0).strain[:, MEMBRANE])
     changes = q[: 6 * coarser.nodes].reshape(2, -1, 3)
     every = np.concatenate([*changes, strain.reshape(-1, 4)], axis=1)
     found = interpolate(plan.mesh, plan.elements, every, sheet.plan.nodes)

@@ -26,6 +26,7 @@ from fem_reference.discrete.shape import SheetShape
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.mass import mass_matrix, products
+from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
@@ -53,7 +54,7 @@ class DiscreteShell(DiscreteElements):
     def __init__(self, plan: Plan, scene: Scene, element: Element, conservative: bool, moving: bool = False):
         super().__init__(scene, moving)
         self.plan, self.element, self.conservative = plan, element, conservative
-        self.natural = element.natural
+        self.natural = natural_strains(scene, plan.corners)
         self.any_strain = element.stands_any_strain
         n = self.nodes
 
@@ -306,7 +307,7 @@ class DiscreteShell(DiscreteElements):
         return inverted(self.element, self.gather(q))
 
     def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
-        return membrane_strain(self.element, self.strain(q, at))
+        return membrane_strain(self.element, self.shape(q, at).strain)
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return q.reshape(-1, 3)[: self.nodes]

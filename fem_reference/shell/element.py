@@ -26,7 +26,7 @@ digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mod
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -47,7 +47,6 @@ from fem_reference.surface.biquadratic import (
 from fem_reference.surface.materials import Section
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes.meaning.natural_state import NaturalState
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
 GRIDS = {**TYING, "rs": (THREE, THREE)}
@@ -95,13 +94,11 @@ _OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]; natural:
-    strains (m, 54) of a sheet that is not flat at rest."""
+    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]."""
 
     reference: np.ndarray
     stiffness: np.ndarray
     areas: np.ndarray
-    natural: NaturalState | None = field(default=None, kw_only=True)
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
@@ -121,11 +118,10 @@ class Element:
         found: np.ndarray = np.linalg.norm(across, axis=2)
         return found
 
-    def strain(self, change: np.ndarray, natural: np.ndarray | None = None) -> np.ndarray:
+    def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
-        their derivatives half way, which keeps the digits of a small one; less the natural ones."""
-        found = strain_of(self.reference + 0.5 * change, change)
-        return found if natural is None else found - natural
+        their derivatives half way, which keeps the digits of a small one."""
+        return strain_of(self.reference + 0.5 * change, change)
 
     def operator(self, change: np.ndarray) -> np.ndarray:
         """Nodal vectors Q (m, 18, 3), which B = H Q is made of, at a change q (m, 18, 3)."""
@@ -186,9 +182,9 @@ class DraggedElement(Element):
 
     past: np.ndarray
 
-    def strain(self, change: np.ndarray, natural: np.ndarray | None = None) -> np.ndarray:
+    def strain(self, change: np.ndarray) -> np.ndarray:
         """e − past (m, 54)."""
-        return super().strain(change, natural) - self.past
+        return super().strain(change) - self.past
 
 
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:

@@ -9,7 +9,6 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,7 +23,7 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import grown, natural_strains
+from fem_reference.shell.natural import grown
 from fem_reference.shell.validity import STRETCHED, inspector
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section, section_at
@@ -39,7 +38,6 @@ from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.scenes import Scene, require_uniform
-from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.rigid_motions import require_static
 
 LIMITS = Limits()
@@ -204,12 +202,10 @@ def _elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) ->
     default, of a section."""
     nodes = plan.corners
     material, thickness = scene.material, scene.sheet.thickness
-    require_law(law, LAWS, material)
+    require_law(law, LAWS, scene)
     if law == STRAIN_LAW:
         own = section or section_at(scene, nodes)
-        plain = Element.build(nodes, grown(own, scene, nodes))
-        return replace(plain, natural=natural_strains(scene, nodes))
-    require_flat_at_rest(scene, f"the shell's law '{law}'")
+        return Element.build(nodes, grown(own, scene, nodes))
     require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
     if section is not None:
         raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")

@@ -42,7 +42,7 @@ def inspector(graded: bool) -> Inspect[StaticState, Forces]:
             return Fault(Status.INVERTED, found)
         assert isinstance(sheet.element, Element)
         thickness = sheet.scene.sheet.thickness
-        bent = stretch(sheet.element, sheet.strain(q, path.load_factor), thickness) if graded else 0.0
+        bent = stretch(sheet.element, sheet.shape(q, path.load_factor).strain, thickness) if graded else 0.0
         return STRETCHED if bent > STRETCH_LIMIT and stability(path)[0] is not Status.CONVERGED else None
 
     return inspect

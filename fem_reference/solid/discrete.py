@@ -58,8 +58,8 @@ class DiscreteSolid(DiscreteElements):
         self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
-        self.element = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
-        self.natural, self._products = self.element.natural, plain.products
+        self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
+        self._products = plain.products
         self.per_vector = np.ones(27)
 
         def bind(of: Scene) -> BoundRods:

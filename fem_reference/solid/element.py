@@ -41,7 +41,6 @@ from fem_reference.surface.biquadratic import THREE, TYING, lagrange
 from fem_reference.surface.materials import pulled_back
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Constants, Material
-from sheetbench.scenes.meaning.natural_state import NaturalState
 
 NODES = 27
 RETAINED_SHEAR = (
@@ -104,8 +103,7 @@ def reference() -> Reference:
 class Bricks:
     """m elements of one material, or each of its own constants (m, 1). positions: X (m, 27, 3) [m].
 
-    to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³]; natural: strains (m, k) of
-    a sheet that is not flat at rest.
+    to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³].
     """
 
     positions: np.ndarray
@@ -113,7 +111,6 @@ class Bricks:
     material: Material | Constants
     to_strain: np.ndarray
     volumes: np.ndarray
-    natural: NaturalState | None = None
 
     @classmethod
     def build(cls, positions: np.ndarray, law: SolidLaw, material: Material | Constants) -> Bricks:
@@ -135,11 +132,9 @@ class Bricks:
         """Λ [Pa], (1,) or (m, 1)."""
         return np.atleast_1d(self.law.bulk(self.material))
 
-    def strain(self, change: np.ndarray, natural: np.ndarray | None = None) -> np.ndarray:
-        """Sampled strains (m, k) of displacements (m, 27, 3), ½ (x H x − X H X) = ½ u H (2X + u), less the
-        natural ones."""
-        found = 0.5 * np.einsum("ekic,eic->ek", self.gradient(self.positions + change), change)
-        return found if natural is None else found - natural
+    def strain(self, change: np.ndarray) -> np.ndarray:
+        """Sampled strains (m, k) of displacements (m, 27, 3), ½ (x H x − X H X) = ½ u H (2X + u)."""
+        return 0.5 * np.einsum("ekic,eic->ek", self.gradient(self.positions + change), change)
 
     def gradient(self, change: np.ndarray) -> np.ndarray:
         """B = ∂e/∂u (m, k, 27, 3) at displacements (m, 27, 3)."""

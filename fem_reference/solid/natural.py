@@ -13,17 +13,17 @@ from fem_reference.surface.materials import pulled_back
 from fem_reference.surface.natural import green
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import of_sheet
-from sheetbench.scenes.meaning.natural_state import natural_at
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
-def at_rest(plain: Bricks, scene: Scene) -> Bricks:
-    """Return the bricks of a scene from those of the sheet as drawn."""
+def at_rest(plain: Bricks, scene: Scene) -> tuple[Bricks, NaturalState | None]:
+    """Return the bricks of a scene from those of the sheet as drawn, and their natural strains (m, k)."""
     sampled = np.concatenate([np.array(sites) for sites in SAMPLED]).T
     sites = shape((sampled + 1.0) / 2.0)[0].T @ plain.positions  # (m, k, 3)
     points = shape(reference().points)[0].T @ plain.positions[..., :2]
     state, mid_surface = natural_at(scene, sites[..., :2]), natural_at(scene, points)
     if state is None or mid_surface is None:
-        return plain
+        return plain, None
     plies = of_sheet(scene).plies
     middle = -(plies[0].low + 0.5) * scene.sheet.thickness if plies else 0.0
     height = (sites[..., 2] - middle)[..., None, None]
@@ -37,4 +37,4 @@ def at_rest(plain: Bricks, scene: Scene) -> Bricks:
     stretch[..., :2, :2] += mid_surface.at()[0]
     on = pulled_back(np.linalg.inv(stretch), PAIRS) @ plain.to_strain
     volumes = np.linalg.det(stretch) * plain.volumes
-    return replace(plain, to_strain=on, volumes=volumes, natural=state.made(sample))
+    return replace(plain, to_strain=on, volumes=volumes), state.made(sample)

@@ -35,7 +35,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Fault, Path, Progress
 from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, require_uniform
-from sheetbench.scenes.meaning.composition import constants_at, of_sheet, require_flat_at_rest
+from sheetbench.scenes.meaning.composition import constants_at, of_sheet
 from sheetbench.scenes.meaning.rigid_motions import require_static
 from sheetbench.scenes.objects.orthotropy import Ply, impossible_in_space
 
@@ -199,12 +199,10 @@ def discretise(
 def _columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
     """The columns of a scene's solid over a mesh, and what its bricks are made of."""
     require_upright(mesh)
-    require_law(law, LAWS, scene.material)
+    require_law(law, LAWS, scene)
     if layers < 1:
         raise BadInput(f"layers = {layers}: at least one through the thickness")
     _require_meshable(scene, law)
-    if law != STRAIN_LAW:
-        require_flat_at_rest(scene, f"the solid's law '{law}'")
     layers = bricks_through(scene, layers)
     columns = Columns.on(mesh, scene.sheet, layers)
     if scene.uniform:

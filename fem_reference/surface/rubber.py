@@ -11,8 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from sheetbench.answers.solution import Status
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Material
+from sheetbench.scenes import Material, Scene
+from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.objects.material import WORDS, Energy, limit_note
 
 
@@ -38,10 +40,13 @@ def slopes(energy: Energy, x: np.ndarray) -> Slopes:
     return Slopes(-c10 * (limit * np.log(left) + x), c10 * x / (limit * left), c10 / (limit * left**2))
 
 
-def require_law(law: str, laws: Iterable[str], material: Material) -> None:
-    """Raise BadInput for a law that there is not, or one whose constants the material does not have."""
+def require_law(law: str, laws: Iterable[str], scene: Scene) -> None:
+    """Raise BadInput for a law that there is not, or one whose constants the material does not have;
+    Impossible for any but the default of a sheet that is not flat at rest."""
     require_choice("law", law, laws)
-    if law in WORDS and material.law != law:
+    if law != STRAIN_LAW:
+        require_flat_at_rest(scene, f"law '{law}'")
+    if law in WORDS and scene.material.law != law:
         keys = " and ".join(WORDS[law].keys)
         raise BadInput(
             f"law = '{law}': the material has no constants of it; give the scene [material] law = '{law}' "

@@ -97,14 +97,10 @@ class System:
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
         self.growing = self.natural if self.natural is not None and self.natural.moves else None
-        if self.maxwell is not None and self.growing is not None:
-            raise BadInput(
-                f"{scene.natural_by}: with a history it takes no Maxwell branches; leave either out"
-            )
         if self.maxwell is not None and self.assembly.precision == "single":
             raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
-        others = self.maxwell is not None or self.natural is not None
-        self._elastic_separate = others or self.assembly.precision == "single"
+        plain = self.maxwell is None and self.natural is None and self.assembly.precision == "double"
+        self.packed = plain  # whether the compiled loops over `packing` have the springs' forces
         self.prescribed = PrescribedMotion(scene, problem)
 
     @property
@@ -130,15 +126,14 @@ class System:
     def internal(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, float, np.ndarray]:
         """Elastic energy, power taken by the dampers, and both their forces, actuators with their multipliers
         included."""
-        energy, force = self.elastic(u, time) if self._elastic_separate else (0.0, np.zeros_like(u))
-        stored, power = add_forces(
-            u, v, not self._elastic_separate, self.packing.damped, self.packing, self.scratch, force
-        )
+        energy, force = (0.0, np.zeros_like(u)) if self.packed else self.elastic(u, time)
+        damped = self.packing.damped
+        stored, power = add_forces(u, v, self.packed, damped, self.packing, self.scratch, force)
         power += self.damping.add_other_forces(u, v, force)
-        if self.coupling is not None and not self._elastic_separate:
+        if self.coupling is not None and self.packed:
             energy += self.coupling.add_force(u, self.drive(time), force)
         for item in self.items:
-            energy += 0.0 if self._elastic_separate else item.add_force(u, self.drive(time), force)
+            energy += item.add_force(u, self.drive(time), force) if self.packed else 0.0
             power += item.add_resistance(u, v, self.drive(time), force)
         return energy + stored, power, force
 
@@ -152,7 +147,7 @@ class System:
         force = np.zeros_like(u)
         if self.maxwell is not None:
             energy = self.maxwell.add_force(u, force)
-        elif self._elastic_separate:
+        elif not self.packed:
             energy, force = self.assembly.at(time=time).force(u)
         else:
             energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
@@ -310,8 +305,6 @@ class System:
     @property
     def least_energy(self) -> float:
         """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
-        if self.natural is None:
-            return 0.0
         return ROUNDED * self.assembly.force(np.zeros((self.assembly.pattern.size, 3)))[0]
 
 

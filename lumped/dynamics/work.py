@@ -6,7 +6,6 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.system import State, System
-from sheetbench.scenes.meaning.natural_state import NaturalState
 
 NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 
@@ -71,7 +70,8 @@ def natural_work(system: System, u: np.ndarray, then: float, now: float) -> floa
     """Return the work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
     if (state := system.growing) is None:
         return 0.0
-    return _gain(state, u, state.factors(then), state.factors(now))
+    before, after = (state.at(time=time).force(u)[0] for time in (then, now))
+    return float(after - before)
 
 
 def natural_power(system: System, u: np.ndarray, time: float, before: bool = False) -> float:
@@ -80,10 +80,5 @@ def natural_power(system: System, u: np.ndarray, time: float, before: bool = Fal
     if (state := system.growing) is None or not (rate := state.rates(time, before)).any():
         return 0.0
     at, step = state.factors(time), NATURAL_STEP / np.abs(rate).max()
-    return _gain(state, u, at - step * rate, at + step * rate) / (2.0 * step)
-
-
-def _gain(state: NaturalState, u: np.ndarray, *factors: np.ndarray) -> float:
-    """Return how much more energy [J] the springs have at the second factors of their state."""
-    before, after = (state.of(each).force(u)[0] for each in factors)
-    return float(after - before)
+    before, after = (state.of(at + way * step * rate).force(u)[0] for way in (-1.0, 1.0))
+    return float(after - before) / (2.0 * step)

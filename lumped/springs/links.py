@@ -50,21 +50,16 @@ def difference(u: np.ndarray, nodes: np.ndarray, m: int) -> Vector:
 
 
 @njit(cache=True, error_model="numpy")
-def measure(u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, m: int) -> tuple[float, float, Vector]:
-    """δg, g and r of link m."""
+def measure(
+    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest: np.ndarray, m: int
+) -> tuple[float, float, float, Vector]:
+    """δg, g, the length at rest [m] and r of link m; numba compiles one way out, by the kind of `rest`."""
     d = difference(u, nodes, m)
     r = offset[m, 0] + d[0], offset[m, 1] + d[1], offset[m, 2] + d[2]
     change = (offset[m, 0] + r[0]) * d[0] + (offset[m, 1] + r[1]) * d[1] + (offset[m, 2] + r[2]) * d[2]
-    return change, dot(r, r), r
-
-
-@njit(cache=True, error_model="numpy")
-def natural(change: float, rest: np.ndarray, m: int) -> tuple[float, float]:
-    """δg since link m is as long as it naturally is, and that length [m]. numba compiles one of these lines,
-    by the kind of array."""
     if rest.ndim == 1:
-        return change, rest[m]
-    return change - rest[1, m], rest[0, m]
+        return change, dot(r, r), rest[m], r
+    return change - rest[1, m], dot(r, r), rest[0, m], r
 
 
 @njit(cache=True, error_model="numpy")
@@ -81,8 +76,7 @@ def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
     """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
     energy = 0.0
     for m in range(len(links.nodes)):
-        change, square, r = measure(u, links.nodes, links.offset, m)
-        change, length = natural(change, links.rest_length, m)
+        change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         stored, stress, _, _ = elongation(HALF, change, square, length, links.constants[m])
         energy += stored
         pull(links.nodes, m, stress + stress, r, force)
@@ -103,8 +97,7 @@ def add_remembering_forces(
     and δg (m, 1)."""
     energy = 0.0
     for m in range(len(links.nodes)):
-        d, square, r = measure(u, links.nodes, links.offset, m)
-        d, length = natural(d, links.rest_length, m)
+        d, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         stored, s, _, _ = elongation(HALF, d, square, length, links.constants[m])
         stress[m, 0], change[m, 0] = s, d
         energy += stored
@@ -117,8 +110,7 @@ def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
     """Elongation of every link, (m,) [m]."""
     out = np.empty(len(links.nodes))
     for m in range(len(links.nodes)):
-        change, square, _ = measure(u, links.nodes, links.offset, m)
-        change, length = natural(change, links.rest_length, m)
+        change, square, length, _ = measure(u, links.nodes, links.offset, links.rest_length, m)
         out[m] = change / (np.sqrt(square) + length)
     return out
 
@@ -132,8 +124,7 @@ def largest_strains(states: np.ndarray, links: LinkArrays) -> np.ndarray:
         least = most = 0.0
         for m in range(len(links.nodes)):
             if links.offset[m, 2] == 0.0:
-                change, _, _ = measure(states[k], links.nodes, links.offset, m)
-                change, length = natural(change, links.rest_length, m)
+                change, _, length, _ = measure(states[k], links.nodes, links.offset, links.rest_length, m)
                 share = change / (length * length)
                 least, most = min(least, share), max(most, share)
         out[k] = max(most / (1.0 + np.sqrt(1.0 + most)), -least / (1.0 + np.sqrt(1.0 + least)))
@@ -146,8 +137,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: boo
     the stress S + D ġ, which goes with that of rubber, links along whose sides its cells take off again."""
     out = np.empty(len(links.nodes))
     for m in range(len(links.nodes)):
-        change, square, r = measure(u, links.nodes, links.offset, m)
-        change, length = natural(change, links.rest_length, m)
+        change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         _, stress, material, rest = elongation(HALF, change, square, length, links.constants[m])
         along = 2.0 * dot(r, difference(step, links.nodes, m))
         if strain:
@@ -162,10 +152,8 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, fo
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean r, since the change of g is 2 r̄·Δr."""
     for m in range(len(links.nodes)):
-        change0, square0, r0 = measure(start, links.nodes, links.offset, m)
-        change1, square1, r1 = measure(end, links.nodes, links.offset, m)
-        change0, length = natural(change0, links.rest_length, m)
-        change1, _ = natural(change1, links.rest_length, m)
+        change0, square0, length, r0 = measure(start, links.nodes, links.offset, links.rest_length, m)
+        change1, square1, _, r1 = measure(end, links.nodes, links.offset, links.rest_length, m)
         l0, l1 = np.sqrt(square0), np.sqrt(square1)
         e0, e1 = change0 / (l0 + length), change1 / (l1 + length)
         stress = mean_elongation(l0, l1, e0, e1, links.constants[m])
@@ -188,8 +176,7 @@ def add_tangent(
     flat = blocks.reshape(-1, 9)
     own = len(stress) == 0
     for m in range(len(links.nodes)):
-        change, square, r = measure(u, links.nodes, links.offset, m)
-        change, length = natural(change, links.rest_length, m)
+        change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         _, at_u, material, rest = elongation(HALF, change, square, length, links.constants[m])
         s, curved = share * at_u if own else stress[m], share * rest
         if extrapolated:
@@ -203,7 +190,7 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, links: LinkArrays, blocks:
     """Add the derivative of the damping force by the displacement to the 3×3 blocks, unsymmetric."""
     flat = blocks.reshape(-1, 9)
     for m in range(len(links.nodes)):
-        _, square, r = measure(u, links.nodes, links.offset, m)
+        _, square, _, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         moving = difference(v, links.nodes, m)
         resisting = links.constants[m] / square
         along = dot(r, moving)
@@ -241,9 +228,9 @@ def add_directional_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) 
     """Add the per-direction law's force on the links' ends to `force` (n, 3) [N]."""
     for m in range(len(links.nodes)):
         a, b = links.nodes[m, 0], links.nodes[m, 1]
-        change, square, r = measure(u, links.nodes, links.offset, m)
+        change, square, rest, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         length = np.sqrt(square)
-        e = change / (length + links.rest_length[m])
+        e = change / (length + rest)
         for q in range(3):
             value = links.constants[m, q] * e * r[q] / length
             force[a, q] -= value
@@ -255,10 +242,10 @@ def add_directional_tangent(u: np.ndarray, links: LinkArrays, blocks: np.ndarray
     """Add the tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)], to the 3×3 blocks."""
     n = np.empty(3)
     for m in range(len(links.nodes)):
-        change, square, r = measure(u, links.nodes, links.offset, m)
+        change, square, rest, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         length = np.sqrt(square)
         n[0], n[1], n[2] = r[0] / length, r[1] / length, r[2] / length
-        across = change / (length + links.rest_length[m]) / length
+        across = change / (length + rest) / length
         for p in range(3):
             for q in range(3):
                 value = (1.0 - across) * n[p] * n[q]

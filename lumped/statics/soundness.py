@@ -24,7 +24,8 @@ def first_collapsed(
     for k in range(len(states)):
         least, which = np.inf, 0
         for m in range(len(nodes)):
-            square, rest = measure(states[k], nodes, offset, m)[1], rest_length[m] ** 2
+            _, square, length, _ = measure(states[k], nodes, offset, rest_length, m)
+            rest = length * length
             if square < least * rest:
                 least, which = square / rest, m
         if least < limit * limit:

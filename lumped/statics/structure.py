@@ -56,6 +56,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
 
     def __init__(self, scene: Scene, problem: Problem):
         self.scene, self.problem, self.limits = scene, problem, LIMITS
+        self.prestrained = problem.assembly.natural is not None
         self._moves = bool(problem.prescribed(1.0).any())
         self._iterates = problem.descends and problem.system.unknowns > ITERATED
         if problem.assembly.precision == "single":  # whose corrections never are idle
@@ -68,10 +69,6 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     @property
     def multipliers(self) -> int:
         return self.problem.multipliers
-
-    @property
-    def prestrained(self) -> bool:
-        return self.problem.assembly.natural is not None
 
     def rest(self) -> LatticeState:
         return LatticeState(np.zeros_like(self.problem.loads.dead), 0.0)

@@ -64,8 +64,7 @@ class Scene(SceneFields):
         if self.layers:
             varied = None if self.homogeneous else self.varied_by
             yield "layer: ", varied and f"a laminate is the same all over, without {varied}"
-            heated = self.temperature is not None
-            yield "layer: ", misfit(self.layers, self.sheet, self.material, heated)
+            yield "layer: ", misfit(self.layers, self.sheet, self.material, self.temperature is not None)
         yield "", self._unnatural()
         yield "patch ", mismatched(self.patches, self.material)
         law = None if self.springs is None else self.material.law
@@ -82,6 +81,8 @@ class Scene(SceneFields):
             return ""
         if self.material.law is not None:
             return f"{given}: not of rubber (law = '{self.material.law}'), whose strains it would multiply"
+        if self.material.branches.times and any(one.history for one in self.natural_states.values()):
+            return f"{given}: with a history it takes no Maxwell branches; leave either out"
         if self.natural is not None and self.natural.pretension is not None and not self.homogeneous:
             return f"natural.pretension: beside {self.varied_by}: give strain"
         if self.temperature is not None:

@@ -84,8 +84,7 @@ class CompiledNewton:
     @staticmethod
     def serves(system: System) -> bool:
         """Whether forces are all compiled, and factors lie in a band."""
-        plain = system.coupling is None and system.maxwell is None and system.assembly.precision == "double"
-        plain = plain and system.natural is None
+        plain = system.coupling is None and system.packed
         still = system.problem.conservative and not system.problem.loads.follow
         return plain and still and not system.items and system.problem.system.band is not None
 

@@ -67,9 +67,7 @@ class LatticeObserver:
         ]
         self._width = width(self.columns)
         self._observed: Observed | None = None
-        plain = system.coupling is None and system.maxwell is None and system.natural is None
-        plain = plain and not system.items
-        if plain and system.assembly.precision == "double":
+        if system.packed and system.coupling is None and not system.items:
             masses = system.assembly.pattern.size
             self._observed = Observed(
                 system.packing,

@@ -36,6 +36,8 @@ class Solver(Protocol):
 class Structure(Protocol[State, Forces]):
     """What `trace_path` needs. A structure that inherits this leaves out what has a default here."""
 
+    prestrained: bool = False  # whether a natural strain loads it, which may stress it where it does not move
+
     @property
     def symmetric(self) -> bool:
         """Whether the tangent is."""
@@ -44,11 +46,6 @@ class Structure(Protocol[State, Forces]):
     def multipliers(self) -> int:
         """Constraints among the unknowns: negative eigenvalues of every tangent."""
         return 0
-
-    @property
-    def prestrained(self) -> bool:
-        """Whether a natural strain is among what loads it, which may stress it where it does not move."""
-        return False
 
     def rest(self) -> State:
         """The state that the path sets out from."""

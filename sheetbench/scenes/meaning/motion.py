@@ -13,9 +13,7 @@ from typing import TypeVar
 from sheetbench.scenes.meaning.kinematics import MovedEdge, bent_or_tilted
 from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
 from sheetbench.scenes.objects.fields import AScene, SceneFields
-from sheetbench.scenes.objects.natural import Natural
 from sheetbench.scenes.objects.obstacles import AnyObstacle
-from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.supports import AnySupport, Motion
 from sheetbench.scenes.objects.tables import FactorTable, Loading, OverTime
 
@@ -27,9 +25,8 @@ NO_START = "the motion would start from no stable equilibrium"
 def kinks(scene: SceneFields) -> list[float]:
     """The times [s] at which a history, a command or a motion has a sample, increasing: between them all that
     is prescribed is smooth."""
-    natural = (scene.temperature, *scene.natural_states.values())
     tables: list[OverTime | None] = [
-        load.history for load in (scene.gravity, *scene.loads, *natural) if load is not None
+        one.history for one in (scene.gravity, *scene.loads, *scene.natural_states.values()) if one
     ]
     tables += [*(one.motion for one in (*scene.supports, *scene.obstacles)), *scene.motions().values()]
     commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
@@ -54,9 +51,9 @@ def at_start(scene: AScene) -> AScene:
     return scene.replace(
         initial=None,
         gravity=scene.gravity and _now(scene.gravity) if static else None,
-        natural=scene.natural and _now(scene.natural) if static else None,
-        temperature=scene.temperature and _now(scene.temperature) if static else None,
-        patches=tuple(_bent_now(patch, static) for patch in scene.patches),
+        natural=_state_now(scene.natural, static),
+        temperature=_state_now(scene.temperature, static),
+        patches=tuple(one.replace(natural=_state_now(one.natural, static)) for one in scene.patches),
         loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
         supports=tuple(_placed(support) for support in scene.supports),
         obstacles=tuple(_placed(one).replace(friction=0.0) for one in scene.obstacles),
@@ -73,10 +70,8 @@ def _now(load: Loaded) -> Loaded:
     return load.replace(history=FactorTable(time=(0.0,), factor=(float(load.course.at(0.0)),)))
 
 
-def _bent_now(patch: Patch, static: bool) -> Patch:
-    if patch.natural is None:
-        return patch
-    return patch.replace(natural=_now(patch.natural) if static else Natural())
+def _state_now(state: Loaded | None, static: bool) -> Loaded | None:
+    return state and (_now(state) if static else type(state)())
 
 
 def _placed(held: Held) -> Held:

@@ -121,10 +121,9 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
     if natural := re.fullmatch(r"(?:patch(\d+)\.)?natural\.([ek])(xx|yy|xy)", name):
         if (whose := name.rpartition(".")[0]) not in scene.natural_states:
             raise BadInput(f"'{name}': the scene has no {whose}; give a first guess there")
-        patched, kind, key = natural.groups()
-        own: Path = () if patched is None else ("patches", int(patched) - 1)
-        part = {"e": "strain", "k": "curvature"}[kind]
-        return [(*own, "natural", part, ("xx", "yy", "xy").index(key))]
+        own: Path = ("patches", int(natural[1]) - 1) if natural[1] else ()
+        part = "strain" if natural[2] == "e" else "curvature"
+        return [(*own, "natural", part, ("xx", "yy", "xy").index(natural[3]))]
     if payload := re.fullmatch(r"mass(\d+)", name):
         if not 1 <= int(payload[1]) <= len(scene.masses):
             raise BadInput(f"'{name}': the scene has {len(scene.masses)} masses")

@@ -135,15 +135,16 @@ class SceneFields(Frozen):
         return ", ".join([*fibres, *tapers, *drawn])
 
     @property
-    def natural_states(self) -> dict[str, Natural]:
-        """Natural strains and curvatures, of the sheet and of patches, under their names as parameters."""
-        every = {f"patch{n}.natural": patch.natural for n, patch in enumerate(self.patches, start=1)}
-        return {name: own for name, own in {"natural": self.natural, **every}.items() if own is not None}
+    def natural_states(self) -> dict[str, Natural | Temperature]:
+        """What makes it other than flat and free of stress at rest, under the names as parameters."""
+        own = {f"patch{n}.natural": patch.natural for n, patch in enumerate(self.patches, start=1)}
+        every = {"natural": self.natural, **own, "temperature": self.temperature}
+        return {name: state for name, state in every.items() if state is not None}
 
     @property
     def natural_by(self) -> str:
         """The words by which it is not flat and free of stress at rest, "" where it is."""
-        return ", ".join([*self.natural_states, *(["temperature"] if self.temperature is not None else [])])
+        return ", ".join(self.natural_states)
 
     @property
     def pierced(self) -> bool:

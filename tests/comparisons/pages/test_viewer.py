@@ -68,9 +68,9 @@ def options():
     off = sheets.field("difference", "Difference", bent[:, 2], "mm", 1e3)
     moving = [(0.1 * i, 0.5 * i * bent) for i in range(3)]
     shown = [
-        sheets.drawn("lattice", lattice, "Lattice", scene=scene),
-        sheets.drawn("shell", flat, "Shell", [off], scene),
-        sheets.drawn("motion", flat, "Motion", frames=moving),
+        sheets.viewer_sheet("lattice", lattice, "Lattice", scene=scene),
+        sheets.viewer_sheet("shell", flat, "Shell", [off], scene),
+        sheets.viewer_sheet("motion", flat, "Motion", frames=moving),
     ]
     views = [
         {"name": "shell", "label": "Shell", "sheets": ["shell"], "field": "displacement"},
@@ -79,7 +79,7 @@ def options():
         {"name": "motion", "label": "Motion", "sheets": ["motion"]},
     ]
     eye = sheets.eye(scene)
-    return {"sheets": shown, "views": views, "outline": sheets.outline(scene.sheet), "from": eye}
+    return {"sheets": shown, "views": views, "outline": sheets.outline(scene), "from": eye}
 
 
 @pytest.fixture(scope="module")

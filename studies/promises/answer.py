@@ -4,6 +4,10 @@ bar              kept where the error of a component is within it; at least 95 %
                  median bar of no more than five errors
 expected error   kept where the true error is within a factor of two; at least 80 %, never three times it
 advice           kept where the error of the choice is within the tolerance; at least 95 %
+
+Components of one scene are kept or missed together, so that scenes, not components, are the sample: of n
+scenes with k of m kept each, p = Σ k/Σ m has the standard error √(n/(n − 1) Σ (k − p m)²)/Σ m (a ratio
+estimator: Cochran, Sampling Techniques, 1977, section 6.4).
 """
 
 from __future__ import annotations
@@ -58,6 +62,7 @@ class Share:
     scenes: Annotated[int, NUMBER("d")]
     cases: Annotated[int, NUMBER("d")]
     kept: Annotated[float, PERCENT(".1f")]
+    chance: Annotated[float, PERCENT(".1f", "±")]  # standard error, nan of a single scene
     loose: Annotated[float, NUMBER(".3g", "median promised/actual")]
     farthest: Annotated[float, NUMBER(".3g", "largest actual/promised")]
     cost: Annotated[float | None, NUMBER(".2f", "median of time over the cheapest")]
@@ -120,8 +125,8 @@ class Promises(Answer):
 
     def complaints(self) -> list[str]:
         return [
-            f"{row.promise}, {row.at}: {100.0 * row.kept:.1f} % kept, promised is {few(row.loose)} times the "
-            f"error, at most {few(row.farthest)} times too small"
+            f"{row.promise}, {row.at}: {100.0 * row.kept:.1f} ± {100.0 * row.chance:.1f} % kept, promised is "
+            f"{few(row.loose)} times the error, at most {few(row.farthest)} times too small"
             for row in self.shares()
             if not row.met
         ]
@@ -140,5 +145,18 @@ def share(rows: Sequence[Promise]) -> Share:
     least, loosest, most = next(goal for name, goal in GOALS.items() if rows[0].promise.startswith(name))
     met = kept >= least and not loose > loosest and farthest < most
     cost = float(np.median(costs)) if costs else None
-    scenes = len({row.scene for row in given})
-    return Share(rows[0].promise, rows[0].at, scenes, len(given), kept, loose, farthest, cost, met)
+    scenes = list(dict.fromkeys(row.scene for row in given))
+    chance = _chance([[row.kept for row in given if row.scene == scene] for scene in scenes])
+    return Share(
+        rows[0].promise, rows[0].at, len(scenes), len(given), kept, chance, loose, farthest, cost, met
+    )
+
+
+def _chance(scenes: Sequence[Sequence[bool]]) -> float:
+    """Return the standard error of the share that is kept, of what each scene kept; nan of fewer than two."""
+    n = len(scenes)
+    if n < 2:
+        return float("nan")
+    kept, given = np.array([sum(one) for one in scenes]), np.array([len(one) for one in scenes])
+    off = kept - kept.sum() / given.sum() * given
+    return float(np.sqrt(n / (n - 1) * np.sum(off**2)) / given.sum())

@@ -20,10 +20,11 @@ END = np.array([[0.2, 0.05]])
 
 
 def test_elements_and_cells_are_divided_by_one_rule():
-    """Also where the longer side is as near to one number as to the next."""
-    for length, count, along in ((0.19, 5, 9), (0.27, 15, 41), (0.35, 25, 88)):
-        sheet = Sheet(length_x=length, length_y=0.1, thickness=0.003)
-        assert divisions(sheet, count) == near_square(sheet, count) == (along, count)
+    """Also where the longer side is as near to one number as to the next: to the even one, at any scale."""
+    for length, count, along in ((0.19, 5, 10), (0.27, 15, 40), (0.35, 25, 88)):
+        for scale in (1.0, 0.3, 7.0):
+            sheet = Sheet(length_x=scale * length, length_y=scale * 0.1, thickness=0.003)
+            assert divisions(sheet, count) == near_square(sheet, count) == (along, count)
     assert divisions(LONG, (3, 2)) == (3, 2)
 
 

@@ -34,9 +34,10 @@ class Assembly:
     springs: the families (`lumped.springs.families`), the central `links` first. inertia: how masses that
     move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
     masses in every array. precision: of the internal force. twisting: edges along which nothing holds the
-    director (`Scene.twisting_edges`). natural: the state of cells
-    between lines at x and at y, in full unless `at` a share of it.
+    director (`Scene.twisting_edges`).
     """
+
+    natural: NaturalState | None = None
 
     def __init__(
         self,
@@ -46,7 +47,6 @@ class Assembly:
         couple: Callable[[Lattice], Coupling] | None = None,
         precision: Precision = "double",
         twisting: frozenset[str] = frozenset(),
-        natural: Callable[..., NaturalState | None] = lambda x, y: None,
     ):
         self.lattice: Lattice = build(
             sheet,
@@ -72,13 +72,14 @@ class Assembly:
             self.coupling_slots = self.pattern.slots(*own)
         self.precision = precision
         self._take(springs_of(self.lattice, self.pattern, calibration.springs, precision == "single"))
-        self.natural = state = natural(*(line.at for line in self.lattice.lines))
-        if state is not None:
-            if precision == "single":
-                raise BadInput("precision = 'single': of a sheet that is flat at rest; leave it out")
-            make = with_natural(self.lattice, self.springs, state)
-            self._take(AllFamilies(make(*state.at()), self.pattern))
-            self.natural = state.made(lambda *forms: self._with(make(*forms)))
+
+    def grow(self, state: NaturalState) -> None:
+        """Give its cells a natural state, which springs have in full unless `at` a share of it."""
+        if self.precision == "single":
+            raise BadInput("precision = 'single': of a sheet that is flat at rest; leave it out")
+        make = with_natural(self.lattice, self.springs, state)
+        self._take(AllFamilies(make(*state.at()), self.pattern))
+        self.natural = state.made(lambda *forms: self._with(make(*forms)))
 
     def _take(self, springs: AllFamilies) -> None:
         self.all_families = springs

@@ -21,6 +21,7 @@ from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.sweep.differences import error, relative
 from comparisons.sweep.model_error import ModelError, model_error
+from fem_reference.uncertainty import ROUNDING
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Scene
 
@@ -147,8 +148,10 @@ class Compared:
         return str(solution.settings.get("branch", "path" if several else ""))
 
     def relative_bars(self, solution: Solution) -> dict[str, float]:
-        """Return the bar of a model that has one over its displacement, at the probes where it moves."""
+        """Return the bar of a model that has one over its displacement, at the probes where it moves; 0 where
+        it is rounding."""
         lengths, moved = self.bars.get(solution.model, ()), self.probes(solution)
         both = zip(moved.items(), map(np.linalg.norm, lengths), strict=False)
         sizes = ((probe, float(np.linalg.norm(u)), float(length)) for (probe, u), length in both)
-        return {probe: length / size for probe, size, length in sizes if size > self.least}
+        bars = {probe: length / size for probe, size, length in sizes if size > self.least}
+        return {probe: bar if bar > ROUNDING else 0.0 for probe, bar in bars.items()}

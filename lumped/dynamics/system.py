@@ -31,8 +31,6 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import kinks
 
-ROUNDED = 1e-9  # of the energy of a natural state on the flat sheet
-
 
 @dataclass(frozen=True)
 class State:
@@ -301,11 +299,6 @@ class System:
     def exerted(self, state: State) -> np.ndarray:
         """What supports and actuators exert on their masses, (size, 3)."""
         return self.balance(state)[1]
-
-    @property
-    def least_energy(self) -> float:
-        """Energy [J] below which all is rounding: of a natural state, in whose shape there is none."""
-        return ROUNDED * self.assembly.force(np.zeros((self.assembly.pattern.size, 3)))[0]
 
 
 def _mass_solver(mass: sp.csc_array) -> Callable[[np.ndarray], np.ndarray]:

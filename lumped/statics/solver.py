@@ -139,15 +139,10 @@ def build_problem(
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(
-        scene.sheet,
-        calibration,
-        weights,
-        couple,
-        precision,
-        scene.twisting_edges(),
-        partial(natural_of_cells, scene),
-    )
+    assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
+    lines = assembly.lattice.lines
+    if (state := natural_of_cells(scene, *(line.at for line in lines))) is not None:
+        assembly.grow(state)
     size = max(scene.sheet.lengths)
     alike = same is not None and same.assembly.lattice is assembly.lattice
     if same is not None and alike and couple is None and assembly.natural is None:

@@ -27,6 +27,8 @@ from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.runs.columns import Part, width
 from sheetbench.scenes import outside_model
 
+ROUNDED = 1e-9  # of the energy of the flat sheet, of a natural state, below which all is rounding
+
 
 class Observed(NamedTuple):
     """Springs and dampers; M; mass-proportional damping (n,) [kg/s]; the air's drag; loads with a potential
@@ -47,7 +49,8 @@ class LatticeObserver:
     """The observer (`sheetbench.runs.run`) of a system. drawn: rows of the displacement that make a frame."""
 
     def __init__(self, system: System, drawn: np.ndarray | None = None):
-        self.least_energy = system.least_energy
+        flat = np.zeros((system.assembly.pattern.size, 3))
+        self.least_energy = ROUNDED * system.assembly.force(flat)[0]
         self._system, self._drawn = system, slice(None) if drawn is None else drawn
         scene, lattice = system.scene, system.assembly.lattice
         self._probes = MidSurface(lattice, scene.probe_points())

@@ -93,13 +93,17 @@ def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene):
     rounding = np.array([[1e-18], [0.0]])
     meshes = [fake_solutions.solution(held, "shell", size).sample for size in (-0.01, -0.0101, -0.0103)]
     answers = [sample(held.probe_points()) + i * rounding for i, sample in enumerate(meshes, start=1)]
-    bar = ErrorBar(estimate(answers, [1.0, 4.0 / 3.0, 2.0]), ("held", "free"), (16, 12, 8), 0.0)
-    truth = fake_solutions.solution(held, "shell", sample=lambda points: answers[0])
-    table, *_ = Comparison(held, (fake_solutions.solution(held), truth), bar).tables()
-    names = [column.name for column in table.columns]
-    rows = [dict(zip(names, row, strict=True)) for row in table.rows]
-    shown = {row["probe"]: row["±"] for row in rows if row["model"] == "shell"}
-    assert shown["held"] is None and 0.0 < shown["free"] < 0.1
+
+    def shown(answers):
+        bar = ErrorBar(estimate(answers, [1.0, 4.0 / 3.0, 2.0]), ("held", "free"), (16, 12, 8), 0.0)
+        truth = fake_solutions.solution(held, "shell", sample=lambda points: answers[0])
+        table, *_ = Comparison(held, (fake_solutions.solution(held), truth), bar).tables()
+        names = [column.name for column in table.columns]
+        rows = [dict(zip(names, row, strict=True)) for row in table.rows]
+        return {row["probe"]: row["±"] for row in rows if row["model"] == "shell"}
+
+    assert shown(answers)["held"] is None and 0.0 < shown(answers)["free"] < 0.1
+    assert shown([answers[0] * (1.0 + i * 1e-14) for i in range(3)]) == {"held": None, "free": 0.0}
 
 
 def test_a_companion_that_fails_does_not_make_the_comparison_fail(scene):

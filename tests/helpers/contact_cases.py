@@ -24,6 +24,17 @@ GRAVITY, DENSITY, THICKNESS = 9.81, 1e3, 0.005
 WEIGHT = DENSITY * THICKNESS * 0.1 * GRAVITY  # N, of the strip
 CYLINDER_FORCE, CYLINDER_TIP = 1.458414, -0.36446  # N and m: elastica over a cylinder by shooting
 
+DROP = 0.03  # m, of a strip that falls on a plane
+FALLING = Scene(
+    name="falling",
+    sheet=Sheet(length_x=0.2, length_y=0.05, thickness=0.002),
+    material=Material(young=5e6, poisson=0.3, density=1e3),
+    gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
+    supports=(Clamped(edge="x0"),),
+    obstacles=(Plane(position=(0.0, 0.0, -DROP - 0.001)),),
+)
+FALLEN = 1e3 * 0.002 * 0.01 * GRAVITY * DROP  # W H, J
+
 
 def laid_strip(drop: float, **more: object) -> Scene:
     """A strip of B/w = 0.01 L³ that is clamped at a height above a plane and lies down on it."""

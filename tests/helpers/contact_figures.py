@@ -6,14 +6,24 @@ PYTHONPATH=.:tests/helpers python tests/helpers/contact_figures.py          half
 from __future__ import annotations
 
 import numpy as np
-from contact_cases import GRAVITY, WEIGHT, bent_elastica, bent_over, heavy_elastica, laid_strip, lying_quarter
+from contact_cases import (
+    FALLEN,
+    FALLING,
+    GRAVITY,
+    WEIGHT,
+    bent_elastica,
+    bent_over,
+    heavy_elastica,
+    laid_strip,
+    lying_quarter,
+)
 from scipy.optimize import fsolve
 
 import fem_reference
 import lumped
 from lumped.dynamics.explicit.step_limit import SAFETY, TOUCHING
 from sheetbench.answers.solution import Solution
-from sheetbench.scenes import Clamped, Gravity, Material, Plane, Scene, Sheet
+from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grading import Grading
 
 
@@ -78,25 +88,17 @@ def lying() -> None:
 
 
 def motion() -> None:
-    fall = Scene(
-        name="falling",
-        sheet=Sheet(length_x=0.2, length_y=0.05, thickness=0.002),
-        material=Material(young=5e6, poisson=0.3, density=1e3),
-        gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
-        supports=(Clamped(edge="x0"),),
-        obstacles=(Plane(position=(0.0, 0.0, -0.031)),),
-    )
     for grid in ((7, 3, 2), (11, 5, 2)):
-        springs = lumped.calibrate(fall.sheet, fall.material, grid=grid)
-        history = lumped.simulate(fall, springs, 0.5, every=1e-3)
-        free = lumped.simulate(fall.replace(obstacles=()), springs, 0.01, integrator="verlet")
+        springs = lumped.calibrate(FALLING.sheet, FALLING.material, grid=grid)
+        history = lumped.simulate(FALLING, springs, 0.5, every=1e-3)
+        free = lumped.simulate(FALLING.replace(obstacles=()), springs, 0.01, integrator="verlet")
         parts = history.energies
         whole = sum(parts[name] for name in ("kinetic", "elastic", "potential", "dissipated")) - parts["work"]
         touches = int((np.diff((history.reactions["obstacle 1"][:, 2] > 0.0).astype(int)) == 1).sum())
         shorter = free.settings["largest_step"] / history.settings["largest_step"]
         print(
             f"falls, {grid[0]} x {grid[1]}: {touches} touches, energy off by "
-            f"{100 * np.abs(whole - whole[0]).max() / (1e3 * 0.002 * 0.01 * GRAVITY * 0.03):.2f} %, explicit "
+            f"{100 * np.abs(whole - whole[0]).max() / FALLEN:.2f} %, explicit "
             f"limit {shorter:.3f} times shorter, steps {shorter * SAFETY / TOUCHING:.3f} times"
         )
 

@@ -2,25 +2,15 @@
 
 import numpy as np
 import pytest
-from contact_cases import GRAVITY
+from contact_cases import DROP, FALLEN, GRAVITY
+from contact_cases import FALLING as STRIP
 from scipy.optimize import brentq
 
 import lumped
 from lumped.contact.contact import MOVING
 from lumped.dynamics.explicit.step_limit import SAFETY, TOUCHING
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, Gravity, Held, Material, Motion, Plane, Scene, Sheet
-
-DROP = 0.03
-STRIP = Scene(
-    name="falling",
-    sheet=Sheet(length_x=0.2, length_y=0.05, thickness=0.002),
-    material=Material(young=5e6, poisson=0.3, density=1e3),
-    gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
-    supports=(Clamped(edge="x0"),),
-    obstacles=(Plane(position=(0.0, 0.0, -DROP - 0.001)),),
-)
-FALLEN = 1e3 * 0.002 * 0.01 * GRAVITY * DROP  # W H, J
+from sheetbench.scenes import Gravity, Held, Material, Motion, Plane, Scene, Sheet
 
 
 def run(scene, duration, integrator="auto", grid=(7, 3, 2), **options):

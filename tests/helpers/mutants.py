@@ -9,6 +9,7 @@ one that changes no answer gets a "why" there, by hand. docs/development/robustn
 """
 
 import difflib
+import inspect
 import json
 import multiprocessing
 import os
@@ -25,9 +26,9 @@ from cosmic_ray.ast import ast_nodes, get_ast
 from cosmic_ray.ast.ast_query import ASTQuery
 from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator, operator_names
-from nearest import FOLDERS, Nearest, words_of
+from nearest import FOLDERS, Nearest, has, words_of
 
-SECONDS = 20.0  # of CPU after which no further file of tests is tried
+SECONDS = 8.0  # of CPU after which no further file of tests is tried
 LIMIT, WAIT = 60, 900.0  # s of CPU and by the clock for one file of tests
 NO_FAULT = ("BitOr", "NoOp", "Variable")  # operators of types, and those that need more than a place
 
@@ -41,7 +42,7 @@ def main(folder: Path, place: str, count: int) -> None:
     nearest = Nearest(tree)
     for fault in faults:
         if fault["result"] in ("", "survives") and "why" not in fault:
-            fault |= tried(fault, nearest.tests(fault["file"], words_of(fault["file"], fault["function"])))
+            fault |= tried(fault, nearest)
             print(f"{fault['result']} {fault['by']}\n{fault['change']}", flush=True)
             kept.write_text(json.dumps(faults, indent=1, ensure_ascii=False))
     results = {fault["file"]: Counter[str]() for fault in faults}
@@ -62,7 +63,7 @@ def _check_out(tree: Path) -> None:
     os.environ |= {"PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
     sys.path.insert(0, str(tree))
     sys.dont_write_bytecode = True  # of faults
-    for name in ("comparisons.cli", "fem_reference", "lumped"):
+    for name in ("comparisons.cli", "fem_reference", "lumped", "hypothesis", "matplotlib.pyplot", "skfem"):
         __import__(name)
 
 
@@ -99,16 +100,16 @@ def _operators(text: str) -> dict[int, list]:
     return found
 
 
-def tried(fault: dict, tests: list[str]) -> dict[str, str]:
-    """Return what files of tests say of a fault: noticed, by which, or survives; or its line is gone."""
+def tried(fault: dict, nearest: Nearest) -> dict[str, str]:
+    """Return what tests say of a fault: noticed, by which, or survives; or that its line is gone."""
     if subprocess.run(["git", "apply"], input=fault["change"], text=True).returncode:
         return {"result": "gone", "by": ""}
-    begun = getrusage(RUSAGE_CHILDREN).ru_utime
-    for test in tests:
-        by = _first_failed(test)
+    begun, words = getrusage(RUSAGE_CHILDREN).ru_utime, words_of(fault["file"], fault["function"])
+    for test in nearest.tests(fault["file"], words):
+        by = _first_failed(test, words)
         if by == test:  # ended by a limit or a crash: without the fault too?
             subprocess.run(["git", "apply", "--reverse"], input=fault["change"], text=True, check=True)
-            by = "" if _first_failed(test) else f"{test}, ended"
+            by = "" if _first_failed(test, words) else f"{test}, ended"
             subprocess.run(["git", "apply"], input=fault["change"], text=True, check=True)
         if by or getrusage(RUSAGE_CHILDREN).ru_utime - begun > SECONDS:
             break
@@ -116,10 +117,10 @@ def tried(fault: dict, tests: list[str]) -> dict[str, str]:
     return {"result": "noticed" if by else "survives", "by": by}
 
 
-def _first_failed(test: str) -> str:
+def _first_failed(test: str, words: list[str]) -> str:
     """Return the test of a file that fails first; the file itself where it is ended; "" where none fails."""
     ours, theirs = (fork := multiprocessing.get_context("fork")).Pipe()
-    child = fork.Process(target=_pytest, args=(theirs, test))
+    child = fork.Process(target=_pytest, args=(theirs, test, words))
     child.start()
     theirs.close()
     try:
@@ -131,21 +132,27 @@ def _first_failed(test: str) -> str:
         child.join()
 
 
-def _pytest(pipe: Any, test: str) -> None:
+def _pytest(pipe: Any, test: str, words: list[str]) -> None:
     """Run a file of tests in a fork, where the packages are imported anew, and send what fails first."""
     for name in [name for name in sys.modules if name.partition(".")[0] in FOLDERS[:4]]:
         del sys.modules[name]
     setrlimit(RLIMIT_CPU, (LIMIT, LIMIT))
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    failed = Failed()
+    failed = Failed(words)
     status = pytest.main(["-x", "-q", "-n0", "-p", "no:cacheprovider", test], plugins=[failed])
     pipe.send(failed.first or "import" * (status in (2, 3, 4)))
 
 
 class Failed:
-    """A plug-in of pytest: the first test that fails."""
+    """A plug-in of pytest: the first test that fails; tests that name the function or its module first."""
 
-    first = ""
+    def __init__(self, words: list[str]):
+        self.first, self._words = "", words
+
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Order them."""
+        texts = {item: f"{item.name} {inspect.getsource(item.obj)}" for item in items}
+        items.sort(key=lambda item: -sum(has(texts[item], word) for word in self._words))
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Keep its name."""

@@ -27,8 +27,8 @@ def penalties(structure: Static) -> Penalties[StaticState]:
     moved = np.abs(sheet.on_surface(sheet.placed(flat_q, 1.0)) - sheet.on_surface(flat_q)).max(axis=(0, 2))
 
     def passes(start: StaticState, since: float, end: StaticState, load_factor: float) -> bool:
-        ways = (sheet.on_surface(start.q), since), (sheet.on_surface(end.q), load_factor)
-        return any(one.leads_through(*ways) for one in sheet.contacts)
+        ends = sheet.shape(start.q, since), sheet.shape(end.q, load_factor)
+        return any(one.step_share(*ends) < 1.0 for one in sheet.contacts)
 
     def restart(state: StaticState) -> Start[StaticState]:
         balanced = structure.potential(state, 1.0)[1]

@@ -178,7 +178,7 @@ class Esdirk(Integrator):
         """A step with all its stages."""
         by, step = 1.0 / (GAMMA * h), EsdirkStep(self.system, state, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
-            middle = state.u + 0.5 * h * state.v
+            middle = state.u + 0.5 * h * (state.v + 0.25 * h * state.a)
             equation = StepEquation(step.in_stage(0), state.time + 0.5 * h, middle, state.v, by * by, by)
             self._newton.renew(equation, middle)
         times = step.stages.time
@@ -222,7 +222,9 @@ class Esdirk(Integrator):
         if last.state.time == times[0]:
             return super().at(times, last)
         tolerance = SHARE * self._small if self.adapts else None
-        return self._step.at(times, last.state, self._newton, self._small, tolerance)
+        self._energy = max(self._energy, kinetic_of(self.system, last.state.v))
+        enough = ENERGY * min(self._error, ERROR) * self._energy if self.adapts else 0.0
+        return self._step.at(times, last.state, self._newton, tolerance, enough)
 
     def _advance(self, start: State, step: EsdirkStep) -> Advance[State]:
         system, motion, power = self.system, self.system.prescribed, step.stages.power

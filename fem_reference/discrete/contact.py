@@ -35,7 +35,7 @@ class Touching(SheetItem):
 
     def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
         self.name, self.obstacle, self.moving, self.radius = name, obstacle, moving, obstacle.radius
-        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
+        self.moved, self.thin = float(np.linalg.norm(obstacle.displacement(1.0))), False
         on, count = plan.elements, len(plan.nodes)
         constants, shape = constants_of(scene, plan.corners), areas(plan.corners)
 

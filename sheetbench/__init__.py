@@ -80,15 +80,6 @@ _MODULES = {  # all else is of sheetbench.scenes
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names.split()}
 _NAME_THERE = {"cell": "cell_of"}
-_REMOVED = {
-    "advise": "tradeoff(scene, tolerance=0.01)",
-    "homogenise": "calibrate(scene, cell=...)",
-    "linearise": "modes(scene, state_space=20)",
-    "suite": "score()",
-    "schema": "check(schema=True)",
-    "reproduce": 'study("reproduction")',
-    "export": "calibrate(scene, export=folder)",
-}
 
 __all__ = [
     "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
@@ -107,8 +98,7 @@ def __getattr__(name: str) -> object:
     if name == "scenes":
         return _import_module("sheetbench.scenes")
     if name not in __all__:
-        instead = f"; use sheetbench.{_REMOVED[name]}" if name in _REMOVED else ""
-        raise AttributeError(f"module 'sheetbench' has no attribute {name!r}{instead}")
+        raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
     if name in _VERBS:
         from sheetbench.face import verb
 

@@ -73,7 +73,6 @@ INTEGRATORS = {
     "verlet": "explicit, steps below the stability limit",
     "midpoint": "implicit, conserves energy",
 }
-REMOVED_INTEGRATORS = ("projective", "reduced", "verlet-implicit-damping")  # esdirk is quicker, and nearer
 
 REFERENCE = "shell"
 REFERENCES = {

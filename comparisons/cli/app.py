@@ -25,7 +25,7 @@ import typer
 from typer.main import get_command
 
 from comparisons.cli import characters, interruption, messages, startup
-from comparisons.cli.arguments import Refused, refuse_removed, with_defaults
+from comparisons.cli.arguments import Refused, refuse_opposites, with_defaults
 from comparisons.cli.verb import as_verb
 from comparisons.sweep import interrupts
 
@@ -105,7 +105,7 @@ def main(arguments: list[str] | None = None) -> None:
     of_process = arguments == sys.argv[1:]
     try:
         arguments = with_defaults(arguments, VERBS, _options_of)
-        refuse_removed(arguments)
+        refuse_opposites(arguments)
     except Refused as refused:
         print(f"sheetbench: {refused}", file=sys.stderr)
         raise SystemExit(BAD_INPUT) from None

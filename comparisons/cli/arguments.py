@@ -1,4 +1,4 @@
-"""A command's arguments before its verb reads them: what a folder adds to them, and what is no more.
+"""A command's arguments before its verb reads them: options that a folder adds to them, and opposite ones.
 
 `sheetbench-defaults.toml` in a folder gives options to the commands run in it, a table a verb:
 
@@ -19,23 +19,6 @@ from pathlib import Path
 from typing import Any
 
 FILE = "sheetbench-defaults.toml"
-REMOVED_VERBS = {
-    "scenes": "run 'sheetbench check'; with a name and --out DIR it copies a scene",
-    "schema": "run 'sheetbench check --schema'",
-    "advise": "run 'sheetbench tradeoff SCENE --tolerance 0.01'",
-    "homogenise": "run 'sheetbench calibrate SCENE --cell CELL'",
-    "linearise": "run 'sheetbench modes SCENE --state-space 20'",
-    "suite": "run 'sheetbench score'; with --out DIR it writes the set",
-    "reproduce": "run 'sheetbench study reproduction'",
-    "transfer": "run 'sheetbench study transfer' in a checkout",
-    "view": "write a folder with --out and run 'sheetbench report DIR --open'",
-}
-REMOVED_OPTIONS = {
-    ("calibrate", "--method"): "it is --calibration, as on every verb",
-    ("compare", "--auto"): "'sheetbench tradeoff SCENE --tolerance 0.01' chooses a model",
-    ("compare", "--tolerance"): "give it to 'sheetbench tradeoff SCENE'",
-    ("stability", "--study"): "'sheetbench study stability' has the published maps, in a checkout",
-}
 
 
 class Refused(Exception):
@@ -94,15 +77,8 @@ def _written(verb: str, key: str, value: Any, known: Collection[str]) -> Iterato
         yield f"--{option}={one}"
 
 
-def refuse_removed(arguments: Sequence[str]) -> None:
-    """Raise Refused for a verb or an option that is gone, with what replaces it, and for an option beside its
-    opposite."""
-    verb, *others = arguments or [""]
-    if verb in REMOVED_VERBS:
-        raise Refused(f"{verb}: removed; {REMOVED_VERBS[verb]}")
-    for option in (other.partition("=")[0] for other in others):
-        if (verb, option) in REMOVED_OPTIONS:
-            raise Refused(f"{verb} {option}: removed; {REMOVED_OPTIONS[verb, option]}")
-    for option in others:
-        if option.startswith("--no-") and _opposite(option) in others:
+def refuse_opposites(arguments: Sequence[str]) -> None:
+    """Raise Refused for an option beside its opposite."""
+    for option in arguments:
+        if option.startswith("--no-") and _opposite(option) in arguments:
             raise Refused(f"{_opposite(option)} and {option}: give one of them")

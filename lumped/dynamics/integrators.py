@@ -10,7 +10,7 @@ from lumped.dynamics.implicit.generalised_alpha import GeneralisedAlpha
 from lumped.dynamics.implicit.midpoint import Midpoint
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import System
-from sheetbench.choices import AUTO, REMOVED_INTEGRATORS
+from sheetbench.choices import AUTO
 from sheetbench.errors import BadInput
 
 INTEGRATORS: dict[str, type[Integrator]] = {
@@ -19,9 +19,7 @@ INTEGRATORS: dict[str, type[Integrator]] = {
 
 
 def require_integrator(name: str) -> None:
-    """Raise BadInput for a name that is neither an integrator's nor "auto", and for one that is gone."""
-    if name in REMOVED_INTEGRATORS:
-        raise BadInput(f"integrator = {name!r}: removed; esdirk, in its place, is quicker at a smaller error")
+    """Raise BadInput for a name that is neither an integrator's nor "auto"."""
     if name not in (*INTEGRATORS, AUTO):
         raise BadInput(f"integrator = {name!r}: unknown; choose from {', '.join((*INTEGRATORS, AUTO))}")
 

@@ -98,11 +98,3 @@ def test_a_wrong_argument_is_refused_in_the_terminals_words(case):
     ask, said = WRONG[case]
     with pytest.raises(sb.BadInput, match=said):
         ask()
-
-
-@pytest.mark.parametrize(
-    "gone", ["advise", "homogenise", "linearise", "suite", "schema", "reproduce", "export"]
-)
-def test_a_function_that_is_gone_names_what_replaces_it(gone):
-    with pytest.raises(AttributeError, match=rf"no attribute '{gone}'; use sheetbench\.\w+\("):
-        getattr(sb, gone)

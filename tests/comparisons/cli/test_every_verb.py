@@ -17,7 +17,7 @@ from commands import one_line, run
 from verbs import SMALL, WITHOUT_ANSWER, few_runs, undraw, write_inputs
 
 import sheetbench as sb
-from comparisons.cli import arguments, console
+from comparisons.cli import console
 from comparisons.cli.app import VERBS, verb_group
 from sheetbench.answers.files import to_json
 from sheetbench.answers.report import Picture
@@ -137,17 +137,6 @@ def test_help_lists_fifteen_verbs_on_a_screen(monkeypatch, capsys):
     page = capsys.readouterr().out.splitlines()
     assert len(page) <= 40 and tuple(re.findall(r"^│ (\w+)  ", "\n".join(page), re.M)) == VERBS
     assert len(VERBS) == 15
-
-
-@pytest.mark.parametrize("gone", [*arguments.REMOVED_VERBS, *arguments.REMOVED_OPTIONS], ids=str)
-def test_what_is_gone_is_refused_with_what_replaces_it(gone, capsys):
-    words = [gone, "two-edges-clamped"] if isinstance(gone, str) else gone
-    instead = (arguments.REMOVED_VERBS | arguments.REMOVED_OPTIONS)[gone]
-    assert gone not in VERBS and run(*words) == 2
-    named = gone if isinstance(gone, str) else " ".join(gone)
-    assert one_line(capsys) == f"sheetbench: {named}: removed; {instead}\n"
-    for verb in re.findall(r"'sheetbench (\w+)", instead):
-        assert verb in VERBS
 
 
 # ---- on a terminal

@@ -103,7 +103,6 @@ ROWS = {
     "study reproduction --part dynamics": "errors, tables, settling, nearest",
     f"{SIMULATE} --integrator verlet --step 0.1": "stability limit of verlet",
     f"{SIMULATE} --integrator rk4": "choose from",
-    f"{SIMULATE} --integrator reduced": "removed; esdirk, in its place",
     f"{SIMULATE} --duration -1": "duration = -1 s",
     f"{SIMULATE} --measured nowhere.csv": "nowhere.csv",
     f"{SIMULATE} --animate": "--animate: no effect without --out",

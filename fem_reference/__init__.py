@@ -19,7 +19,6 @@ from sheetbench.answers.solution import Iteration, Solution
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, scene_of
-from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.material import WORDS
 
 MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
@@ -54,8 +53,6 @@ def solve(
     scene = scene_of(scene)
     requested = with_defaults(scene, options(model), requested)
     check(model, requested)
-    if model == "plate":
-        require_no_obstacles(scene, "the plate, which is linear,")
     if "progress" in _parameters(model):
         requested["progress"] = progress
     if near is not None:

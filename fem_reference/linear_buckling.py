@@ -31,7 +31,7 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
     >>> fem_reference.buckling(on_edge, elements=2).load_factors.shape
     (1,)
     """
-    require_static(scene := scene_of(scene))
+    require_static(scene := scene_of(scene), "buckling")
     require_flat_and_dead(scene)
     if model not in ("shell", "solid"):
         raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")

@@ -14,6 +14,8 @@ import numpy as np
 from lumped.actuators import Drive
 from sheetbench.answers.contact import ContactState
 
+Since = tuple[np.ndarray, Drive]  # where a step begins, for the force whose work in it is the energy stored
+
 
 class LatticeItem(Protocol):
     """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does;
@@ -21,29 +23,22 @@ class LatticeItem(Protocol):
 
     name: str
     moves: bool
+    resists: bool
 
-    @property
-    def resists(self) -> bool:
-        return False
-
-    def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
-        """Add the internal force; return the energy [J]."""
+    def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
+        """Add the internal force, or a step's mean one; return the energy [J]."""
 
     def add_tangent(
-        self, u: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray, definite: bool = False
+        self,
+        u: np.ndarray,
+        drive: Drive,
+        scale: float,
+        blocks: np.ndarray,
+        definite: bool = False,
+        since: Since | None = None,
     ) -> None:
-        """Add scale × the force's derivative to the pattern's blocks (b, 3, 3) [N/m]; definite: less what
-        could make it indefinite."""
-
-    def add_average_force(
-        self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive], force: np.ndarray
-    ) -> None:
-        """Add the force whose work from start to end is the energy stored."""
-
-    def add_average_tangent(
-        self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive], blocks: np.ndarray
-    ) -> None:
-        """Add its derivative by `end`, the symmetric part of it."""
+        """Add scale × the force's derivative to the pattern's blocks (b, 3, 3) [N/m], of a step's mean one
+        the symmetric part of that by its end; definite: less what could make it indefinite."""
 
     def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add what resists the velocity; return the power taken [W]."""
@@ -54,14 +49,13 @@ class LatticeItem(Protocol):
     ) -> None:
         """Add scale × its derivative by the velocity [N·s/m]."""
 
-    def work(self, force: np.ndarray, start: float, end: float) -> float:
-        """Return the work [J] that a force (3,) of what it is fixed to does on the sheet between two times
-        [s]."""
-        return 0.0
+    def displacement(self, time: float) -> np.ndarray:
+        """Return how far (3,) [m] what it is fixed to has moved at a time [s]."""
+        return np.zeros(3)
 
-    def power(self, force: np.ndarray, time: float) -> float:
-        """Return its power [W] at a time [s]."""
-        return 0.0
+    def velocity(self, time: float) -> np.ndarray:
+        """Return its velocity (3,) [m/s]."""
+        return np.zeros(3)
 
     def exerted(self, u: np.ndarray, drive: Drive, v: np.ndarray | None = None) -> np.ndarray:
         """Return its forces on the masses (n, 3) [N], at a velocity (n, 3) [m/s] in motion."""
@@ -86,6 +80,5 @@ class LatticeItem(Protocol):
         """Return what rounding of displacements leaves of its forces, as a norm [N]."""
         return 0.0
 
-    def report(self, u: np.ndarray, drive: Drive) -> ContactState:
-        """Return what there is to say of it at an equilibrium or a sample."""
-        return ContactState(0.0, 0.0, 0, 0)
+    def report(self, u: np.ndarray, drive: Drive) -> tuple[ContactState, np.ndarray]:
+        """Return what there is to say of it at an equilibrium, and its pressure [Pa] on every column (n,)."""

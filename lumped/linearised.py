@@ -55,7 +55,6 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
-from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.supports import named
 
 MODES = 20  # of the state space unless requested
@@ -121,7 +120,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     actuators, and NoEquilibrium where there is none to be about.
     """
     scene = _at_last(scene_of(scene))
-    require_static(scene)
+    require_static(scene, "a linear system about the flat sheet" if about == "flat" else "")
     require_no_branches(scene.material, "a linear system")
     calibration = calibration or default(scene)
     problem = build_problem(scene, calibration)
@@ -130,7 +129,6 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
             "linearise: pressure, edge moments and per-direction springs have unsymmetric tangents"
         )
     if about == "flat":
-        require_no_obstacles(scene, "a linear system about the flat sheet")
         if scene.actuators:
             raise BadInput("linearise: a flat sheet has no actuators; leave --about out")
         u = np.zeros_like(problem.loads.dead)

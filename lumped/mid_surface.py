@@ -129,7 +129,7 @@ class _Polynomial:
         sides = np.array([x.widths[column], y.widths[row]])
         middle = np.array([x.at[column], y.at[row]]) + 0.5 * sides
         places = (np.stack([x.at[over], y.at[rows]], axis=1) - middle) / sides
-        near = np.sqrt(_around(per_area)[rows, over]) / (0.5 + (places**2).sum(axis=1))
+        near = np.sqrt(around(per_area)[rows, over]) / (0.5 + (places**2).sum(axis=1))
         fit = np.linalg.pinv(_terms(places, order) * near[:, None], rcond=1e-9) * near
         return cls(rows, over, fit, middle, sides, order)
 
@@ -138,7 +138,7 @@ class _Polynomial:
         return np.asarray(_terms((points - self.middle) / self.sides, self.order) @ self.fit)
 
 
-def _around(per_area: np.ndarray) -> np.ndarray:
+def around(per_area: np.ndarray) -> np.ndarray:
     """The mean of the cells around each crossing of lines, (rows + 1, columns + 1)."""
     wide = np.pad(per_area, 1)
     return 0.25 * (wide[1:, 1:] + wide[1:, :-1] + wide[:-1, 1:] + wide[:-1, :-1])

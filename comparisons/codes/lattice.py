@@ -43,8 +43,7 @@ def lattice_files(
 
     if code == SOFA:
         require_flat_at_rest(scene, "--for sofa")
-        require_no_obstacles(scene, "--for sofa")
-    if code in ("cpp", "matlab"):
+    if code in (SOFA, "cpp", "matlab"):
         require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
     own = {} if code is None or code == SOFA else {READERS[code]: script(READERS[code])}

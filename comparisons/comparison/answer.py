@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
+from math import hypot
 from pathlib import Path
 from typing import Any
 
@@ -113,10 +114,11 @@ class Comparison(Compared, Answer):
         return self._displacements(), self._costs(), self._reactions()
 
     def printed(self) -> tuple[Table, ...]:
-        """Return all tables, of supports' forces those of supports that are moved: the pull of the sheet."""
+        """Return displacements and costs, and beside these the forces of moved supports and of obstacles."""
         moved = {name for name, support in named(self.scene.supports).items() if support.motion is not None}
         moved |= {motion.held_as for motion in self.scene.motions().values()}
-        return self._displacements(), self._costs(), *([self._reactions(moved)] if moved else [])
+        moved |= {name for solution in self.solutions for name in solution.contacts}
+        return self._displacements(), self._costs(sorted(moved))
 
     def _displacements(self) -> Table:
         off = {(d.probe, d.of): d.relative for d in self.differences}
@@ -129,15 +131,19 @@ class Comparison(Compared, Answer):
         )
         return Table.listed("Displacement of the mid-surface", MOVED, rows, "table", grouped=True)
 
-    def _costs(self) -> Table:
+    def _costs(self, exerting: Sequence[str] = ()) -> Table:
+        """Return cost and error of each model; exerting: names of what it gives the size of the force of."""
         rows = (
             (
                 *(s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds),
-                *(self.error(s), self._expected(s), s.status_text),
+                *(self.error(s), self._expected(s)),
+                *(hypot(*s.reactions[name]) if name in s.reactions else None for name in exerting),
+                s.status_text,
             )
             for s in self.solutions
         )
-        return Table.listed("Cost and error of each model", COSTS, rows, "models", text="; ".join(self.busy))
+        costs = (*COSTS[:-1], *(NEWTONS(".4g", f"force of {name}") for name in exerting), COSTS[-1])
+        return Table.listed("Cost and error of each model", costs, rows, "models", text="; ".join(self.busy))
 
     def _expected(self, solution: Solution) -> float | None:
         """Return the grid error expected of the chosen lattice; where there is none a note says why."""
@@ -145,14 +151,8 @@ class Comparison(Compared, Answer):
             return self.expected.value
         return None
 
-    def _reactions(self, of: Collection[str] | None = None) -> Table:
-        """Of all supports, or of those named."""
-        rows = sorted(
-            (edge, s.model, *force)
-            for s in self.solutions
-            for edge, force in s.reactions.items()
-            if of is None or edge in of
-        )
+    def _reactions(self) -> Table:
+        rows = sorted((edge, s.model, *force) for s in self.solutions for edge, force in s.reactions.items())
         return Table.listed("Force of each support on the sheet", FORCES, rows, "reactions")
 
     def figures(self) -> tuple[Picture, ...]:

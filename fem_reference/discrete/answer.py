@@ -14,13 +14,11 @@ from typing import Any, cast
 import numpy as np
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
-from sheetbench.answers.contact import contact_notes
-from sheetbench.answers.solution import FieldMesh, Solution, Status
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import Path
 
@@ -73,29 +71,21 @@ def answer(
         for name, (places, forces) in item.holds(shape).items():
             reactions[name] = forces.reshape(-1, 3).sum(axis=0)
             held.append((places.reshape(-1, 3), forces.reshape(-1, 3)))
-    contacts = {each.name: each.report(shape) for each in sheet.contacts}
+    mesh = sheet.drawn(q, line if scene.actuators else None)
+    contacts = {one.name: one.report(shape) for one in sheet.contacts}
     if contacts:
-        energies |= {"contact": sum(each.potential(shape) for each in sheet.contacts)}
-        own["remarks"] = (*own.get("remarks", ()), *contact_notes(contacts))
+        energies |= {"contact": sum(one.potential(shape) for one in sheet.contacts)}
+        pressure = np.sum([pressure for _, pressure in contacts.values()], axis=0)
+        mesh.point_data["contact_pressure"] = np.repeat(pressure, len(mesh.points) // len(pressure))
     return Solution(
         model=sheet.model,
         unknowns=sheet.unknowns,
         sample=partial(interpolate, plan.mesh, plan.elements, sheet.middles(sheet.displacement(q))),
         reactions=reactions,
         energies=energies | ({"rod": rods.energy(q, share)} if scene.actuators else {}),
-        mesh=with_pressure(sheet, shape, sheet.drawn(q, line if scene.actuators else None)),
-        contacts=contacts,
+        mesh=mesh,
+        contacts={name: state for name, (state, _) in contacts.items()},
         actuators=wrenches,
         balance=left_over(scene, surface, edges, reactions, held, size, allowed, share) if balanced else None,
         **own,
     )
-
-
-def with_pressure(sheet: Discrete, shape: SheetShape, mesh: FieldMesh) -> FieldMesh:
-    """Return a mesh with the field "contact_pressure" [Pa] on it, where there are obstacles and it has the
-    plan's nodes."""
-    if sheet.contacts:
-        pressure = sum(one.pressure(shape) for one in sheet.contacts)
-        stacked = len(mesh.points) // len(np.asarray(pressure))
-        mesh.point_data["contact_pressure"] = np.repeat(pressure, stacked)
-    return mesh

@@ -23,10 +23,11 @@ from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
 from sheetbench.answers.contact import ContactState
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.distances import Near, mean_normal, near, share_of_way
+from sheetbench.scenes.meaning.distances import Near, dyad, near
 from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 
 SOFTER, ROUNDED = 0.01, 0.3  # in motion: of k, and over which part of the thickness the law is rounded
+Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (faces, n)
 
 
 class Touching(SheetItem):
@@ -34,9 +35,9 @@ class Touching(SheetItem):
 
     def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
         self.name, self.obstacle, self.moving, self.radius = name, obstacle, moving, obstacle.radius
-        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
-        on, count, corners = plan.elements, len(plan.nodes), plan.corners
-        constants, shape = constants_of(scene, corners), areas(corners)
+        self.moved, self.thin = float(np.linalg.norm(obstacle.displacement(1.0))), False
+        on, count = plan.elements, len(plan.nodes)
+        constants, shape = constants_of(scene, plan.corners), areas(plan.corners)
 
         def at_nodes(part: np.ndarray) -> np.ndarray:
             return np.bincount(on.ravel(), ((shape * part) @ AT_GAUSS[0]).ravel(), count)
@@ -55,26 +56,20 @@ class Touching(SheetItem):
     def _points(self, vectors: np.ndarray) -> np.ndarray:
         """Return x (faces, n, 3) [m] of vectors (m, 18, 3)."""
         middle, director = vectors[self.elements, self.place], vectors[self.elements, 9 + self.place]
-        x: np.ndarray = middle + self.levers[..., None] * director
-        return x
+        return np.asarray(middle + self.levers[..., None] * director)
 
-    def _near(self, vectors: np.ndarray, at: float) -> Near:
-        """Where points are beside the obstacle as it is at a load factor or time."""
-        drive = (1.0, at) if self.moving else (at, None)
-        return near(self.obstacle, self._points(vectors), *drive)
+    def _near(self, shape: SheetShape) -> Near:
+        """Return where points (faces, n) are beside the obstacle as it is then."""
+        drive = (1.0, shape.at) if self.moving else (shape.at, None)
+        return near(self.obstacle, self._points(shape.vectors), *drive)
 
-    def _depth(self, found: Near) -> np.ndarray:
-        """Return depths (faces, n) [m], < 0 of a point that is clear."""
-        depth: np.ndarray = self.offset + TOUCH * self.thickness - found.distance
-        return depth
+    def _sunk(self, shape: SheetShape) -> tuple[Near, np.ndarray, Pressed]:
+        """Return where points are, and how deep (faces, n) [m], < 0 of one that is clear."""
+        found = self._near(shape)
+        depth = self.offset + TOUCH * self.thickness - found.distance
+        return found, depth, self._pressed(depth)
 
-    def _sunk(self, shape: SheetShape) -> tuple[np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]:
-        """Return depths (faces, n) [m], where points are, A ψ [J], A p [N] and A p' [N/m] (faces, n)."""
-        found = self._near(shape.vectors, shape.at)
-        depth = self._depth(found)
-        return depth, found, *self._pressures(depth)
-
-    def _pressures(self, depth: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _pressed(self, depth: np.ndarray) -> Pressed:
         deep, scale = np.maximum(depth, 0.0), self.share * self.full * self.area
         over = (ROUNDED if self.moving else 1e-100) * self.thickness
         curved, sure = np.minimum(deep, over), np.maximum(deep - over, 0.0)
@@ -84,7 +79,7 @@ class Touching(SheetItem):
 
     def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, n, 3) [N]."""
-        _, found, _, load, _ = self._sunk(shape)
+        found, _, (_, load, _) = self._sunk(shape)
         return load[..., None] * found.normal + self._rubbed(shape)
 
     def force(self, shape: SheetShape) -> np.ndarray:
@@ -93,12 +88,11 @@ class Touching(SheetItem):
     def mean_force(self, start: SheetShape, end: SheetShape, middle: SheetShape) -> np.ndarray:
         """Return the force whose work in a step is the energy stored: of the mean pressure Δψ/Δdepth along
         the mean normal, whose product with Δx is −Δdepth exactly."""
-        (before, near0, had, *_), (after, near1, has, *_) = self._sunk(start), self._sunk(end)
+        (then, before, (had, _, _)), (now, after, (has, _, _)) = self._sunk(start), self._sunk(end)
         far = np.abs(after - before) > 1e-7 * self.thickness
         secant = (has - had) / np.where(far, after - before, 1.0)
-        load = np.where(far, secant, self._pressures(0.5 * (before + after))[1])
-        pulled = load[..., None] * mean_normal(self.obstacle, near0, near1)
-        return self._onto(middle, pulled + self._rubbed(middle))
+        load = np.where(far, secant, self._pressed(0.5 * (before + after))[1])
+        return self._onto(middle, load[..., None] * now.mean_normal(then) + self._rubbed(middle))
 
     def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, n, 3)."""
@@ -108,9 +102,10 @@ class Touching(SheetItem):
         return shape.sheet.of_surface(np.arange(len(out)), out)
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
-        _, found, _, load, slope = self._sunk(shape)
-        blocks = load[..., None, None] * found.curvature - slope[..., None, None] * found.outer
-        return self._between(blocks)
+        found, _, (_, load, slope) = self._sunk(shape)
+        return self._between(
+            load[..., None, None] * found.curvature - slope[..., None, None] * dyad(found.normal)
+        )
 
     def _between(self, blocks: np.ndarray) -> Tangent | None:
         """Return derivatives (faces, n, 3, 3) of points' forces by their places as the elements have them."""
@@ -118,18 +113,16 @@ class Touching(SheetItem):
         if not len(touching):
             return None
         on, rows = np.unique(self.elements[touching], return_inverse=True)
-        out, at = np.zeros((len(on), 18, 3, 18, 3)), self.place[touching]
+        out, at = np.zeros((len(on), 2, 9, 3, 2, 9, 3)), self.place[touching]
         by = np.stack([np.ones_like(self.levers), self.levers])[..., touching]  # of φ, and of d
-        of_nodes = np.einsum("rfn,cfn,fnij->rcnij", by, by, blocks[:, touching])
-        for row in (0, 1):
-            for column in (0, 1):  # no two of a place are the same
-                out[rows, 9 * row + at, :, 9 * column + at, :] += of_nodes[row, column]
-        return on, out
+        of_nodes = np.einsum("rfn,cfn,fnij->nricj", by, by, blocks[:, touching])
+        out[rows, :, at, :, :, at] = of_nodes  # no two have the same place
+        return on, out.reshape(-1, 18, 3, 18, 3)
 
     def _speeds(self, shape: SheetShape) -> tuple[Near, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Return where points are, A p [N], how fast they sink (faces, n) and slide (faces, n, 3) [m/s], and
         the root (faces, n) of the law of friction."""
-        _, found, _, load, _ = self._sunk(shape)
+        found, _, (_, load, _) = self._sunk(shape)
         speed = self._points(shape.rates) - self.obstacle.velocity(shape.at)
         sinking = -(speed * found.normal).sum(axis=2)
         sliding = speed + sinking[..., None] * found.normal
@@ -148,44 +141,32 @@ class Touching(SheetItem):
         if not self.resists:
             return None
         found, load, sinking, sliding, slip = self._speeds(shape)
-        unit, tau = sliding / slip[..., None], self.obstacle.contact_damping
-        pressed = tau * load * (tau * sinking > -1.0)
-        along = np.eye(3) - found.outer - unit[..., :, None] * unit[..., None, :]
-        rubbed = (self.obstacle.friction * load / slip)[..., None, None] * along
-        return self._between(-pressed[..., None, None] * found.outer - rubbed)
+        tau, across = self.obstacle.contact_damping, dyad(found.normal)
+        pressed, rubbed = tau * load * (tau * sinking > -1.0), self.obstacle.friction * load / slip
+        along = np.eye(3) - across - dyad(sliding / slip[..., None])
+        return self._between(-pressed[..., None, None] * across - rubbed[..., None, None] * along)
 
     def potential(self, shape: SheetShape) -> float:
-        return float(self._sunk(shape)[2].sum())
+        return float(self._sunk(shape)[2][0].sum())
 
     stored = potential
 
     def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
+        if shape.v is None or not shape.v.any():
+            return 0.0, 0.0
+        moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
         rubbed = self._rubbed(shape)
-        taken, work = -self._onto(shape, rubbed) @ step, 0.0
-        if self.obstacle.motion is not None and shape.v is not None and step.any():
-            moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
-            work = float(self.exerted(shape) @ moved)
-            taken += float(rubbed.sum(axis=(0, 1)) @ moved)
-        return float(taken), work
+        taken = rubbed.sum(axis=(0, 1)) @ moved - self._onto(shape, rubbed) @ step
+        return float(taken), float(self._pulled(shape).sum(axis=(0, 1)) @ moved)
 
     def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {self.name: (self._points(shape.vectors), self._pulled(shape))}
 
-    def exerted(self, shape: SheetShape) -> np.ndarray:
-        """Return its force (3,) [N] on the sheet."""
-        total: np.ndarray = self._pulled(shape).sum(axis=(0, 1))
-        return total
+    def step_share(self, start: SheetShape, end: SheetShape) -> float:
+        """Return the share of a straight way that leads no point deeper than half a radius, nor through."""
+        return self._near(end).share_of_way(self._near(start), self.offset)
 
-    def leads_through(self, *ends: tuple[np.ndarray, float]) -> bool:
-        """Whether a straight way between vectors (m, 18, 3) at two load factors leads through."""
-        start, end = (self._near(*each) for each in ends)
-        return share_of_way(self.obstacle, start, end, self.offset) < 1.0
-
-    def report(self, shape: SheetShape) -> ContactState:
-        """Return what there is to say of it."""
-        return ContactState.of(self._sunk(shape)[0].max(axis=0) / self.thickness, self.area)
-
-    def pressure(self, shape: SheetShape) -> np.ndarray:
-        """Return the pressure (n,) [Pa] at the nodes of the plan."""
-        pressures: np.ndarray = self._sunk(shape)[3].sum(axis=0) / self.area
-        return pressures
+    def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
+        """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""
+        _, depth, (_, load, _) = self._sunk(shape)
+        return ContactState.of(depth.max(axis=0) / self.thickness, self.area), load.sum(axis=0) / self.area

@@ -20,7 +20,6 @@ from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.sheets import SHEETS
 from fem_reference.vibration import modes
-from sheetbench.answers.contact import friction_notes
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
 from sheetbench.clock import now
@@ -89,12 +88,12 @@ def simulate(
     settings = {**moving.settings, "step": step or "adaptive", "error": error}
     flat = moving.displacement(np.zeros(moving.mass.shape[0]))
     key = {
-        "scene": requested.document(),
         "model": model,
         "settings": settings,
         "every": every,
     }
     recipe: Recipe[SheetMotion] = Recipe(
+        scene=requested,
         label=moving.label,
         integrator=integrator,
         settings=settings,
@@ -105,7 +104,6 @@ def simulate(
         observer=ReferenceObserver(moving, requested),
         start=lambda method: method.start(),
         rows=len(flat),
-        notes=tuple(friction_notes(requested)),
     )
     history = record(recipe, keeping, began)
     of_model = {"mesh": moving.mesh(flat), "sample": moving.sample, "unknowns": moving.unknowns}

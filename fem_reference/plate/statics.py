@@ -55,7 +55,7 @@ def solve(
     thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     begin = now()
-    require_static(scene)
+    require_static(scene, "the plate, which is linear,")
     along_x, along_y = divisions(scene.sheet, elements)
     if graded is None:
         graded = not scene.twisting_edges() <= set(hard_edges)

@@ -18,8 +18,9 @@ as its position is made up, by the layers equally.
 In motion k is 0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond
 k (d²/2 − δ d/2 + δ²/6). Velocity Verlet keeps H + h² (v·V''v/12 − F·M⁻¹F/24), so that its energy is off by
 up to h² k/(6 ρ h) of the kinetic energy of what touches, for a moment. Conserving midpoint steps have the
-mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). A dashpot p (1 + τ ḋ) ≥ 0 takes ∮ p τ ḋ² dt (Hunt and Crossley,
-1975): m v dv = −p (1 + τ v) dd leads from a speed v to e v with, whatever the law p(d),
+mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996), whose derivative by the end has half of ∇n there. A dashpot
+p (1 + τ ḋ) ≥ 0 takes ∮ p τ ḋ² dt (Hunt and Crossley, 1975): m v dv = −p (1 + τ v) dd leads from a speed v to
+e v with, whatever the law p(d),
 
     v/τ − ln(1 + τ v)/τ² = −e v/τ − ln(1 − τ e v)/τ²,   e = 1 − 2 τ v/3 + O(τ²v²).
 
@@ -28,31 +29,24 @@ Friction is regularised Coulomb, −μ p A v_t/√(v_t² + v₀²), v₀ = 1 mm/
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.items import LatticeItem
+from lumped.items import LatticeItem, Since
+from lumped.mid_surface import around
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Plane, Scene, free_rigid_motions
 from sheetbench.scenes.meaning.composition import constants_at
-from sheetbench.scenes.meaning.distances import (
-    Near,
-    mean_normal,
-    near,
-    obstacles_by_name,
-    projector,
-    share_of_way,
-)
+from sheetbench.scenes.meaning.distances import Near, dyad, near, obstacles_by_name, projector
 from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 
 FINEST = 32  # points a side of a cell
 MOVING = (
-    0.065  # of ω_max², what contact in motion adds at most: 0.05 in the interior, where A ρ h is the mass
+    0.065  # of ω_max², that contact in motion adds at most: 0.05 in the interior, where A ρ h is the mass
 )
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
@@ -60,7 +54,8 @@ SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean 
 
 class _Touching(NamedTuple):
     """Where some patches of points are: which, beside the obstacle, their depth [m], < 0 of one that is
-    clear, and A ψ [J], A p [N] and A p' [N/m] (m, p)."""
+    clear, A ψ [J], A p [N] and A p' [N/m] (m, p); of a step's mean force its own, along `normal` (m, p, 3),
+    with the part `bent` of ∇n in its derivative."""
 
     patches: np.ndarray
     near: Near
@@ -68,16 +63,23 @@ class _Touching(NamedTuple):
     energy: np.ndarray
     load: np.ndarray
     slope: np.ndarray
+    normal: np.ndarray
+    bent: float = 1.0
 
 
-def side_rule(parts: int, ends: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return linear weights (n, 2) of a side's ends, and the weights (n,) of a rule, at the middles of its
-    parts or at their ends."""
-    at = np.arange(parts + 1) / parts if ends else (np.arange(parts) + 0.5) / parts
-    rule = np.full(len(at), 1.0 / parts)
-    if ends:
-        rule[[0, -1]] *= 0.5
-    return np.stack([1.0 - at, at], axis=1), rule
+def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return weights (p, 4) of a cell's corners and shares (p,) of its area, of points at the middles of the
+    parts of its sides (2,) [m] or at their ends."""
+    rules = []
+    for parts in np.maximum(2, np.ceil(2.0 * sides / radius)).astype(int):
+        at = np.arange(parts + 1) / parts if ends else (np.arange(parts) + 0.5) / parts
+        shares = np.full(len(at), 1.0 / parts)
+        if ends:
+            shares[[0, -1]] *= 0.5
+        rules.append((np.stack([1.0 - at, at], axis=1), shares))
+    (along_x, width), (along_y, height) = rules
+    weights = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
+    return weights, np.outer(height, width).ravel()
 
 
 class Contact(LatticeItem):
@@ -87,41 +89,31 @@ class Contact(LatticeItem):
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.radius = name, obstacle, obstacle.radius
-        self.moves, self.moved = (
-            obstacle.motion is not None,
-            float(np.linalg.norm(obstacle.displacement(1.0))),
-        )
+        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
+        self.moves = obstacle.motion is not None
+        self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas
-        # cells' sides as far as they are across the obstacle's axis
-        across = np.linalg.norm(projector(obstacle), axis=1)
-        sides = [float(line.widths.max() * across[i]) for i, line in enumerate(lattice.lines)]
-        per_side = [max(2, math.ceil(2.0 * side / obstacle.radius)) for side in sides]
-        self.thin = obstacle.radius < max(sides)
-        if max(per_side) > FINEST:
+        across = np.linalg.norm(projector(obstacle)[:2], axis=1)  # how much of a side is across its axis
+        sides = across * [line.widths.max() for line in lattice.lines]
+        thinnest = 2.0 * sides.max() / FINEST
+        if self.radius < thinnest:
             raise BadInput(
-                f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * max(sides):.3g} mm, "
-                f"which would step over it; {2e3 * max(sides) / FINEST:.3g} mm or more, or a finer grid"
+                f"{name}.radius = {self.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
+                f"which would step over it; {1e3 * thinnest:.3g} mm or more, or a finer grid"
             )
+        self.thin = self.radius < sides.max()
         if isinstance(obstacle, Plane):
-            quarters = 0.25 * areas
-            plan = sum(np.pad(quarters, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2))
-            nodes, area, weights = (
-                columns.reshape(-1, columns.shape[2]),
-                np.ravel(plan)[:, None],
-                np.ones((1, 1)),
-            )
+            nodes, weights, area = columns, np.ones((1, 1)), around(areas).reshape(-1, 1)
         else:
             corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
-            nodes = np.concatenate(corners, axis=2).reshape(areas.size, -1)
-            resting = bool(free_rigid_motions(scene))
-            (along_x, width), (along_y, height) = (side_rule(parts, resting) for parts in per_side)
-            weights = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
-            area = areas.reshape(-1, 1) * np.outer(height, width).ravel()
-        self.weights = np.repeat(weights, columns.shape[2], axis=1) / columns.shape[2]
+            nodes = np.concatenate(corners, axis=2)
+            weights, shares = points_of_cells(sides, self.radius, bool(free_rigid_motions(scene)))
+            area = areas.reshape(-1, 1) * shares
+        self.weights = np.repeat(weights, lattice.grid[2], axis=1) / lattice.grid[2]
         there = area[:, 0] > 0.0
-        self.nodes, self.area = np.ascontiguousarray(nodes[there]), area[there]
-        self._rest = lattice.positions[self.nodes]
+        self.nodes = np.ascontiguousarray(nodes.reshape(len(area), -1)[there])
+        self.area, self._rest = area[there], lattice.positions[self.nodes]
         constants = constants_at(scene, (self.weights @ self._rest)[..., :2].reshape(-1, 2))
         self.thickness, stretching = (
             np.broadcast_to(part, self.area.size).reshape(self.area.shape)
@@ -132,16 +124,16 @@ class Contact(LatticeItem):
         self.slots = assembly.pattern.among(self.nodes)
         self._eps = assembly.rounding
 
-    @property
-    def resists(self) -> bool:
-        return self.obstacle.friction > 0.0 or self.obstacle.contact_damping > 0.0
+    def displacement(self, time: float) -> np.ndarray:
+        return self.obstacle.displacement(1.0, time)
 
-    def _law(
-        self, depth: np.ndarray, patches: np.ndarray | slice
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return A ψ [J], A p [N] and A p' [N/m] at depths (m, p) [m]."""
-        d, stiffness = np.maximum(depth, 0.0), self.share * self.full[patches] * self.area[patches]
-        over = max(self.rounded, 1e-100) * self.thickness[patches]
+    def velocity(self, time: float) -> np.ndarray:
+        return self.obstacle.velocity(time)
+
+    def _law(self, depth: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return A ψ [J], A p [N] and A p' [N/m] of patches `of` at depths (m, p) [m]."""
+        d, stiffness = np.maximum(depth, 0.0), self.share * self.full[of] * self.area[of]
+        over = max(self.rounded, 1e-100) * self.thickness[of]
         curved, sure = np.minimum(d, over), np.maximum(d - over, 0.0)
         energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
         return stiffness * energy, stiffness * (0.5 * curved**2 / over + sure), stiffness * curved / over
@@ -149,17 +141,28 @@ class Contact(LatticeItem):
     def _near(self, x: np.ndarray, drive: Drive) -> Near:
         return near(self.obstacle, x, drive.load_factor, drive.time)
 
-    def _touching(self, u: np.ndarray, drive: Drive, everywhere: bool = False) -> _Touching:
-        """Where patches are that may touch, or all."""
+    def _touching(
+        self, u: np.ndarray, drive: Drive, since: Since | None = None, everywhere: bool = False
+    ) -> _Touching:
+        """Return where patches are that may touch, or all; since: for the mean force of a step from there."""
         places, which = self._rest + u[self.nodes], np.arange(len(self.nodes))
-        if len(self.weights) > 1 and not everywhere:  # no point is farther from the middle than a mass
-            middle = places.mean(axis=1, keepdims=True)
+        if len(self.weights) > 1 and since is None and not everywhere:
+            middle = places.mean(axis=1, keepdims=True)  # no point is farther from it than a mass
             reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1))
             reach += 0.51 * self.thickness.max(axis=1)
             which = np.flatnonzero(self._near(middle[:, 0], drive).distance < reach)
         found = self._near(self.weights @ places[which], drive)
         depth = (0.5 + TOUCH) * self.thickness[which] - found.distance
-        return _Touching(which, found, depth, *self._law(depth, which))
+        now = _Touching(which, found, depth, *self._law(depth, which), found.normal)
+        if since is None:
+            return now
+        then = self._touching(*since, everywhere=True)
+        far = np.abs(depth - then.depth) > SAME_DEPTH * self.thickness
+        sunk = np.where(far, depth - then.depth, 1.0)
+        _, load, slope = self._law(0.5 * (then.depth + depth), which)
+        load = np.where(far, (now.energy - then.energy) / sunk, load)
+        slope = np.where(far, (now.load - load) / sunk, 0.5 * slope)
+        return now._replace(load=load, slope=slope, normal=found.mean_normal(then.near), bent=0.5)
 
     def _spread(self, patches: np.ndarray, load: np.ndarray, out: np.ndarray) -> None:
         """Add forces of points (m, p, 3) [N] to those of the masses."""
@@ -173,48 +176,24 @@ class Contact(LatticeItem):
         of_masses = np.einsum("pa,pb,mpij->mabij", self.weights, self.weights, points[touched], optimize=True)
         np.add.at(blocks, self.slots[patches[touched]], of_masses)
 
-    def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
-        found = self._touching(u, drive)
-        self._spread(found.patches, -found.load[..., None] * found.near.normal, force)
+    def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
+        found = self._touching(u, drive, since)
+        self._spread(found.patches, -found.load[..., None] * found.normal, force)
         return float(found.energy.sum())
 
     def add_tangent(
-        self, u: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray, definite: bool = False
+        self,
+        u: np.ndarray,
+        drive: Drive,
+        scale: float,
+        blocks: np.ndarray,
+        definite: bool = False,
+        since: Since | None = None,
     ) -> None:
-        found = self._touching(u, drive)
-        points = (scale * found.slope)[..., None, None] * found.near.outer
+        found = self._touching(u, drive, since)
+        points = (scale * found.slope)[..., None, None] * dyad(found.normal)
         if not definite:
-            points -= (scale * found.load)[..., None, None] * found.near.curvature
-        self._spread_blocks(found.patches, points, blocks)
-
-    def _mean(
-        self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive]
-    ) -> tuple[_Touching, np.ndarray]:
-        """Return where all are at the end, with A × the mean pressure −Δψ/Δφ (m, p) [N] in place of that
-        there, and its derivative by the depth at the end [N/m], and n̄ (m, p, 3)."""
-        before, after = (
-            self._touching(u, drive, True) for u, drive in zip((start, end), drives, strict=True)
-        )
-        sunk = after.depth - before.depth
-        far = np.abs(sunk) > SAME_DEPTH * self.thickness
-        over = np.where(far, sunk, 1.0)
-        _, load, slope = self._law(0.5 * (before.depth + after.depth), slice(None))
-        load = np.where(far, (after.energy - before.energy) / over, load)
-        slope = np.where(far, (after.load - load) / over, 0.5 * slope)
-        return after._replace(load=load, slope=slope), mean_normal(self.obstacle, before.near, after.near)
-
-    def add_average_force(
-        self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive], force: np.ndarray
-    ) -> None:
-        found, normal = self._mean(start, end, drives)
-        self._spread(found.patches, -found.load[..., None] * normal, force)
-
-    def add_average_tangent(
-        self, start: np.ndarray, end: np.ndarray, drives: tuple[Drive, Drive], blocks: np.ndarray
-    ) -> None:
-        found, normal = self._mean(start, end, drives)
-        points = found.slope[..., None, None] * normal[..., :, None] * normal[..., None, :]
-        points -= (0.5 * found.load)[..., None, None] * found.near.curvature
+            points -= (scale * found.bent * found.load)[..., None, None] * found.near.curvature
         self._spread_blocks(found.patches, points, blocks)
 
     def _sliding(
@@ -224,8 +203,8 @@ class Contact(LatticeItem):
         [m/s]."""
         found = self._touching(u, drive)
         speed = self.weights @ (v[self.nodes[found.patches]] - self.obstacle.velocity(drive.time))
-        leaving = (speed * found.near.normal).sum(axis=-1)
-        sliding = speed - leaving[..., None] * found.near.normal
+        leaving = (speed * found.normal).sum(axis=-1)
+        sliding = speed - leaving[..., None] * found.normal
         return found, leaving, sliding, np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
 
     def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
@@ -234,9 +213,7 @@ class Contact(LatticeItem):
         found, leaving, sliding, size = self._sliding(u, v, drive)
         damped = found.load * np.minimum(self.obstacle.contact_damping * leaving, 1.0)
         rubbed = self.obstacle.friction * found.load / size
-        self._spread(
-            found.patches, damped[..., None] * found.near.normal + rubbed[..., None] * sliding, force
-        )
+        self._spread(found.patches, damped[..., None] * found.normal + rubbed[..., None] * sliding, force)
         return float((damped * leaving).sum() + (rubbed * (size**2 - SLIP_SPEED**2)).sum())
 
     def add_resistance_tangent(
@@ -245,28 +222,25 @@ class Contact(LatticeItem):
         if not self.resists:
             return
         found, leaving, sliding, size = self._sliding(u, v, drive)
-        tau, load, unit = self.obstacle.contact_damping, scale * found.load, sliding / size[..., None]
+        tau, load, across = self.obstacle.contact_damping, scale * found.load, dyad(found.normal)
         damped, rubbed = tau * load * (tau * leaving < 1.0), self.obstacle.friction * load / size
-        plane = np.eye(3) - found.near.outer - unit[..., :, None] * unit[..., None, :]
-        points = damped[..., None, None] * found.near.outer + rubbed[..., None, None] * plane
+        plane = np.eye(3) - across - dyad(sliding / size[..., None])
+        points = damped[..., None, None] * across + rubbed[..., None, None] * plane
         self._spread_blocks(found.patches, points, blocks)
-
-    def work(self, force: np.ndarray, start: float, end: float) -> float:
-        moved = self.obstacle.displacement(1.0, end) - self.obstacle.displacement(1.0, start)
-        return float(force @ moved)
-
-    def power(self, force: np.ndarray, time: float) -> float:
-        return float(force @ self.obstacle.velocity(time))
 
     def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
         """Return the share of a move that takes no point deeper than half a radius, nor through."""
-        start, end = (self._touching(u, since or drive, True), self._touching(u + move, drive, True))
-        return share_of_way(self.obstacle, start.near, end.near, 0.5 * self.thickness)
+        start = self._touching(u, since or drive, everywhere=True)
+        end = self._touching(u + move, drive, everywhere=True)
+        return end.near.share_of_way(start.near, 0.5 * self.thickness)
+
+    def _of_masses(self, load: np.ndarray) -> np.ndarray:
+        """Return sums (n,) of what points (m, p) share among the masses."""
+        shares = (load @ self.weights).ravel()
+        return np.bincount(self.nodes.ravel(), shares, self._masses)
 
     def stiffest(self, mass: np.ndarray) -> float:
-        stiffness = np.zeros(self._masses)
-        np.add.at(stiffness, self.nodes, (self.area * self.share * self.full) @ self.weights)
-        return float((stiffness / mass).max())
+        return float((self._of_masses(self.area * self.share * self.full) / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
         self.rounded = ROUNDED
@@ -276,24 +250,18 @@ class Contact(LatticeItem):
         largest = float(np.abs(self._rest).max())
         return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
 
-    def report(self, u: np.ndarray, drive: Drive) -> ContactState:
-        found = self._touching(u, drive)
-        return ContactState.of(found.depth / self.thickness[found.patches], self.area[found.patches])
+    def report(self, u: np.ndarray, drive: Drive) -> tuple[ContactState, np.ndarray]:
+        found, area = self._touching(u, drive, everywhere=True), self._of_masses(self.area)
+        load = self._of_masses(found.load)
+        pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
+        return ContactState.of(found.depth / self.thickness, self.area), pressure
 
     def clearance(self, u: np.ndarray) -> np.ndarray:
         """Return the way (3,) [m] that takes the nearest point to a depth of a tenth of the thickness."""
-        found = self._touching(u, Drive(), True)
+        found = self._touching(u, Drive(), everywhere=True)
         least = np.unravel_index(found.depth.argmax(), found.depth.shape)
-        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.near.normal[least]
+        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.normal[least]
         return way
-
-    def pressure(self, u: np.ndarray, drive: Drive) -> np.ndarray:
-        """Return the pressure [Pa] of every mass's column (n,), of forces by tributary areas."""
-        found = self._touching(u, drive)
-        load, area = np.zeros(self._masses), np.zeros(self._masses)
-        np.add.at(load, self.nodes[found.patches], found.load @ self.weights)
-        np.add.at(area, self.nodes, self.area @ self.weights)
-        return np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
 
 
 def contacts(scene: Scene, assembly: Assembly) -> tuple[Contact, ...]:

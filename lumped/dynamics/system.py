@@ -23,6 +23,7 @@ from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
+from lumped.items import Since
 from lumped.masses import masses
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
@@ -194,13 +195,14 @@ class System:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
         if self.coupling is not None:
             self.coupling.add_average_force(start.u, end, self.drive(time), force)
+        since, drive = self.ends(start, time)
         for item in self.items:
-            item.add_average_force(start.u, end, self.ends(start, time), force)
+            item.add_force(end, drive, force, since)
         return force
 
-    def ends(self, start: State, middle: float) -> tuple[Drive, Drive]:
-        """The commands at both ends of a step."""
-        return self.drive(start.time), self.drive(2.0 * middle - start.time)
+    def ends(self, start: State, middle: float) -> tuple[Since, Drive]:
+        """Where a step begins, and the commands at its end."""
+        return (start.u, self.drive(start.time)), self.drive(2.0 * middle - start.time)
 
     def matrix(
         self,
@@ -213,7 +215,7 @@ class System:
         ends: tuple[State, np.ndarray] | None = None,
     ) -> np.ndarray:
         """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. ends: of a
-        step of which the items have the average force's derivative by its end."""
+        step of which the items have the mean force's derivative by its end."""
         own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
         share, stresses = own / both if both else 0.0, None
@@ -239,7 +241,8 @@ class System:
             if ends is None:
                 item.add_tangent(u, self.drive(time), stiffness, blocks)
             else:
-                item.add_average_tangent(ends[0].u, ends[1], self.ends(ends[0], time), blocks)
+                since, drive = self.ends(ends[0], time)
+                item.add_tangent(ends[1], drive, 1.0, blocks, since=since)
             item.add_resistance_tangent(u, v, self.drive(time), damping, blocks)
         return blocks
 

@@ -23,7 +23,9 @@ def work(system: System, before: State, after: State) -> float:
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
     for item in system.items if system.pushed else ():
         ends = (item.exerted(s.u, system.drive(s.time), s.v).sum(axis=0) for s in (before, after))
-        done += item.work(0.5 * sum(ends, np.zeros(3)), before.time, after.time)
+        done += (
+            0.5 * sum(ends, np.zeros(3)) @ (item.displacement(after.time) - item.displacement(before.time))
+        )
     if coupling is not None:
         then, now = system.drive(before.time), system.drive(after.time)
         for u in (before.u, after.u):
@@ -48,22 +50,23 @@ def kinetic_of_placed(system: System, state: State) -> float:
 
 def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) -> float:
     """Return the work [J] of what items are fixed to in a step of the conserving midpoint rule."""
-    done, ends = 0.0, system.ends(start, middle)
-    rate = (end - start.u) / (2.0 * (middle - start.time))
+    done, (since, drive), last = 0.0, system.ends(start, middle), 2.0 * middle - start.time
+    rate = (end - start.u) / (last - start.time)
     for item in system.items:
         force = np.zeros_like(end)
-        item.add_average_force(start.u, end, ends, force)
+        item.add_force(end, drive, force, since)
         item.add_resistance(0.5 * (start.u + end), rate, system.drive(middle), force)
-        done -= item.work(force.sum(axis=0), start.time, 2.0 * middle - start.time)
-    return done
+        done -= force.sum(axis=0) @ (item.displacement(last) - item.displacement(start.time))
+    return float(done)
 
 
 def obstacle_power(system: System, state: State) -> float:
     """Return the power [W] of what items are fixed to, as it moves."""
-    return sum(
-        item.power(item.exerted(state.u, system.drive(state.time), state.v).sum(axis=0), state.time)
-        for item in system.items
+    drive = system.drive(state.time)
+    pushed = (
+        item.exerted(state.u, drive, state.v).sum(0) @ item.velocity(state.time) for item in system.items
     )
+    return float(sum(pushed))
 
 
 def natural_work(system: System, u: np.ndarray, then: float, now: float) -> float:

@@ -10,14 +10,12 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.calibration import Calibration
-from lumped.contact import Contact
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from lumped.statics.balance import balance
 from lumped.statics.energy_descent import LatticePath
 from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import LatticeState, Problem
-from sheetbench.answers.contact import contact_notes
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grading import as_settings
@@ -60,9 +58,11 @@ def solution(
     drive = Drive(state.load_factor)
     touching = {item.name: item.exerted(u, drive) for item in problem.items}
     reactions |= {name: force.sum(axis=0) for name, force in touching.items()}
-    contacts = {item.name: item.report(u, drive) for item in problem.items}
-    pressures = [item.pressure(u, drive) for item in problem.items if isinstance(item, Contact)]
-    pressed = {"contact_pressure": np.sum(pressures, axis=0)} if pressures else {}
+    found = {item.name: item.report(u, drive) for item in problem.items}
+    pressed = (
+        {"contact_pressure": np.sum([pressure for _, pressure in found.values()], axis=0)} if found else {}
+    )
+    contacts = {name: state for name, (state, _) in found.items()}
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
     settings |= {"layer_distance": calibration.layer_distance, **as_settings(calibration.grading)}
@@ -87,7 +87,7 @@ def solution(
         balance=balance(scene, problem, state, reactions, exerted, sum(touching.values()), linear),
         contacts=contacts,
         snaps=tuple(path.snaps),
-        remarks=(*outcome.notes, *contact_notes(contacts)),
+        remarks=outcome.notes,
     )
 
 

@@ -27,7 +27,7 @@ def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int
     >>> lumped.buckling(on_edge, lumped.calibrate(on_edge.sheet, on_edge.material, grid=5)).load_factors.shape
     (1,)
     """
-    require_static(scene := scene_of(scene))
+    require_static(scene := scene_of(scene), "buckling")
     require_flat_and_dead(scene)
     calibration = calibration or default(scene)
     begin = now()

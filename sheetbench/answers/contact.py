@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
@@ -38,17 +37,18 @@ class ContactState:
         undecided = int((np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)).sum())
         return cls(float(area[touching].sum()), deepest, int(touching.sum()), undecided)
 
+    @property
+    def notes(self) -> list[str]:
+        """What is doubtful, a clause each."""
+        deep = (
+            f"the sheet is pressed in by {self.penetration:.2g} of its thickness, where a point's force is "
+        )
+        near = f"{self.undecided} points are about to touch or to leave: stability undecided"
+        doubts = (self.penetration > DEEP, deep + "spread by the grid"), (self.undecided > 0, near)
+        return [words for there, words in doubts if there]
+
 
 def friction_notes(scene: Scene) -> list[str]:
     """Return what a model of friction cannot do, a clause an obstacle that rubs."""
     creeps = f"friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
     return [f"{name}: {creeps}" for name, one in obstacles_by_name(scene).items() if one.friction > 0.0]
-
-
-def contact_notes(contacts: Mapping[str, ContactState]) -> list[str]:
-    """Return what is doubtful of contacts, a clause each."""
-    deep = "the sheet is pressed in by {:.2g} of its thickness, where a point's force is spread by the grid"
-    near = "{} points are about to touch or to leave: stability undecided"
-    found = [(name, one.penetration > DEEP, deep.format(one.penetration)) for name, one in contacts.items()]
-    found += [(name, one.undecided > 0, near.format(one.undecided)) for name, one in contacts.items()]
-    return [f"{name}: {words}" for name, there, words in found if there]

@@ -7,10 +7,10 @@ columns that name the rows. Only a word longer than the width itself is broken.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from io import StringIO
-from itertools import pairwise
+from itertools import pairwise, repeat
 from shutil import get_terminal_size
 from textwrap import wrap
 
@@ -81,14 +81,13 @@ def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal
     new = [True, *(a != b or not table.grouped for a, b in pairwise(firsts))][: len(firsts)]
     if table.grouped:
         firsts[:] = [text if first else "" for text, first in zip(firsts, new, strict=True)]
-    starts = [*(table.grouped and first for first in new[1:]), False][: len(firsts)]
     naming = next((i for i, c in enumerate(brief.columns) if c.numeric or c.prose), 1)
     while naming < len(strips) - 1 and len({tuple(row[:naming]) for row in shown}) < len(shown):
         naming += 1
     if table.grouped and not _fits(strips, width):
         parts = _stacked(strips[1:], max(naming - 1, 1), width)
-        return [_under_names([strips[0], *part], width, starts) for part in parts]
-    return [_block(part, width, starts) for part in _stacked(strips, max(naming, 1), width)]
+        return [_under_names([strips[0], *part], width, [*new[1:], False]) for part in parts]
+    return [_block(part, width) for part in _stacked(strips, max(naming, 1), width)]
 
 
 def text(table: Table, most: int | None = None) -> str:
@@ -149,8 +148,8 @@ def _under_names(strips: list[_Strip], width: int | None, starts: list[bool]) ->
     return Block(block.head, rows[0], rows[1:])
 
 
-def _block(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block:
-    """starts: after which rows a group begins."""
+def _block(strips: list[_Strip], width: int | None, starts: Iterable[bool] = repeat(False)) -> Block:
+    """starts: whether a group begins after a row."""
     fits = _fits(strips, width)
     layout = Layout(box=BOX, show_edge=False, pad_edge=False, padding=(0, GAP - 1, 0, 0))
     for strip, head in zip(strips, _heads(strips, width), strict=True):
@@ -159,7 +158,7 @@ def _block(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block
             Text("\n".join(head)), overflow="fold", no_wrap=whole,
             justify="right" if strip.column.numeric else "left",
         )  # fmt: skip
-    for row, start in zip(zip(*(strip.cells for strip in strips), strict=True), starts, strict=True):
+    for row, start in zip(zip(*(strip.cells for strip in strips), strict=True), starts, strict=False):
         layout.add_row(*map(Text, row), end_section=start)
     plain = dict(color_system=None, legacy_windows=False, force_jupyter=False)
     console = Console(file=StringIO(), width=width or UNBOUNDED, **plain)  # type: ignore[arg-type]

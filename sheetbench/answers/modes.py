@@ -12,7 +12,6 @@ import numpy as np
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import HERTZ, NUMBER, Table
 from sheetbench.errors import BadInput
-from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted
 from sheetbench.scenes.objects.loads import EdgeLoad, Pressure
 from sheetbench.scenes.scene import Scene
@@ -91,6 +90,5 @@ def require_flat_and_dead(scene: Scene) -> None:
             )
     if scene.actuators:
         raise BadInput("actuator 1: buckling is of a sheet without actuators")
-    require_no_obstacles(scene, "buckling")
     if bent_or_tilted(scene.supports, scene.sheet):
         raise BadInput("support: a curved or tilted one bends the sheet; buckling is of a flat one")

@@ -204,7 +204,8 @@ class Solution(Answer):
     def message(self) -> str:
         """Fallback, snaps and remarks in a line, for people."""
         snapped = (f"snapped at load factor {load_factor:.4g}" for load_factor in self.snaps)
-        return "; ".join(filter(None, [self.fallback, *snapped, *self.remarks]))
+        doubts = (f"{name}: {note}" for name, one in self.contacts.items() for note in one.notes)
+        return "; ".join(filter(None, [self.fallback, *snapped, *self.remarks, *doubts]))
 
     @property
     def status_text(self) -> str:

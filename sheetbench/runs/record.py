@@ -10,6 +10,7 @@ from typing import Any, Generic, TypedDict, cast
 
 import numpy as np
 
+from sheetbench.answers.contact import friction_notes
 from sheetbench.answers.history import History
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
@@ -18,14 +19,16 @@ from sheetbench.runs.columns import split, width
 from sheetbench.runs.run import Observer, Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
+from sheetbench.scenes import Scene
 
 
 @dataclass(frozen=True)
 class Recipe(Generic[AnyState]):
-    """A motion to be run. schedule: of a run that begins, to `duration` [s]; key: JSON-able, on what its
-    numbers depend; rows: of a frame; notes: of the answer; start: of the method, the state
-    to begin in, with the work of what moves at once."""
+    """A motion of a scene to be run. schedule: of a run that begins, to `duration` [s]; key: JSON-able, on
+    what its numbers depend, beside the scene; rows: of a frame; start: of the method, the state to begin in,
+    with the work of what moves at once."""
 
+    scene: Scene
     label: str
     integrator: str
     settings: dict[str, Any]
@@ -36,7 +39,6 @@ class Recipe(Generic[AnyState]):
     observer: Observer
     start: Callable[[Any], Advance[AnyState]]
     rows: int
-    notes: tuple[str, ...] = ()
 
 
 class Keeping(TypedDict, total=False):
@@ -72,7 +74,13 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
     with ExitStack() as open_store:
         kept: FolderStore | MemoryStore = MemoryStore(width(columns), recipe.rows)
         if store is not None:
-            key = {**recipe.key, "integrator": recipe.integrator, "frames": frames, "columns": described}
+            key = {
+                "scene": recipe.scene.document(),
+                **recipe.key,
+                "integrator": recipe.integrator,
+                "frames": frames,
+                "columns": described,
+            }
             kept = open_store.enter_context(FolderStore(store, width(columns), recipe.rows, key))
             if kept.plan is not None:
                 schedule = type(schedule)(**kept.plan).longer(recipe.duration)
@@ -90,7 +98,7 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
         integrator=recipe.integrator,
         settings={**recipe.settings, **method.settings(), "every": schedule.every},
         status=status,
-        message="; ".join(filter(None, [message, *recipe.notes])),
+        message="; ".join(filter(None, [message, *friction_notes(recipe.scene)])),
         time=parts["time"][""],
         probes=parts.get("probe", {}),
         energies=parts["energy"],

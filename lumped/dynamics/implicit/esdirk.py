@@ -22,7 +22,6 @@ from typing import Any
 import numpy as np
 
 from lumped.dynamics.implicit.compiled_stages import Step
-from lumped.dynamics.implicit.energy_gain import EnergyGain
 from lumped.dynamics.implicit.esdirk_step import EsdirkStep
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, ERRORS, GAMMA, GUESSES, STAGES
@@ -63,7 +62,7 @@ class Esdirk(Integrator):
         self._control = Controller(5, 4.0, (1.0, 1.2), step)
         self._first, self._error = step, error
         self._newton = Newton(system, STEP_TOLERANCE, STALE)
-        self._largest, self._gain = 0.0, EnergyGain(system)
+        self._largest, self._energy = 0.0, 0.0  # displacement, and part of the energy
         self._end: tuple[State | None, np.ndarray] = None, np.zeros(2)  # the last state, and its power
 
     @classmethod
@@ -86,14 +85,14 @@ class Esdirk(Integrator):
             **self._control.memory(),
             "first": self._first,
             "largest": self._largest,
-            "energy": self._gain.largest,
+            "energy": self._energy,
         }
 
     def recall(self, memory: dict[str, Any]) -> None:
         """Take up what `memory` gave."""
         self._control.recall(memory)
         self._first, self._largest = float(memory["first"]), float(memory["largest"])
-        self._gain.largest = float(memory["energy"])
+        self._energy = float(memory["energy"])
 
     def notes(self) -> str:
         """Return a clause on steps that counted in spite of their error."""
@@ -110,7 +109,7 @@ class Esdirk(Integrator):
         if self._largest == 0.0:
             self._begin(state)
         state, at_most = self._from_kink(state, at_most)
-        largest = self._largest
+        largest, began = self._largest, self._energies(state) if self.system.items else []
 
         def attempt(h: float) -> tuple[EsdirkStep, float, float]:
             nonlocal largest
@@ -120,14 +119,19 @@ class Esdirk(Integrator):
             largest = max(self._largest, float(np.abs(step.stages.u[-1]).max()))
             if self.system.items:  # which are touched within steps
                 found = self._advance(state, step)
-                gained = self._gain.of(state, found.state, found.dissipated - found.work)
-                error = max(error, largest * gained * ENERGY)
+                now = self._energies(found.state)
+                self._energy = max(self._energy, *map(abs, now))
+                gained = abs(sum(now) - sum(began) + found.dissipated - found.work)
+                error = max(error, largest * ENERGY * gained / (self._energy or 1.0))
             return step, error, self._error * largest
 
         shortest = 1e-6 * min(self._control.step, at_most)
         step, _ = self._control.take(attempt, at_most, shortest)
         self._largest = largest
         return self._advance(state, step)
+
+    def _energies(self, state: State) -> list[float]:
+        return list(self.system.balance(state)[0].values())
 
     @property
     def _small(self) -> float:
@@ -174,7 +178,7 @@ class Esdirk(Integrator):
         """A step with all its stages."""
         by, step = 1.0 / (GAMMA * h), EsdirkStep(self.system, state, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
-            middle = state.u + 0.5 * h * state.v
+            middle = state.u + 0.5 * h * (state.v + 0.25 * h * state.a)
             equation = StepEquation(step.in_stage(0), state.time + 0.5 * h, middle, state.v, by * by, by)
             self._newton.renew(equation, middle)
         times = step.stages.time
@@ -218,7 +222,9 @@ class Esdirk(Integrator):
         if last.state.time == times[0]:
             return super().at(times, last)
         tolerance = SHARE * self._small if self.adapts else None
-        return self._step.at(times, last.state, self._newton, self._small, tolerance)
+        self._energy = max(self._energy, kinetic_of(self.system, last.state.v))
+        enough = ENERGY * min(self._error, ERROR) * self._energy if self.adapts else 0.0
+        return self._step.at(times, last.state, self._newton, tolerance, enough)
 
     def _advance(self, start: State, step: EsdirkStep) -> Advance[State]:
         system, motion, power = self.system, self.system.prescribed, step.stages.power

@@ -5,25 +5,21 @@ accelerations, û, v̂ and â, and then, as stiff springs magnify what it misses
 
     M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
 
-which lies in equilibrium along stiff directions and on the polynomial along soft ones. Energies are
-polynomials through the stages' powers (`tableau.CUMULATIVE`).
+which lies in equilibrium along stiff directions and on the polynomial along soft ones, where the polynomial
+alone would have too much energy. Energies are polynomials through the stages' powers (`tableau.CUMULATIVE`).
 """
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 import numpy as np
 
 from lumped.dynamics.implicit.compiled_stages import Stages
 from lumped.dynamics.implicit.newton import Newton, StepEquation
-from lumped.dynamics.implicit.polynomial import bubbles, polynomials
+from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, STAGES
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of
-
-NODES = np.array([0.25, 0.5, 0.75])  # shares of a step
 
 
 class EsdirkStep:
@@ -70,11 +66,11 @@ class EsdirkStep:
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
     def at(
-        self, times: np.ndarray, end: State, newton: Newton, small: float, tolerance: float | None
+        self, times: np.ndarray, end: State, newton: Newton, tolerance: float | None, enough: float
     ) -> LatticeSamples:
         """Return the states at times (k,) [s] within the step, which may take its end; energies since it
-        began. small: correction [m] below which that of others counts for a state; tolerance: as of
-        `Newton.solve_equations`."""
+        began. tolerance: as of `Newton.solve_equations`; enough: up to which energy [J] too much
+        (`Newton.excess`) of the state nearest to the step's middle the polynomials serve."""
         stages, h = self.stages, self.h
         theta = (times - stages.time[0]) / h
         u, v, a = self._within(theta)
@@ -86,15 +82,17 @@ class EsdirkStep:
         if system.maxwell is not None:
             inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
         c1, within = 1.0 / (GAMMA * h), len(times) - (end.time == times[-1])
-        base_u, base_v = u - a / c1**2, v - a / c1
 
-        def solve(of: np.ndarray, found: np.ndarray) -> bool:
-            some = [StepEquation(inside[i], float(times[i]), base_u[i], base_v[i], c1**2, c1) for i in of]
-            return not newton.solve_equations(some, found, tolerance)
+        def equation(i: int) -> StepEquation:
+            base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
+            return StepEquation(inside[i], float(times[i]), *base, c1**2, c1)
 
-        a -= c1**2 * u
-        self._correct(solve, theta[:within], u[:within], small)
-        a += c1**2 * u
+        middle = int(np.abs(theta - 0.5).argmin())
+        if newton.excess(equation(middle), u[middle]) > enough:
+            between = u[:within].copy()
+            newton.solve_equations([equation(i) for i in range(within)], between, tolerance)
+            a[:within] += c1**2 * (between - u[:within])
+            u[:within] = between
         if end.time == times[-1]:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
         for i, maxwell in enumerate(one.maxwell for one in inside if start is not None):
@@ -105,27 +103,6 @@ class EsdirkStep:
             began = kinetic_of(system, motion.rate(float(stages.time[0])))
             put_in += [kinetic_of(system, motion.rate(t, before=True)) - began for t in times.tolist()]
         return LatticeSamples(times, u, v, a, memories, taken, put_in)
-
-    def _correct(
-        self, solve: Callable[[np.ndarray, np.ndarray], bool], theta: np.ndarray, u: np.ndarray, small: float
-    ) -> None:
-        """Put the solutions at shares θ (k,) of a step, inside it, in place of polynomials u (k, n, 3): those
-        nearest to some shares first. What corrects them is of the third order at the step's ends; what passes
-        through it corrects the others, to begin with, and for good where it is small. solve: puts those of
-        some equations, by number, in place of guesses, and returns whether all have one."""
-        first = np.unique(np.abs(theta - NODES[:, None]).argmin(axis=1))
-        others = np.delete(np.arange(len(theta)), first)
-        for of in (first, others):
-            if not len(of):
-                return
-            found = u[of]
-            all_solved = solve(of, found)
-            moved, u[of] = found - u[of], found
-            if of is first and len(others) and all_solved:
-                shares = bubbles(theta[first], theta[others])
-                u[others] += (shares @ moved.reshape(len(first), -1)).reshape(len(others), *moved.shape[1:])
-                if not self.system.items and np.abs(moved).max() < small:
-                    return
 
     def _within(self, theta: np.ndarray) -> np.ndarray:
         """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,

@@ -131,6 +131,15 @@ class Newton:
                 failures[i] = failure
         return failures
 
+    def excess(self, equation: StepEquation, u: np.ndarray) -> float:
+        """Return the energy [J] that u (n, 3) has too much by the equation, along stiff directions most: half
+        the work of what it leaves along the correction of that; infinite where no factors kept serve."""
+        left = self._system.problem.reduce(self._residual(equation, u))
+        by = equation.mass_coefficient, equation.damping_coefficient
+        if self._compiled is not None and self.near(by[0]):
+            return 0.5 * float(left @ self._compiled.solve(left))
+        return 0.5 * float(left @ self._factor.solve(left)) if self._factor and self._key == by else np.inf
+
     def _solve_general(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray:
         return self.solve(
             (equation.mass_coefficient, equation.damping_coefficient),

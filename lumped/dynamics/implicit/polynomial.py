@@ -1,5 +1,4 @@
-"""Polynomials within a step: the one of fifth degree through its ends, with their velocities and
-accelerations, compiled; and what corrects it."""
+"""The polynomial of fifth degree through a step's ends, with their velocities and accelerations, compiled."""
 
 from __future__ import annotations
 
@@ -34,19 +33,3 @@ def polynomials(
                 u = u * theta[k] + curve[power, i]
             out[0, k, i], out[1, k, i], out[2, k, i] = u, v * rate, a * rate * rate
     return out.reshape(3, len(theta), -1, 3)
-
-
-@njit(cache=True)
-def bubbles(nodes: np.ndarray, theta: np.ndarray) -> np.ndarray:
-    """Values at shares θ (k,) of the polynomials θ³ (1 − θ)³ p(θ), p of least degree, that are one at one of
-    the nodes (m,) and zero at the others, (k, m)."""
-    found = np.empty((len(theta), len(nodes)))
-    for k in range(len(theta)):
-        for j in range(len(nodes)):
-            value = theta[k] * (1.0 - theta[k]) / (nodes[j] * (1.0 - nodes[j]))
-            value = value * value * value
-            for i in range(len(nodes)):
-                if i != j:
-                    value *= (theta[k] - nodes[i]) / (nodes[j] - nodes[i])
-            found[k, j] = value
-    return found

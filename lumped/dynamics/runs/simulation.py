@@ -25,7 +25,6 @@ from lumped.lattice import Weights
 from lumped.mid_surface import MidSurface
 from lumped.statics.fields import field_mesh
 from lumped.statics.solver import build_problem
-from sheetbench.answers.contact import friction_notes
 from sheetbench.answers.history import History
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
@@ -101,7 +100,6 @@ def simulate(
     axes = system.coupling.axes() if system.coupling is not None else {}
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
     key = {
-        "scene": scene.document(),
         "springs": calibration.document()["springs"],
         "step": step,
         "every": every,
@@ -110,6 +108,7 @@ def simulate(
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
     recipe = Recipe(
+        scene=scene,
         label=f"lumped {calibration.title}",
         integrator=integrator,
         settings=settings,
@@ -120,7 +119,6 @@ def simulate(
         observer=LatticeObserver(system, drawn),
         start=lambda method: Advance(start, 0.0, 0.0),
         rows=len(drawn),
-        notes=tuple(friction_notes(scene)),
     )
     history = record(recipe, keeping, began)
     history.settings.update({"largest_step": limit.step} if limit is not None else {})

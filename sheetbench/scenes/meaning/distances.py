@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.objects.fields import SceneFields
@@ -20,67 +21,62 @@ from sheetbench.scenes.objects.obstacles import AnyObstacle, Plane
 from sheetbench.scenes.objects.supports import Clamped, Hinged
 
 INSIDE = 1e-6  # of the thickness: the depth from which on a sheet begins inside an obstacle
-GRID = 65  # points a side of a drawn sheet or along an edge that a distance is looked for at
+GRID = 65  # points a side of the outline, or along an edge, that a distance is looked for at
 
 
 class Near(NamedTuple):
-    """Points beside an obstacle: y (…, 3) [m], φ (…) [m], n (…, 3), 1/|y| (…) [1/m], 0 of a plane, and P."""
+    """Points beside an obstacle: y (…, 3) [m], φ (…) [m] and n (…, 3)."""
 
+    obstacle: AnyObstacle
     across: np.ndarray
     distance: np.ndarray
     normal: np.ndarray
-    bend: np.ndarray
-    projector: np.ndarray
-
-    @property
-    def outer(self) -> np.ndarray:
-        """n nᵀ (…, 3, 3)."""
-        product: np.ndarray = self.normal[..., :, None] * self.normal[..., None, :]
-        return product
 
     @property
     def curvature(self) -> np.ndarray:
         """∇n (…, 3, 3) [1/m]."""
-        bent: np.ndarray = self.bend[..., None, None] * (self.projector - self.outer)
-        return bent
+        length = (self.distance + self.obstacle.radius)[..., None, None]
+        return np.asarray((projector(self.obstacle) - dyad(self.normal)) / length)
+
+    def mean_normal(self, start: Near) -> np.ndarray:
+        """Return n̄ (…, 3) with n̄·Δy = Δφ exactly since a start: n, or (y₀ + y₁)/(|y₀| + |y₁|) as
+        Δ|y|² = (y₀ + y₁)·Δy."""
+        if isinstance(self.obstacle, Plane):
+            return self.normal
+        lengths = start.distance + self.distance + 2.0 * self.obstacle.radius
+        return np.asarray((start.across + self.across) / lengths[..., None])
+
+    def share_of_way(self, start: Near, offset: np.ndarray) -> float:
+        """Return up to which share straight ways of points from a start, which touch at a distance
+        `offset` (…) [m], lead none of them deeper than half the radius, nor through: 1 for all of them."""
+        if isinstance(self.obstacle, Plane):
+            return 1.0
+        x, v = start.across, self.across - start.across
+        core = 0.5 * self.obstacle.radius + offset
+        a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
+        hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)
+        first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
+        return float(0.99 * first.min(initial=1.0 / 0.99))
+
+
+def dyad(n: np.ndarray) -> np.ndarray:
+    """Return n nᵀ (…, 3, 3) of vectors (…, 3)."""
+    return np.asarray(n[..., :, None] * n[..., None, :])
 
 
 def projector(obstacle: AnyObstacle) -> np.ndarray:
     """Return P (3, 3) across a cylinder's axis or on a plane, the identity of a sphere."""
-    return np.eye(3) - np.outer(obstacle.direction, obstacle.direction)
+    return np.eye(3) - dyad(obstacle.direction)
 
 
 def near(obstacle: AnyObstacle, x: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Near:
     """Return where places (…, 3) [m] are beside an obstacle that has moved (`displacement`)."""
-    y, across = x - obstacle.position - obstacle.displacement(load_factor, time), projector(obstacle)
+    y = x - obstacle.position - obstacle.displacement(load_factor, time)
     if isinstance(obstacle, Plane):
-        normal = np.broadcast_to(obstacle.direction, y.shape)
-        return Near(y, y @ obstacle.direction, normal, np.zeros(y.shape[:-1]), across)
-    y = y @ across
+        return Near(obstacle, y, y @ obstacle.direction, np.broadcast_to(obstacle.direction, y.shape))
+    y = y @ projector(obstacle)
     length = np.maximum(np.sqrt((y * y).sum(axis=-1)), 1e-300)
-    return Near(y, length - obstacle.radius, y / length[..., None], 1.0 / length, across)
-
-
-def mean_normal(obstacle: AnyObstacle, start: Near, end: Near) -> np.ndarray:
-    """Return n̄ (…, 3) with n̄·Δy = Δφ exactly: n, or (y₀ + y₁)/(|y₀| + |y₁|) as Δ|y|² = (y₀ + y₁)·Δy."""
-    if isinstance(obstacle, Plane):
-        return end.normal
-    lengths = start.distance + end.distance + 2.0 * obstacle.radius
-    mean: np.ndarray = (start.across + end.across) / lengths[..., None]
-    return mean
-
-
-def share_of_way(obstacle: AnyObstacle, start: Near, end: Near, offset: np.ndarray) -> float:
-    """Return up to which share straight ways between points, which touch at a distance `offset` (…) [m], lead
-    none of them deeper than half the radius, nor through: 1 for all of them, and of a plane."""
-    if isinstance(obstacle, Plane):
-        return 1.0
-    x, v = start.across, end.across - start.across
-    core = 0.5 * obstacle.radius + offset
-    a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
-    hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)
-    first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
-    return float(0.99 * first.min(initial=1.0 / 0.99))
+    return Near(obstacle, y, length - obstacle.radius, y / length[..., None])
 
 
 def obstacles_by_name(scene: SceneFields) -> dict[str, AnyObstacle]:
@@ -97,40 +93,38 @@ def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObst
 
 def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarray]:
     """Return the smallest gap [m] between the flat sheet's face and an obstacle where a motion begins, < 0
-    where the sheet begins inside it, and the way from the sheet to it (3,): exact of a rectangle, of a drawn
-    sheet at the points of a grid."""
-    sides = scene.sheet.lengths
-    if scene.pierced or isinstance(obstacle, Plane):
-        import shapely
+    where the sheet begins inside it, and the way from the sheet to it (3,): exact of a plane and where the
+    obstacle is over the sheet or the sheet a rectangle, else at points of the outline."""
+    import shapely
+    from scipy.optimize import lsq_linear
 
-        x, y = (each.ravel() for each in np.meshgrid(*(np.linspace(0.0, side, GRID) for side in sides)))
-        plan = np.column_stack([x, y])[shapely.intersects_xy(scene.region, x, y)]
-    else:  # a square of distances is convex in the plan
-        from scipy.optimize import lsq_linear
+    sides, across = scene.sheet.lengths, projector(obstacle)
+    at = obstacle.position + obstacle.displacement(0.0, 0.0)
+    foot = lsq_linear(across[:, :2], across @ at, ([0.0, 0.0], sides)).x  # |y|² is convex in the plan
+    plan = shapely.get_coordinates(shapely.segmentize(scene.region, max(sides) / GRID))
+    return _gap(scene, obstacle, [*plan, foot] if shapely.intersects_xy(scene.region, *foot) else plan, 0.0)
 
-        at, across = obstacle.position + obstacle.displacement(0.0, 0.0), projector(obstacle)
-        plan = lsq_linear(across[:, :2], across @ at, ([0.0, 0.0], sides)).x[None]
-    found = near(obstacle, np.pad(plan, ((0, 0), (0, 1))), time=0.0)
+
+def _gap(
+    scene: SceneFields, obstacle: AnyObstacle, plan: ArrayLike, time: float | None = None
+) -> tuple[float, np.ndarray]:
+    found = near(obstacle, np.pad(plan, ((0, 0), (0, 1))), time=time)
     least = found.distance.argmin()
     return float(found.distance[least]) - 0.5 * scene.sheet.thickness, -found.normal[least]
 
 
 def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
     """Yield what does not go together, key and reason, no reason where it does."""
-    deepest = INSIDE * scene.sheet.thickness
+    edges = [one for one in scene.supports if isinstance(one, Clamped | Hinged) and one.where is None]
     for name, obstacle in obstacles_by_name(scene).items():
-        gap, _ = nearest(scene, obstacle)
-        inside = f"the flat sheet begins {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
-        yield f"{name}.position: ", inside if gap < -deepest else None
-        for support in scene.supports if obstacle.motion is not None else ():
-            if isinstance(support, Clamped | Hinged) and support.where is None and support.motion is None:
-                edge = np.linspace(*scene.sheet.edge_ends(support.edge), GRID)
-                distance = near(obstacle, np.pad(edge, ((0, 0), (0, 1)))).distance.min()
-                gap = float(distance) - 0.5 * scene.sheet.thickness
-                inside = (
-                    f"in its last place edge {support.edge}, which is held, is {-1e3 * gap:.4g} mm inside it"
-                )
-                yield f"{name}.motion: ", f"{inside}; move it less far" if gap < -deepest else None
+        gaps = {"position: the flat sheet begins": nearest(scene, obstacle)[0]}
+        for edge in (one.edge for one in edges if one.motion is None):
+            along = np.linspace(*scene.sheet.edge_ends(edge), GRID)
+            where = f"motion: in its last place edge {edge}, which is held, is"
+            gaps[where] = _gap(scene, obstacle, along)[0]
+        for where, gap in gaps.items():
+            inside = f"{where} {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
+            yield f"{name}.", inside if gap < -INSIDE * scene.sheet.thickness else None
 
 
 def require_no_obstacles(scene: SceneFields, who: str) -> None:

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from sheetbench.errors import SceneError
-from sheetbench.scenes.meaning.distances import require_frictionless
+from sheetbench.scenes.meaning.distances import require_frictionless, require_no_obstacles
 from sheetbench.scenes.objects.actuators import Chain
 from sheetbench.scenes.objects.cutouts import Cutout, common, region
 from sheetbench.scenes.objects.fields import SceneFields
@@ -77,9 +77,11 @@ def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
     return ""
 
 
-def require_static(scene: SceneFields) -> None:
-    """Raise SceneError unless the supports stop every rigid motion, or obstacles those out of the plane; and
-    for friction."""
+def require_static(scene: SceneFields, linear: str = "") -> None:
+    """Raise SceneError unless the supports stop every rigid motion, or obstacles those out of the plane; for
+    friction; for obstacles of what is `linear`, who it is."""
+    if linear:
+        require_no_obstacles(scene, linear)
     require_frictionless(scene)
     free = free_rigid_motions(scene)
     if free and scene.obstacles:

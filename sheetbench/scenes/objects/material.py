@@ -163,7 +163,8 @@ class Material(Fibres):
         Poisson's ratio, as measures of the material's size."""
         if isinstance(data, dict) and data.get("kind") == "orthotropic":
             return orthotropy.with_likeness(data)
-        words = WORDS.get(data.get("law", "")) if isinstance(data, dict) else None
+        law = data.get("law") if isinstance(data, dict) else None
+        words = WORDS.get(law) if isinstance(law, str) else None
         if words is None or "young" in data:
             return data
         given = numbers(data, {key: "Pa" if key in STRESSES else "" for key in ("poisson", *words.keys)})

@@ -7,9 +7,9 @@ import pytest
 from dynamic_cases import ROD, make_scene, run, springs, system
 
 import lumped
-from lumped.dynamics.implicit import esdirk, esdirk_step
+from lumped.dynamics.implicit import esdirk
 from lumped.dynamics.implicit.esdirk import Esdirk
-from lumped.dynamics.implicit.polynomial import bubbles
+from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GUESSES, STAGES, WEIGHTS
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
@@ -83,28 +83,36 @@ def test_samples_do_not_change_the_steps_and_lie_on_one_curve():
     assert np.abs(fine.balance - fine.balance[0]).max() < 2e-3 * went_round
 
 
-def test_what_corrects_some_samples_of_a_step_corrects_the_others(monkeypatch):
-    """All solved for, they differ by less than the error that a step may have, along stiff springs too."""
+def test_polynomials_serve_where_states_have_little_energy_too_much(monkeypatch):
+    """All states within steps solved for, they differ by less than the error that a step may have, and their
+    energy by less than ten times that."""
     scene = make_scene("two-edges-settling")
     few = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
-    monkeypatch.setattr(esdirk_step, "NODES", np.linspace(0.0, 1.0, 200))
+    monkeypatch.setattr(Newton, "excess", lambda self, equation, u: np.inf)
     each = lumped.simulate(scene, springs(scene), 0.3, integrator="esdirk", every=1e-3)
     assert few.steps == each.steps < 60
     largest = max(np.abs(u).max() for u in each.probes.values())
     for name, u in each.probes.items():
         assert np.abs(few.probes[name] - u).max() < 3.0 * esdirk.ERROR * largest  # as motions of each wander
     stored = each.energies["elastic"]
-    assert np.abs(few.energies["elastic"] - stored).max() < 1e-3 * stored.max()
+    assert np.abs(few.energies["elastic"] - stored).max() < esdirk.ENERGY * esdirk.ERROR * stored.max()
 
 
-def test_bubbles_have_both_ends_displacement_velocity_and_acceleration():
-    nodes, theta = np.array([0.2, 0.55, 0.7]), np.linspace(0.0, 1.0, 9)
-
-    def curve(t):
-        return (t * (1.0 - t)) ** 3 * (1.0 + 2.0 * t - 3.0 * t**2)
-
-    np.testing.assert_allclose(bubbles(nodes, theta) @ curve(nodes), curve(theta), atol=1e-16)
-    np.testing.assert_allclose(bubbles(nodes, nodes), np.eye(3), atol=1e-15)
+def test_the_energy_that_a_state_has_too_much_is_that_of_what_corrects_it():
+    """By the compiled iteration's factors and by general ones: a state off its equation's solution by d has
+    ½ d·A d too much, A the equation's tangent."""
+    equations, state = system(make_scene(damping_time=1e-3), 4)
+    problem, drawn = equations.problem, np.random.default_rng(1)
+    off, found = 1e-7 * problem.expand(drawn.standard_normal(problem.system.unknowns)), []
+    for compiled in (True, False):
+        newton = Newton(equations, 1e-13)
+        newton._compiled = newton._compiled if compiled else None
+        equation = StepEquation(equations, 0.0, state.u, state.v, 1e6, 1e3)
+        assert newton.excess(equation, state.u) == np.inf  # without factors
+        solved = newton.solve_equation(equation, state.u)
+        found.append(newton.excess(equation, solved + off))
+    pull = problem.system.apply(equations.matrix(solved, state.v, 0.0, 1e6, 1e3, 1.0), off)
+    assert found == pytest.approx(2 * [0.5 * np.vdot(off, pull)], rel=1e-3)
 
 
 def test_guesses_of_stages_are_right_where_the_acceleration_stays():

@@ -86,7 +86,7 @@ def test_no_text_is_lost_or_too_wide(rows, width):
 def test_rows_of_a_group_stand_under_its_name():
     table = Table("", (Column("probe"), Column("x", form="d")), (("P1", 1), ("P1", 2), ("P2", 3)), "", True)
     (block,) = blocks(table, None)
-    assert [row.split() for row in block.rows] == [["P1", "1"], ["2"], [block.rule], ["P2", "3"]]
+    assert [row.split() for row in block.rows] == [["P1", "1"], ["2"], ["P2", "3"]]
 
 
 def test_blocks_of_groups_name_group_and_row():

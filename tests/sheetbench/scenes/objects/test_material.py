@@ -80,6 +80,7 @@ REFUSED = {
     "c3 above 333.333 Pa": {"law": "yeoh", "c1": 1e5, "c2": -1e4, "c3": 300.0},
     "material.limit = -1.0: must be greater than 0": {"law": "gent", "shear": 3.4e5, "limit": -1.0},
     "material.law = 'ogden'": {"law": "ogden", "young": 1e6},
+    "material.law": {"law": [1], "young": 1e6},
     "material.c10: of rubber there are the laws": {"young": 1e6, "c10": 1.0},
     "springs: of a material with law = 'gent' they are calibrated; leave one out": {
         "law": "gent", **LAWS["gent"], "springs": SPRINGS},

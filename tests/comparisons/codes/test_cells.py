@@ -186,14 +186,13 @@ def test_a_sheet_without_a_stable_equilibrium_has_no_error(tmp_path, capsys, lin
     assert found["coefficients"] and "no error in strip is known: shell" in printed.err
 
 
-def test_the_parameter_shown_is_the_best_one_and_calibrates(capsys):
+def test_the_parameter_shown_is_the_best_one_and_calibrates():
     """The nearest hinge leaves an error of 71 % in this scene; `calibrate --for` has the best one too."""
-    found = json_of(capsys, "calibrate", "one-edge-clamped", "--cell", "alternate-diagonals")
-    other = json_of(capsys, "calibrate", "one-edge-clamped", "--for", "newton")
+    answer = sb.calibrate("one-edge-clamped", cell="alternate-diagonals")
+    found, other = answer.document(), sb.calibrate("one-edge-clamped", for_="newton").document()
     assert found["coefficients"]["hinge"] == pytest.approx(other["coefficients"]["hinge"], rel=1e-9)
     assert found["limit_error"] < 0.02 and found["nearest"]["limit_error"] > 0.5
-    assert run("calibrate", "one-edge-clamped", "--cell", "alternate-diagonals", "--quiet") == 0
-    said = " ".join(capsys.readouterr().out.split())
+    said = " ".join(str(answer).split())
     assert re.search(r"edge_ke 8\.36\d+ N ", said)
     assert said.index("even an infinitely fine mesh is 1.4 % off") < said.index("Coefficients")
 

@@ -34,6 +34,7 @@ def answer(scene, model):
     return lumped.solve(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=4)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid", "calculix"])
 def test_a_uniform_sheet_cut_into_patches_of_its_own_material_is_the_same(model):
     plain = load("two-edges-clamped")
@@ -77,6 +78,7 @@ STRIPS = {
 }  # fmt: skip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("kind", STRIPS)
 @pytest.mark.parametrize(
     ("model", "off"), [("lumped", 0.005), ("plate", 1e-5), ("shell", 1e-5), ("solid", 5e-4)]

@@ -122,6 +122,7 @@ def test_a_heated_plate_buckles_where_kirchhoff_says(model):
     assert fem_reference.buckling(heated(1.0), model, 8).load_factors[0] == pytest.approx(1.0, rel=0.01)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("times", "rise"), [(2.0, 0.864), (5.0, 1.679)])
 def test_a_heated_shell_past_buckling_is_not_found_flat(times, rise):
     moved, found = tip(heated(times), "shell", 8, point=[0.1, 0.1])

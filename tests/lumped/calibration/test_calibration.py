@@ -115,6 +115,7 @@ def test_homogenisation_agrees_with_imposed_strains(grid):
         assert imposed_energy(assembly, zero, zero, shear) == pytest.approx(0.5 * expected, rel=1e-4)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("method", ["consistent", "moduli"])
 @pytest.mark.parametrize("grid", [(5, 5), (33, 33), (9, 13), (9, 25), (25, 9)])
 def test_every_modulus_is_met(method, grid):

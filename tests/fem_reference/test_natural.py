@@ -151,7 +151,7 @@ def growing():
     ramp = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
     natural = Natural(curvature=(0.5, 0.0, 0.0), history=ramp)
     of = scene(0.2, 0.1, 0.002, [Clamped(edge="x0")], natural=natural)
-    return of, lumped.simulate(of, lumped.calibrate(of.sheet, of.material, (17, 9, 2)), 0.2, every=0.02)
+    return of, lumped.simulate(of, lumped.calibrate(of.sheet, of.material, (13, 7, 2)), 0.2, every=0.02)
 
 
 @pytest.mark.sweep

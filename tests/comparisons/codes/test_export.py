@@ -130,7 +130,8 @@ def test_matlab_and_numpy_files_hold_the_same(folder):
         else:
             np.testing.assert_array_equal(other[name].ravel(), values.ravel(), err_msg=name)
     page = (folder / "README.md").read_text(encoding="utf-8")
-    assert all(f"`{name}`" in page for name in NAMES)
+    assert all(f"`{name}`" in page for name in NAMES) and "left out" not in page
+    assert not any(name in page or (folder / name).exists() for name in ("plan.csv", "natural.csv"))
 
 
 @pytest.mark.sweep(2)

@@ -186,13 +186,18 @@ def test_an_exported_lattice_carries_the_payload(tmp_path):
         lumped.describe(scene.replace(masses=({"at": (0.1, 0.1), "mass": 0.1, "inertia": (1e-6,) * 3},)), own)
 
 
-def test_the_numpy_reader_is_a_program(folder, capsys):
+def read(folder, capsys):
+    """What the reader in NumPy says of a folder, as a program that ends well."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.argv", ["read_lattice.py", str(folder)])
         with pytest.raises(SystemExit) as left:
             runpy.run_path(str(READERS / "read_lattice.py"), run_name="__main__")
     assert not left.value.code
-    said = capsys.readouterr()
+    return capsys.readouterr()
+
+
+def test_the_numpy_reader_is_a_program(folder, capsys):
+    said = read(folder, capsys)
     assert said.out.startswith("forces of 3 states off by")
     assert re.fullmatch(r"(statics of \d+ masses, load in \d+ step\(s\)\n)+", said.err)
 
@@ -285,7 +290,7 @@ def test_loads_that_follow_the_sheet_balance_it_as_the_readme_says():
     assert np.abs(unbalanced[free]).max() < 1e-6 * scale  # the solver's own tolerance is 1e-9 of all forces
 
 
-def test_what_files_cannot_say_is_refused_or_told(tmp_path):
+def test_what_files_cannot_say_is_refused_or_told(tmp_path, capsys):
     with pytest.raises(BadInput, match="actuators are not springs"):
         scene = scenes.load("actuated-edge")
         lumped.describe(scene, spring_set(scene, 5))
@@ -296,6 +301,7 @@ def test_what_files_cannot_say_is_refused_or_told(tmp_path):
     said = export(tmp_path, free, spring_set(free, 3))
     assert "no equilibrium to check by" in said
     assert "no equilibrium to check by" in (tmp_path / "README.md").read_text(encoding="utf-8")
+    assert read(tmp_path, capsys).out.endswith("the folder has no equilibrium\n")
     with pytest.raises(BadInput, match=r"--export = .*holds files of another 'export'"):
         export(tmp_path, HALF, spring_set(HALF, 3))
 

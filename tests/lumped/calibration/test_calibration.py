@@ -171,6 +171,10 @@ def test_textbook_constructions_on_squares():
     assert (lloyd.axial, lloyd.diagonal) == pytest.approx((2 * 5 / 16 * strip, 7 / 16 * strip))
     bars = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "axial").springs
     assert (bars.axial, bars.diagonal) == pytest.approx((strip, strip / 2))
+    square, upright = (0.188 / 8) ** 2, 0.003**2 / 3  # cross links and their diagonals bear the shear 2 : 1
+    assert gelder.cross / gelder.cross_diagonal == pytest.approx(
+        4 * (square + upright) / (2 * square + upright)
+    )
 
 
 def test_textbook_constructions_on_oblong_cells():

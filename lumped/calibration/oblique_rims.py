@@ -43,7 +43,7 @@ def at_oblique_rims(
     strips = np.repeat([width, twisting, shear, share], STRIP, axis=1).reshape(4, -1, STRIP)
     factor = edge_factors(strips[0], strips[1], strips[2], strips[3], lost, False)
     notes = []
-    if np.isnan(factor).any():
+    if not np.all(factor > 0.0):
         notes.append("no twisting stiffness of the cells along an oblique rim makes it right")
         factor = np.where(np.isnan(factor), 1.0, factor)
     # γ_nt + r ε_tt, whose strains along x and y count twice in the first

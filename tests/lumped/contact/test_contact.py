@@ -25,7 +25,7 @@ from scipy.optimize import fsolve
 import fem_reference
 import lumped
 from lumped.actuators import Drive
-from lumped.contact.contact import points_of_cells
+from lumped.contact import points_of_cells
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
@@ -235,7 +235,7 @@ def test_moving_obstacle_ends_at_its_last_place():
 
 def test_without_an_obstacle_nothing_of_contact_runs():
     """Neither at rest nor in motion, by calls that a profiler sees; with one it sees hundreds."""
-    files = "lumped/contact/contact.py", "discrete/contact.py", "continuation/stiffening.py"
+    files = "lumped/contact.py", "discrete/contact.py", "continuation/stiffening.py"
 
     def calls(scene):
         found = []

@@ -53,6 +53,7 @@ def test_a_quadtree_has_each_corner_once():
     assert found.tolist() == [[x, y] for x in range(4) for y in range(2)]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("graded", [False, True])
 @pytest.mark.parametrize("count", [6, 16])
 @pytest.mark.parametrize("plan", PLANS)

@@ -118,6 +118,7 @@ STRONG = dict(young_1=200e6, young_2=8e6, poisson_12=0.3, shear_12=4e6)
 WOVEN = dict(young_1=50e6, young_2=50e6, poisson_12=0.2, shear_12=2e6)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("angle", [0.0, np.pi / 6, np.pi / 4])
 @pytest.mark.parametrize("fibres", [FIBRES, STRONG, WOVEN], ids=["rubber", "strong", "woven"])
 def test_lattice_and_shell_agree(fibres, angle):

@@ -299,7 +299,7 @@ class Discrete(Output):
         return ""
 
     @abstractmethod
-    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
+    def stretch(self, shape: SheetShape) -> float:
         """How far the sheet is strained, as `beyond` takes it."""
 
     def beyond(self, stretch: float) -> str:

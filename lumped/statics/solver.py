@@ -12,7 +12,7 @@ from lumped.actuators import Coupling
 from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.contact import contacts
+from lumped.contact import Contact
 from lumped.lattice import Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
@@ -42,6 +42,7 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
+from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.meaning.natural_state import natural_of_cells
 from sheetbench.scenes.objects.material import limit_note
 from sheetbench.scenes.objects.orthotropy import FIBRES
@@ -146,7 +147,8 @@ def build_problem(
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    return Problem(assembly, constraints, Loads(scene, assembly), size, contacts(scene, assembly))
+    items = tuple(Contact(scene, assembly, *each) for each in obstacles_by_name(scene).items())
+    return Problem(assembly, constraints, Loads(scene, assembly), size, items)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:

@@ -99,7 +99,7 @@ def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarra
     from scipy.optimize import lsq_linear
 
     sides, across = scene.sheet.lengths, projector(obstacle)
-    at = obstacle.position + obstacle.displacement(0.0, 0.0)
+    at = obstacle.position + obstacle.displacement(time=0.0)
     foot = lsq_linear(across[:, :2], across @ at, ([0.0, 0.0], sides)).x  # |y|² is convex in the plan
     plan = shapely.get_coordinates(shapely.segmentize(scene.region, max(sides) / GRID))
     return _gap(scene, obstacle, [*plan, foot] if shapely.intersects_xy(scene.region, *foot) else plan, 0.0)

@@ -16,6 +16,7 @@ from fem_reference.verification import (
     heavy_elastica,
     manufactured_solid,
     mindlin_plates,
+    round_shapes,
     run,
     slit_annulus,
 )
@@ -24,7 +25,7 @@ from fem_reference.verification.rows import absolutely, relatively
 from sheetbench.answers.layout import blocks
 
 ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws", "rubber")  # test_locking, test_strain_laws
-HEAVIEST = ("disc-bending", "nafems-fv16", "end-shear")  # by night
+HEAVIEST = ("disc-bending", "disc-frequencies", "nafems-fv16", "end-shear")  # by night
 QUICK = [name for name, case in CASES.items() if case.quick and name not in ELSEWHERE]
 VALUES = {  # case → how many values, beside the changes from half the mesh
     "end-shear": 16, "roll-up": 6, "slit-annulus": 10, "heavy-elastica": 24, "settling-strip": 2,
@@ -67,6 +68,11 @@ def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, case, coarse):
     for name, value in coarse.items():
         monkeypatch.setattr(case, name, value)
     held(list(case.rows("coarse")))
+
+
+def test_a_discs_frequencies_are_met_on_a_coarse_mesh(monkeypatch):
+    monkeypatch.setattr(round_shapes, "ELEMENTS", 12)
+    held(list(round_shapes.frequencies("coarse")))
 
 
 @pytest.mark.slow

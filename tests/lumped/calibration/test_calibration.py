@@ -118,6 +118,13 @@ def test_homogenisation_agrees_with_imposed_strains(grid, coupling):
         assert imposed_energy(assembly, zero, zero, shear) == pytest.approx(0.5 * expected, rel=1e-4)
 
 
+def test_a_law_of_components_has_the_moduli_of_their_mean():
+    """Habibi et al.'s, which has no energy."""
+    parts = UNEQUAL.model_copy(update={"diagonal": PerDirection(x=150.0, y=300.0, z=450.0)})
+    got, expected = (moduli.of_springs(springs, (0.02, 0.03, 0.004), 2) for springs in (parts, UNEQUAL))
+    assert got.membrane == pytest.approx(expected.membrane) and got.bending == pytest.approx(expected.bending)
+
+
 @pytest.mark.parametrize("method", ["consistent", "moduli"])
 @pytest.mark.parametrize("grid", [(5, 5), (33, 33), (9, 13), (9, 25), (25, 9)])
 def test_every_modulus_is_met(method, grid):
@@ -167,6 +174,10 @@ def test_textbook_constructions_on_squares():
     assert (lloyd.axial, lloyd.diagonal) == pytest.approx((2 * 5 / 16 * strip, 7 / 16 * strip))
     bars = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "axial").springs
     assert (bars.axial, bars.diagonal) == pytest.approx((strip, strip / 2))
+    square, upright = (0.188 / 8) ** 2, 0.003**2 / 3  # cross links and their diagonals bear the shear 2 : 1
+    assert gelder.cross / gelder.cross_diagonal == pytest.approx(
+        4 * (square + upright) / (2 * square + upright)
+    )
 
 
 def test_textbook_constructions_on_oblong_cells():

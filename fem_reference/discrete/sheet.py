@@ -96,11 +96,8 @@ class Discrete(Output):
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
         if self.model != "plate":  # which is linear
-            solid = self.model == "solid"
-            self.contacts = [
-                Touching(scene, self.plan, name, one, moving, solid)
-                for name, one in obstacles_by_name(scene).items()
-            ]
+            given = scene, self.plan, moving, self.model == "solid"
+            self.contacts = [Touching(*given, *one) for one in obstacles_by_name(scene).items()]
             self.items += self.contacts
 
     @property

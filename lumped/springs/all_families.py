@@ -18,8 +18,8 @@ from numba import njit
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
 from lumped.rest import Rest, rest_of
+from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
-from lumped.spring_constants import of_edge_cells, of_rubber
 from lumped.springs import cells, links
 from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
@@ -293,11 +293,12 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
 
 def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
     """On the upright faces between the layers, against their shear."""
-    if springs.of.keys() & {"face_shear", "face_diagonal_shear"}:
+    if springs.of.keys() & FACES:
         rest = rest_of(lattice, pattern)
         faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
-        along = (springs.along("face_shear", axis) for axis in (0, 1))
-        each = (*along, springs.along("face_diagonal_shear", 0))
+        along = [springs.along("face_shear", axis) for axis in (0, 1)]
+        over, one = (springs.along(name, 0) for name in FACES[1:])
+        each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
         stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis[:, None], faces.cells]
         stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area

@@ -50,8 +50,7 @@ def test_two_derivations_of_the_section_agree():
     thickness = np.linspace(0.001, 0.002, 5)
     membrane, bending, shear = plies.section(layers, thickness)
     found = lumped.plies.section(layers, thickness)
-    own, free = (np.diagonal(part, axis1=1, axis2=2) for part in (shear, np.linalg.inv(shear)))
-    for mine, theirs in zip(found, (membrane, bending, own, 1.0 / free), strict=True):
+    for mine, theirs in zip(found, (membrane, bending, shear), strict=True):
         assert mine == pytest.approx(theirs, rel=1e-12, abs=1e-12 * np.abs(theirs).max())
 
 

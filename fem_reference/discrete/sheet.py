@@ -96,11 +96,8 @@ class Discrete(Output):
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
         if self.model != "plate":  # which is linear
-            solid = self.model == "solid"
-            self.contacts = [
-                Touching(scene, self.plan, name, one, moving, solid)
-                for name, one in obstacles_by_name(scene).items()
-            ]
+            given = scene, self.plan, moving, self.model == "solid"
+            self.contacts = [Touching(*given, *one) for one in obstacles_by_name(scene).items()]
             self.items += self.contacts
 
     @property
@@ -299,7 +296,7 @@ class Discrete(Output):
         return ""
 
     @abstractmethod
-    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
+    def stretch(self, shape: SheetShape) -> float:
         """How far the sheet is strained, as `beyond` takes it."""
 
     def beyond(self, stretch: float) -> str:

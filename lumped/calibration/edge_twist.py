@@ -69,7 +69,7 @@ def twist_of(each: EachCell, springs: Springs, whole: moduli.Moduli) -> Twist:
     """Return how cells twist; whole: the moduli of their springs."""
     shares = diagonals_share(each, springs)
     twisting, stretch = sections.twisting(whole.bending), sections.stretch_by_twist(whole.bending)
-    return Twist(twisting, whole.shear[..., ::-1], shares[..., ::-1], stretch, each.section.layer_width)
+    return Twist(twisting, whole.free_shear[..., ::-1], shares[..., ::-1], stretch, each.section.layer_width)
 
 
 def with_edges(

@@ -36,7 +36,7 @@ def at_oblique_rims(
     bending = states @ whole.bending[at] @ np.swapaxes(states, 1, 2)
     twisting, stretch = (form(bending)[:, 0] for form in (sections.twisting, sections.stretch_by_twist))
     shear, free = (
-        1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.shear, each.section.free_shear)
+        1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.free_shear, each.section.free_shear)
     )
     share = (t**2 * twist.shares[at][:, ::-1]).sum(axis=1)
     width, lost = np.sqrt(each.sides[at].prod(axis=1)), np.sqrt(twisting / free)

@@ -37,7 +37,7 @@ def report(
     sheet = moduli.of_section(section, sides)
     whole = moduli.of_cells(springs, each.sides, each.grid[2]) if whole is None else whole
     there = np.broadcast_to(each.there, whole.shear.shape[:2])
-    got = moduli.Moduli(whole.membrane[there], whole.bending[there], whole.shear[there])
+    got = moduli.Moduli(*(part[there] for part in vars(whole).values()))
     rigidity, other = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
     square = np.abs(sides[:, 0] - sides[:, 1]) < ALIKE * sides[:, 0]
     named = bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), bool(sheet.oblique.any())
@@ -53,7 +53,8 @@ def report(
         asked_got_miss = (float(values[row, at]) for values in (targets, found, misses))
         rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
         if name.startswith("S"):
-            rows[name]["kappa_G_h"] = float(section.shear[at, int(name == "Sy")])
+            axis = int(name == "Sy")
+            rows[name]["kappa_G_h"] = float(section.shear[at, axis, axis])
     areas = [springs["area"], springs["mid_area"]]
     if min(map(np.min, areas)) < 0.0 or springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}:
         _require_positive(springs, got)

@@ -32,11 +32,15 @@ def penalties(structure: Static) -> Penalties[StaticState]:
 
     def restart(state: StaticState) -> Start[StaticState]:
         balanced = structure.potential(state, 1.0)[1]
-        return Start(structure.unextrapolated(state), 1.0, 1.0, balanced)
+        return Start(state, 1.0, 1.0, balanced)
+
+    def touching(state: StaticState) -> np.ndarray:
+        shape = sheet.shape(state.q, 1.0)
+        return np.array([one.report(shape)[1] > 0.0 for one in sheet.contacts])
 
     force = float(np.abs(dead).sum())
     travel = float(max(moved[:9].max(), sheet.longest * moved[9:].max()))  # a director's turn moves the end
-    return Penalties(sheet.contacts, force, travel, sheet.longest, False, passes, restart)
+    return Penalties(sheet.contacts, force, travel, sheet.longest, False, passes, restart, touching)
 
 
 def trace(

@@ -156,7 +156,8 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
             problem.size,
             any(one.thin for one in contacts),
             passes,
-            lambda state: Start(LatticeState(state.u, 1.0), 1.0, 1.0, 0.0),
+            lambda state: Start(state._replace(residual=None), 1.0, 1.0, 0.0),
+            lambda state: np.array([one.report(state.u, Drive(1.0))[1] > 0.0 for one in contacts]),
         )
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:

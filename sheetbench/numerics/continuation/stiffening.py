@@ -2,11 +2,14 @@
 
 Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
 method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. With soft
-ones the usual path leads to the full load, where they are raised, each stage Newton's method from the last
-shape: 30 factorisations in place of 292 on a strip of 41 masses laid on a plane. Only the last stage is
-brought to the tolerance; one that fails takes the square root of its factor. What is said of the end is that
-of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins again from rest
-with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its radius in one.
+ones the usual path leads to the full load, where they are raised in stages of equal factors, each Newton's
+method from the last shape with the stresses that it extrapolated: 30 factorisations in place of 292 on a
+strip of 41 masses laid on a plane. Only the last stage is brought to the tolerance; one before ends at a
+small residual, of a correction that has left the same points in contact: while points come and go residuals
+are small now and then, and lead nowhere. One that fails takes the square root of its factor. What is said of
+the end is that of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins
+again from rest with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its
+radius in one.
 """
 
 from __future__ import annotations
@@ -26,10 +29,9 @@ from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.continuation.trace import conclude
 from sheetbench.numerics.threads import one_blas_thread
 
-FIRST_FACTOR, SMALLEST_FACTOR = 1e3, 1.05  # of the penalties, from stage to stage
-EASIER = 10.0  # by which a stage's factor grows after one that went well
-CLOSE = 1e-6  # residual at which a stage ends, but for the last: looser ones may lead nowhere
-DEPTH = 0.015  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
+LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
+LOOSE = 0.1  # residual at which soft load steps end, and stages but the last
+DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
 class Penalty(Protocol):
@@ -49,7 +51,8 @@ class Penalties(Generic[State]):
     """The penalties of a structure. force: sum of the loads [N]; travel: of what is moved [m]; size: of the
     structure [m]; thin: whether soft ones would be walked through; passes: whether a straight way between two
     states at two load factors leads through an obstacle; restart: what Newton's method starts from at full
-    load, without forces that were computed with other penalties."""
+    load, without forces that were computed with other penalties; touching: which points touch
+    at full load."""
 
     each: Sequence[Penalty]
     force: float
@@ -58,6 +61,7 @@ class Penalties(Generic[State]):
     thin: bool
     passes: Callable[[State, float, State, float], bool]
     restart: Callable[[State], Start[State]]
+    touching: Callable[[State], np.ndarray]
 
     @property
     def soft(self) -> float:
@@ -76,6 +80,10 @@ class Penalties(Generic[State]):
         """How many load steps from rest obstacles and supports come in, a quarter of a radius in each."""
         ways = (4.0 * (one.moved + self.travel) / one.radius for one in self.each)
         return max(1, *map(math.ceil, ways))
+
+    def same(self, before: State, state: State) -> bool:
+        """Whether the same points touch in two states."""
+        return np.array_equal(self.touching(before), self.touching(state))
 
     def soften(self, share: float) -> None:
         """Give the penalties a share of their stiffness, 1 for all of it."""
@@ -97,7 +105,7 @@ def trace_stiffening(
     path: at rest; trace: the usual path; settle, buckled: as of `trace_path`.
     """
     limits, rest = path.limits, path.structure.rest()
-    loose = replace(limits.direct, tolerance=limits.careful_tolerance)
+    loose = replace(limits.direct, tolerance=LOOSE)
     last = rest, 0.0
 
     def kept_out(path: Path[State, Forces]) -> Fault | None:
@@ -157,21 +165,19 @@ def _stiffened(
     path: Path[State, Forces], penalties: Penalties[State], share: float, inspect: Inspect[State, Forces]
 ) -> Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
-    factor, done = FIRST_FACTOR, False
+    factor = LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
-    while not done:
-        target = min(1.0, share * factor)
+    while True:
+        target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
         penalties.soften(target)
-        close = 0.0 if target == 1.0 else CLOSE
+        close = LOOSE if target < 1.0 else 0.0
         try:
-            path.state, path.factor = newton(path, penalties.restart(path.state), close)
+            path.state, path.factor = newton(path, penalties.restart(path.state), close, penalties.same)
         except LoadStepFailed as failure:
-            factor **= 0.5
+            factor = (target / share) ** 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return Fault(failure.status, f"contact could not be stiffened: {failure}")
             continue
-        done = target == 1.0
-        share, factor = target, EASIER * factor
-        if (fault := inspect(path)) is not None:
+        if (fault := inspect(path)) is not None or target == 1.0:
             return fault
-    return None
+        share = target

@@ -20,7 +20,7 @@ help:
 	@echo "               (half an hour; goes on where it stopped; files in $(OUT)/fuzz/; others: FUZZ='--seed 2 --scenes 500')"
 	@echo "make kills     a hundred kills of campaigns, runs and trade-offs, and what stands there after (ten minutes; $(OUT)/kills/)"
 	@echo "make tests-of  the test files that run FILE=lumped/actuators/division.py, the nearest first"
-	@echo "make mutants   faults put into FILE=… that its nearest tests do not notice, of 20 (COUNT=…); docs/development/robustness.md"
+	@echo "make mutants   faults put into FILE=… or PACKAGE=… that the tests which run them do not notice, of 20 (COUNT=…); docs/development/robustness.md"
 	@echo "make sizes     files, lines and lines of code of the packages, words of the pages"
 	@echo "make catalogue the table of the catalogue's answers, tests/helpers/catalogue.json, for a change that is meant"
 	@echo "make verify    the references against published values, every row (about a minute)"
@@ -145,10 +145,10 @@ docs-scene: install
 tests-of:
 	@$(PYTHON) tests/helpers/nearest.py $(FILE) $(COUNT)
 
-# COUNT faults in FILE, and which of them its nearest tests do not notice
+# COUNT faults in FILE or PACKAGE, and which of them its nearest tests do not notice; goes on where it stopped
 mutants: $(VENV)/testing
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $(EDITABLE) . cosmic-ray
-	@$(BIN)/python tests/helpers/mutants.py $(OUT)/mutants $(FILE) $(COUNT)
+	@$(BIN)/python tests/helpers/mutants.py $(OUT)/mutants $(FILE)$(PACKAGE) $(COUNT)
 
 wheel-check: install
 	@.ci/wheel-check $(BIN)/python

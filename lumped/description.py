@@ -14,8 +14,7 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.check_states import CheckState, check_states
-from lumped.contact import contacts
-from lumped.contact.table import contact_table
+from lumped.contact import contact_table
 from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
@@ -83,7 +82,7 @@ class Couple:
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles (`lumped.contact.table`); notes: what of
+    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles (`lumped.contact`); notes: what of
     the scene is not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
 
     index: np.ndarray
@@ -124,8 +123,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     moments, pressures = problem.loads.at_time(None)
     pressed = pressures != 0.0
     couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
-    touching = contacts(scene, assembly)
-    states, why = check_states(scene, calibration, assembly, touching)
+    states, why = check_states(scene, calibration, problem)
     found = Description(
         index=np.stack([i, j, k], axis=1),
         positions=lattice.positions,
@@ -138,7 +136,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         pressure=pressures[pressed],
         pressed=lattice.mid_cells[pressed],
         couples=couples,
-        contact=contact_table(touching, layers),
+        contact=contact_table(problem.contacts, layers),
         states=states,
         notes=(*_left_out(scene), *why),
     )

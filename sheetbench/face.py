@@ -31,7 +31,7 @@ def verb(name: str) -> Callable[..., Any]:
 def study(name: str, **options: Any) -> Any:
     """Return the answer of a study: "reproduction", and in a checkout those of `studies`; options: its own,
     as of `sheetbench study NAME --help`."""
-    return as_function(name, module_of(name).command)(**options)
+    return as_function(name, module_of(str(name)).command)(**options)
 
 
 def solve(

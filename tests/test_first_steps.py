@@ -139,6 +139,7 @@ def test_the_schema_is_one_document_with_every_unit(tmp_path, capsys):
         "[Pa] Young's modulus"
     )
     assert schema["$defs"]["EdgeLoad"]["required"] == ["kind", "edge"]
+    assert {schema["$defs"]["Shape"][f"{most}Properties"] for most in ("min", "max")} == {1}
     assert run("check", "--schema", "--out", str(tmp_path)) == 0
     assert "$defs" not in capsys.readouterr().out  # where it is written it is not printed
     assert (tmp_path / "scene.md").read_text(encoding="utf-8") == markdown()

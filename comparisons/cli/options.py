@@ -157,8 +157,11 @@ class LatticeGroup(Group):
     def spec(self) -> Lattice:
         """The lattice that is requested."""
         from comparisons.models.spec import Lattice  # help does not wait for models
+        from sheetbench.errors import BadInput
 
         own = {name: value for name, value in vars(self).items() if name != "lattice" and value is not None}
+        if not isinstance(self.lattice, Lattice | None):
+            raise BadInput(f"lattice = {self.lattice!r}: a Lattice is needed")
         return replace(self.lattice or Lattice(), **own)
 
 

@@ -9,11 +9,14 @@ for all.
 from __future__ import annotations
 
 import re
+import reprlib
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import nullcontext, redirect_stdout
 from functools import cache, wraps
 from inspect import Parameter, Signature, cleandoc, isclass, signature
 from io import StringIO
+from numbers import Number
+from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin
 
@@ -28,6 +31,7 @@ Quiet = Annotated[
 ]
 Verbose = Annotated[bool, option("All notes on the answer, not only the first three.")]
 NoPicturesAnyway = Annotated[bool, typer.Option(hidden=True)]  # of verbs that draw none, for scripts
+OURS = ("sheetbench", "comparisons", "lumped", "fem_reference")  # packages
 TERMINAL = ("json",)  # options of the terminal alone
 OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
 Command = Callable[..., Any]
@@ -88,8 +92,8 @@ class _Declared:
         for one in self.each():
             if (choices := getattr(_info(one.annotation), "choices", ())) and one.name in given:
                 value = given[one.name]
-                for each in value.split(",") if isinstance(value, str) else value:
-                    require_choice(shown(one.name), each.strip(), choices)
+                for each in value if isinstance(value, list | tuple) else str(value).split(","):
+                    require_choice(shown(one.name), str(each).strip(), choices)
 
     def grouped(self, values: dict[str, Any], **of_output: Any) -> dict[str, Any]:
         """Return the values with those of each group in one."""
@@ -220,6 +224,8 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
             warn_of_slips(((f"scene '{one.name}'", one) for one in written), stacklevel=2)
         found = {key: converted[key](value) if key in converted else value for key, value in found.items()}
         held = {"progress": found.pop("progress", None), "large": found.get("large", False)}
+        if held["progress"] is not None and not callable(held["progress"]):
+            raise BadInput(f"progress = {held['progress']!r}: not a function")
         try:
             declared.require(found, lambda option: option)
             of_output = {"verb": name, "terminal": False} if has_output else {}
@@ -258,21 +264,34 @@ def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
     def convert(value: Any) -> Any:
         if value is None:
             return None
-        if unit is not None:
+        if unit is not None or kind in ("<class 'float'>", "float | None"):
             from sheetbench.scenes.language.units import amount
 
-            return amount(parameter.name, value, unit)
+            return amount(parameter.name, value, unit or "")
         if getattr(info, "listed", False) and not isinstance(value, str):
             each = value if isinstance(value, list | tuple) else [value]
             return ",".join("x".join(map(str, n)) if isinstance(n, list | tuple) else str(n) for n in each)
         if kind.startswith("list["):
             each = value if isinstance(value, list | tuple) else [value]
-            return [str(one) if isinstance(one, Path) else one for one in each]
+            return [str(one) if isinstance(one, Path) else _single(parameter.name, one) for one in each]
         if "Path" in kind and isinstance(value, str):
             return Path(value)
-        return value
+        return value if "tuple" in kind else _single(parameter.name, value, numbers="Path" not in kind)
 
     return convert
+
+
+def _single(name: str, value: Any, numbers: bool = True) -> Any:
+    """Return a text, a path, an object of ours, or where they may be one or several numbers. Raises BadInput
+    for any other."""
+    if isinstance(value, str | PathLike) or type(value).__module__.startswith(OURS):
+        return value
+    each = value if value and isinstance(value, list | tuple) else [value]
+    if numbers and all(isinstance(one, Number) for one in each):
+        return value
+    from sheetbench.errors import BadInput
+
+    raise BadInput(f"{name} = {reprlib.repr(value)}: a {type(value).__name__} is not taken")
 
 
 def _explained(declared: _Declared) -> Iterable[str]:

@@ -11,6 +11,7 @@ import shlex
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from os.path import isdir, isfile, islink
 from pathlib import Path
 from typing import Any
 
@@ -209,8 +210,8 @@ def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:
     runs = _manifest(root, "", []).get("runs", {}).values()
     kept = {name.rstrip("/") for run in runs for name in run.get("files", ()) if name.endswith("/")}
     for path in inside:
-        if path.is_dir() and not path.is_symlink() and not path.name.startswith("."):
-            if path.name in series | kept or (path / "run.json").exists():
+        if isdir(path) and not islink(path) and not path.name.startswith("."):
+            if path.name in series | kept or isfile(path / "run.json"):
                 continue
             yield from _folders(path, troubles)
 

@@ -53,6 +53,7 @@ class Static(Creeping[StaticState, Forces]):
 
     def __init__(self, sheet: DiscreteElements):
         self.sheet, self.prestrained = sheet, sheet.natural is not None
+        self.contacts, self.size = sheet.contacts, sheet.longest
 
     @property
     def symmetric(self) -> bool:
@@ -133,6 +134,21 @@ class Static(Creeping[StaticState, Forces]):
         )
         stress = shape.elastic + weighed(sheet.moduli(shape, state.pressure), by)
         return StaticState(state.q + move, stress, sheet.pressure(shape, by), tuple(on_rods))
+
+    def loading(self) -> float:
+        flat = self.sheet.shape(np.zeros(self.sheet.size), 1.0)
+        return float(np.abs(self.sheet.displacement(self.sheet.external(flat))).sum())
+
+    def passes(self, start: StaticState, since: float, end: StaticState, load_factor: float) -> bool:
+        ends = self.sheet.shape(start.q, since), self.sheet.shape(end.q, load_factor)
+        return any(one.step_share(*ends) < 1.0 for one in self.sheet.contacts)
+
+    def restarted(self, state: StaticState) -> tuple[StaticState, float]:
+        return state, self.potential(state, 1.0)[1]
+
+    def touching(self, state: StaticState) -> np.ndarray:
+        shape = self.sheet.shape(state.q, 1.0)
+        return np.array([one.report(shape)[1] > 0.0 for one in self.sheet.contacts])
 
     def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)

@@ -43,9 +43,8 @@ class ReferenceObserver:
             reactions = model.reactions(motion.exerted)
             forces = [reactions[name] for name in self._reactions]
             shape = model.shape(motion.q, motion.time, motion.v)
-            forces += [
-                pull.sum(axis=(0, 1)) for one in model.contacts for _, pull in one.holds(shape).values()
-            ]
+            holds = (one.holds(shape)[one.name][1] for one in model.contacts)
+            forces += [force.reshape(-1, 3).sum(axis=0) for force in holds]
             wrenches = model.wrenches(shape, motion.exerted, motion.a)[1]
             forces += [wrench.ravel() for wrench in wrenches.values()]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))

@@ -15,8 +15,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge
-from fem_reference.discrete.static import Forces, StaticState
-from fem_reference.discrete.tracing import trace
+from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
 from fem_reference.shell.discrete import DiscreteShell
@@ -37,6 +36,7 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.pseudo_transient import relax
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.scenes import Scene, require_uniform
 from sheetbench.scenes.meaning.rigid_motions import require_static
 
@@ -146,15 +146,15 @@ def _run(
     elif near is not None:
         begin_at = coarse_start.start(near.sheet, near.path.state.q, sheet)
     slenderness = scene.sheet.thickness / sheet.lever
-    options = {"progress": progress, "near": begin_at, "slenderness": slenderness, "buckled": buckled}
-    path = trace(sheet, inspector(graded), relax, limits or LIMITS, **options)
+    options = progress, begin_at, slenderness, limits or LIMITS, buckled
+    path = trace_path(Static(sheet), sheet.solver(), inspector(graded), relax, *options)
     path.factor = None  # a run is kept longer than that
     return _Run(sheet, path, ready - begin, now() - ready)
 
 
 def trace_on(sheet: DiscreteShell) -> tuple[np.ndarray, Status, list[str]]:
     """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
-    path = trace(sheet, inspector(False), relax)
+    path = trace_path(Static(sheet), sheet.solver(), inspector(False), relax)
     return path.state.q, *judge(sheet, path)
 
 

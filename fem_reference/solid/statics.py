@@ -21,8 +21,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.discrete.answer import answered, judge, sheet_of
-from fem_reference.discrete.static import Forces, StaticState
-from fem_reference.discrete.tracing import trace
+from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import Columns
@@ -34,6 +33,7 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.path import Fault, Path, Progress
+from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, require_uniform
 from sheetbench.scenes.meaning.composition import constants_at, of_sheet
 from sheetbench.scenes.meaning.rigid_motions import require_static
@@ -89,7 +89,7 @@ def _solved(
     sheet = discretise(mesh, scene, layers, law, clamp)
     sheet.own = own
     ready = now()
-    path = trace(sheet, inspected, None, progress=progress)
+    path = trace_path(Static(sheet), sheet.solver(), inspected, None, progress=progress)
     done = now()
     status, notes = judge(sheet, path)
     return answered(
@@ -107,7 +107,7 @@ def _solved(
 
 def trace_on(sheet: DiscreteSolid) -> tuple[np.ndarray, Status, list[str]]:
     """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
-    path = trace(sheet, inspected, None)
+    path = trace_path(Static(sheet), sheet.solver(), inspected, None)
     return path.state.q, *judge(sheet, path)
 
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.surface.alike import CentredPlan, PlanCells, placed, reflection
+from fem_reference.surface.alike import DIGITS, CentredPlan, PlanCells, placed, reflection
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
     NEAR,
@@ -41,6 +41,7 @@ USUAL = 8.0  # sizes across a sheet with that
 SKEW = np.pi / 4.0  # by which corners of two triangles that are joined may differ from right angles
 SKEWEST = np.pi / 3.0  # likewise, where rows along the rim do not make it worse
 FLAT = 1e-6  # of a triangle's longest side squared: area of one between points of a straight border
+SWIRL = 1e-7 * np.array([[1.0, np.sqrt(2.0)], [-np.sqrt(2.0), 1.0]])  # so that no four points lie on a circle
 LAYERS = (0.12, 0.4)  # of the row along the rim, where it is cut
 HALVINGS = 2  # of these, where elements beside it would be too skew
 TIP = 0.5  # of a rim's vertex: least 2 (1 − cos of the angle)
@@ -60,22 +61,19 @@ def quadrilaterals(
     inner: lines that sides of elements within the region shall lie on; graded: the row along the rim is cut
     into thinner ones. Raises BadInput where borders lie too close to each other to be meshed.
     """
-    import shapely
     from shapely import affinity
 
     unit = 2.0 * np.array(spacing)
     plan = placed(*(affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner)))
     region, inner = plan.part
-    borders = borders_between_corners(region, inner)
+    borders = plan.turned(borders_between_corners(region, inner))
     across = np.min(np.ptp(np.reshape(plan.region.bounds, (2, 2)), axis=0))
     size = SizeField.of(region, borders, min(1.0, USUAL / across))
-    cut = plan.cut(borders)
-    middles = shapely.get_coordinates(shapely.line_interpolate_point(borders, 0.5, normalized=True))
-    mirror = np.where(cut, plan.diagonal(middles), -1)  # the diagonal on which a border lies that is none
+    size = SizeField(plan.images(size.places).reshape(-1, 2), np.repeat(size.sizes, len(plan.turns)))
+    cut, mirror = plan.cut(borders)
     points, sides = divided(borders, size, mirror >= 0)
-    points, triangles, sides = _triangles(
-        region, borders, sides, points, filling(region, borders, sides, size, mirror >= 0)
-    )
+    inside = filling(region, borders, sides, size, mirror >= 0, plan.orbits)
+    points, triangles, sides = _triangles(region, borders, sides, points, inside)
     own = ~cut[sides.border]
     quarters = [
         on_borders(borders, sides.border[own], sides.span[own] @ [1.0 - share, share])
@@ -105,7 +103,8 @@ def _triangles(
 
     for _ in range(ROUNDS):
         every = np.concatenate([points, inside])
-        triangles = Delaunay(every).simplices
+        swirl = np.sum(every**2, axis=1, keepdims=True) * (every @ SWIRL)
+        triangles = Delaunay(every + swirl).simplices
         edges = _keys(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), len(every))
         missing = ~np.isin(_keys(sides.ends, len(every)), edges)
         if not missing.any():
@@ -161,8 +160,9 @@ def _joined(
         kites = across == number
         corners[kites, 1] = corners[kites, 1] @ reflection(normal)
     skew = np.abs(_angles(corners) - 0.5 * np.pi).max(axis=1)
+    place = plan.along(points[quads].mean(axis=1)).max(axis=1)
     free, chosen = np.ones(len(triangles), bool), []
-    for pair in np.argsort(skew, kind="stable"):
+    for pair in np.lexsort([np.round(place, DIGITS), np.round(skew, DIGITS)]):
         a, b = one[pair] // 3, two[pair] // 3
         if skew[pair] < SKEW and free[a] and free[b]:
             free[[a, b]] = False

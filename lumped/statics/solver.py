@@ -22,14 +22,12 @@ from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import LatticePath, settle
 from lumped.statics.fields import SMALL
 from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.structure import STRETCH, LatticeForces, LatticeStructure
+from lumped.statics.structure import STRETCH, LatticeStructure
 from lumped.supports import constrain
 from sheetbench.answers.solution import Iteration, Solution, Status
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
-from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.path import Inspect, Path, Progress
-from sheetbench.numerics.continuation.stiffening import trace_stiffening
+from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
@@ -179,20 +177,17 @@ def solve_path(
     """The equilibrium at full load, or how far the load path went and why; near: a displacement (n, 3) [m] to
     begin at."""
     structure = LatticeStructure(scene, problem)
-    start = None if near is None else structure.start(near)
-    slenderness = scene.sheet.thickness / problem.size
-    down = settle if problem.descends else None
-
-    def trace(
-        limits: Limits, inspect: Inspect[LatticeState, LatticeForces], buckled: bool = False
-    ) -> LatticePath:
-        return trace_path(structure, structure, inspect, down, progress, start, slenderness, limits, buckled)
-
-    buckled, inspect = branch == "stable", structure.inspect
-    if not problem.items:
-        return classify(scene, problem, trace(structure.limits, inspect, buckled))
-    path = Path(structure, structure, structure.rest(), limits=structure.limits, progress=progress)
-    path = trace_stiffening(structure.penalties(), path, trace, inspect, down, buckled)
+    path = trace_path(
+        structure,
+        structure,
+        structure.inspect,
+        settle if problem.descends else None,
+        progress,
+        None if near is None else structure.start(near),
+        scene.sheet.thickness / problem.size,
+        structure.limits,
+        branch == "stable",
+    )
     return classify(scene, problem, path)
 
 

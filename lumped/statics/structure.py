@@ -14,13 +14,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.actuators import Drive
-from lumped.contact import Contact
 from lumped.statics.faults import broken
 from lumped.statics.problem import LatticeState, Problem, Residual
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
-from sheetbench.numerics.continuation.stiffening import Penalties
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import Count, Factor, iterated
 from sheetbench.scenes import Scene, outside_model
@@ -56,7 +54,8 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
 
     def __init__(self, scene: Scene, problem: Problem):
         self.scene, self.problem, self.limits = scene, problem, LIMITS
-        self.prestrained = problem.assembly.natural is not None
+        self.prestrained, self.size = problem.assembly.natural is not None, problem.size
+        self.contacts = problem.contacts
         self._moves = bool(problem.prescribed(1.0).any())
         self._iterates = problem.descends and problem.system.unknowns > ITERATED
         if problem.assembly.precision == "single":  # whose corrections never are idle
@@ -97,7 +96,14 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
         moved = self._moved(state, load_factor)
-        return 0.0 if moved is None else float(np.abs(moved).max() / self.problem.size)
+        if moved is None:
+            return 0.0
+        layers = moved[self.problem.assembly.lattice.columns()]  # one that is turned moves the sheet's end
+        turn = (
+            float(np.abs(layers[..., -1, :] - layers[..., 0, :]).max())
+            / self.problem.assembly.lattice.spacing[2]
+        )
+        return max(float(np.abs(moved).max() / self.problem.size), turn)
 
     def rows(self, state: LatticeState, forces: LatticeForces, load_factor: float) -> np.ndarray | None:
         return forces.residual.reduced if forces.moved is None else None
@@ -137,28 +143,19 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         """Return why the path's last equilibrium means nothing, if it does."""
         return broken(self.problem.assembly.at(path.state.load_factor), path.state.u[None])[1]
 
-    def penalties(self) -> Penalties[LatticeState]:
-        """Return the penalties of the problem's contacts."""
+    def loading(self) -> float:
         problem = self.problem
-        contacts = [item for item in problem.items if isinstance(item, Contact)]
-        placed, lattice = problem.prescribed(1.0), problem.assembly.lattice
-        layers = placed[lattice.columns()]  # a column that is turned moves the end of the sheet
-        turn = float(np.abs(layers[..., -1, :] - layers[..., 0, :]).max()) / lattice.spacing[2]
+        return float(np.abs(problem.external(np.zeros_like(problem.loads.dead), 1.0)).sum())
 
-        def passes(start: LatticeState, since: float, end: LatticeState, load_factor: float) -> bool:
-            ways = start.u, end.u - start.u, Drive(load_factor), Drive(since)
-            return any(one.step_share(*ways) < 1.0 for one in contacts)
+    def passes(self, start: LatticeState, since: float, end: LatticeState, load_factor: float) -> bool:
+        ways = start.u, end.u - start.u, Drive(load_factor), Drive(since)
+        return any(one.step_share(*ways) < 1.0 for one in self.problem.items)
 
-        return Penalties(
-            contacts,
-            float(np.abs(problem.external(np.zeros_like(problem.loads.dead), 1.0)).sum()),
-            max(float(np.abs(placed).max()), problem.size * turn),
-            problem.size,
-            any(one.thin for one in contacts),
-            passes,
-            lambda state: Start(state._replace(residual=None), 1.0, 1.0, 0.0),
-            lambda state: np.array([one.report(state.u, Drive(1.0))[1] > 0.0 for one in contacts]),
-        )
+    def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
+        return state._replace(residual=None), 0.0
+
+    def touching(self, state: LatticeState) -> np.ndarray:
+        return np.array([one.report(state.u, Drive(1.0))[1] > 0.0 for one in self.problem.contacts])
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
         return self.problem.system.factor(blocks, more)

@@ -23,8 +23,8 @@ def write_text(path: Path, text: str) -> None:
 
 def folder(path: Path | str, option: str = "--out") -> Path:
     """Return the folder, made if need be. Raises BadInput where it cannot be, or not be written to."""
-    if path == "":
-        raise BadInput(f"{option} = '': name a folder; '.' is the current one")
+    if path == "" or not isinstance(path, str | os.PathLike):
+        raise BadInput(f"{option} = {path!r}: name a folder; '.' is the current one")
     made = Path(path)
     if os.path.realpath(path) == os.sep:
         raise BadInput(f"{option} = '{path}': the root of the file system; name a folder in it")

@@ -222,8 +222,8 @@ class Esdirk(Integrator):
         if last.state.time == times[0]:
             return super().at(times, last)
         tolerance = SHARE * self._small if self.adapts else None
-        self._gain.largest = max(self._gain.largest, kinetic_of(self.system, last.state.v))
-        enough = ENERGY * min(self._error, ERROR) * self._gain.largest if self.adapts else 0.0
+        self._energy = max(self._energy, kinetic_of(self.system, last.state.v))
+        enough = ENERGY * min(self._error, ERROR) * self._energy if self.adapts else 0.0
         return self._step.at(times, last.state, self._newton, tolerance, enough)
 
     def _advance(self, start: State, step: EsdirkStep) -> Advance[State]:

@@ -48,6 +48,18 @@ class Path(Generic[State, Forces]):
     def __post_init__(self) -> None:
         self.limit = self.limits.factorisations
 
+    def begin(self, limits: Limits | None = None) -> None:
+        """Go back to rest, with as many factorisations as at first."""
+        self.state, self.load_factor, self.factor = self.structure.rest(), 0.0, None
+        self.limits = limits or self.limits
+        self.limit = self.factorisations + self.limits.factorisations
+        self.forget()
+
+    def forget(self) -> None:
+        """Drop snaps and notes."""
+        self.snaps.clear()
+        self.notes.clear()
+
     def factored(self, matrix: Matrix) -> Factor:
         """The factors of a matrix, counted. Raises SingularMatrixError."""
         self._count()

@@ -16,27 +16,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from typing import Generic, Protocol
+from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
 from sheetbench.answers.solution import Status
-from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Settle
-from sheetbench.numerics.continuation.structure import Forces, State
-from sheetbench.numerics.continuation.trace import conclude
-from sheetbench.numerics.threads import one_blas_thread
+from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
 LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
 LOOSE = 0.1  # residual at which soft load steps end, and stages but the last
+WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
 class Penalty(Protocol):
     """The penalty of an obstacle. share: of its stiffness; full (…) [Pa/m], thickness (…) [m] and area (…)
-    [m²] of its points; radius [m], infinite of a plane; moved [m], how far the obstacle goes in all."""
+    [m²] of its points; radius [m], infinite of a plane; moved [m], how far the obstacle goes in all; thin:
+    whether it is thinner than a cell."""
 
     share: float
     full: np.ndarray
@@ -44,115 +43,83 @@ class Penalty(Protocol):
     area: np.ndarray
     radius: float
     moved: float
-
-
-@dataclass(frozen=True)
-class Penalties(Generic[State]):
-    """The penalties of a structure. force: sum of the loads [N]; travel: of what is moved [m]; size: of the
-    structure [m]; thin: whether soft ones would be walked through; passes: whether a straight way between two
-    states at two load factors leads through an obstacle; restart: what Newton's method starts from at full
-    load, without forces that were computed with other penalties; touching: which points touch
-    at full load."""
-
-    each: Sequence[Penalty]
-    force: float
-    travel: float
-    size: float
     thin: bool
-    passes: Callable[[State, float, State, float], bool]
-    restart: Callable[[State], Start[State]]
-    touching: Callable[[State], np.ndarray]
-
-    @property
-    def soft(self) -> float:
-        """The share of the stiffness to begin with: with it the load, or the pressure that bends a plate of
-        this size by what is moved (8 D per size⁴), leaves points DEPTH deep."""
-        shares = [1.0]
-        for one in self.each:
-            bending = float((one.full * one.thickness**4).max()) / 12.0
-            bent = 8.0 * bending * max(self.travel, one.moved) / self.size**4
-            deep = DEPTH * min(self.size, 0.2 * one.radius) * float(one.full.min())
-            shares.append(max(self.force / float(one.area.sum()), bent) / deep)
-        return min(share for share in shares if share > 0.0)
-
-    @property
-    def load_steps(self) -> int:
-        """How many load steps from rest obstacles and supports come in, a quarter of a radius in each."""
-        ways = (4.0 * (one.moved + self.travel) / one.radius for one in self.each)
-        return max(1, *map(math.ceil, ways))
-
-    def same(self, before: State, state: State) -> bool:
-        """Whether the same points touch in two states."""
-        return np.array_equal(self.touching(before), self.touching(state))
-
-    def soften(self, share: float) -> None:
-        """Give the penalties a share of their stiffness, 1 for all of it."""
-        for one in self.each:
-            one.share = share
 
 
-def trace_stiffening(
-    penalties: Penalties[State],
+def soften(penalties: Sequence[Penalty], share: float) -> None:
+    """Give penalties a share of their stiffness, 1 for all of it."""
+    for one in penalties:
+        one.share = share
+
+
+def softest(structure: Structure[State, Forces]) -> float:
+    """Return the share of the stiffness to begin with, and give it: with it the load, or the pressure that
+    bends a plate of this size by what is moved (8 D per size⁴), leaves points DEPTH deep."""
+    shares, size = [1.0], structure.size
+    soften(structure.contacts, 0.0)
+    force, travel = structure.loading(), size * structure.gap(structure.rest(), 1.0)
+    for one in structure.contacts:
+        bending = float((one.full * one.thickness**4).max()) / 12.0
+        bent = 8.0 * bending * max(travel, one.moved) / size**4
+        deep = DEPTH * min(size, 0.2 * one.radius) * float(one.full.min())
+        shares.append(max(force / float(one.area.sum()), bent) / deep)
+    return min(share for share in shares if share > 0.0)
+
+
+def stiffened(
     path: Path[State, Forces],
-    trace: Callable[[Limits, Inspect[State, Forces]], Path[State, Forces]],
+    trace: Callable[[Path[State, Forces], Inspect[State, Forces]], Fault | None],
     inspect: Inspect[State, Forces],
     settle: Settle[State, Forces] | None,
-    buckled: bool = False,
-) -> Path[State, Forces]:
-    """Return the path to the equilibrium at full load and with stiff penalties, or to the last one on the
-    way.
-
-    path: at rest; trace: the usual path; settle, buckled: as of `trace_path`.
-    """
-    limits, rest = path.limits, path.structure.rest()
-    loose = replace(limits.direct, tolerance=LOOSE)
-    last = rest, 0.0
+) -> Fault | None:
+    """Lead a path from rest to the equilibrium at full load with stiff penalties: what has ended it before,
+    if anything. trace: the usual way there; settle: as of `trace_path`."""
+    structure, limits = path.structure, path.limits
+    contacts, last = structure.contacts, (structure.rest(), 0.0)
 
     def kept_out(path: Path[State, Forces]) -> Fault | None:
         nonlocal last
-        start = last if last[1] <= path.load_factor else (rest, 0.0)
+        start = last if last[1] <= path.load_factor else (structure.rest(), 0.0)
         last = path.state, path.load_factor
-        if penalties.passes(*start, *last):
+        if structure.passes(*start, *last):
             return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
         return inspect(path)
 
-    settles = settle is not None and path.structure.symmetric
-    share = 1.0 if penalties.thin else penalties.soft
-    ended: Fault | None = None
-    while not (penalties.thin and settles):  # what leads nowhere is too soft, where nothing else is left
-        penalties.soften(share)
-        spent, last = path.factorisations, (rest, 0.0)
-        path = trace(loose, kept_out)
-        path.factorisations, path.limits = path.factorisations + spent, limits
-        ended = path.fault
+    down = settle if structure.symmetric else None
+    thin = any(one.thin for one in contacts)  # whether soft ones would be walked through
+    share, ended = 1.0 if thin else softest(structure), None
+    while not (thin and down is not None):  # what leads nowhere is too soft, where nothing else is left
+        soften(contacts, share)
+        path.begin(replace(limits.direct, tolerance=LOOSE))
+        last = path.state, 0.0
+        ended = trace(path, kept_out)
+        path.limits = limits
         if ended is None:
-            path.snaps.clear()
-            path.notes.clear()
-            with one_blas_thread():
-                ended = _stiffened(path, penalties, share, kept_out)
-        if ended is None or share == 1.0 or settles:
+            path.forget()
+            ended = _raised(path, share, kept_out)
+        if ended is None or share == 1.0 or down is not None:
             break
         share = min(1.0, 30.0 * share)
-    penalties.soften(1.0)
-    with one_blas_thread():
-        if settle is not None and settles and (penalties.thin or ended is not None):
-            last = rest, 0.0
-            ended = _settled(path, penalties.load_steps, kept_out, settle)
-        conclude(path, ended, settle, buckled)
-        return path
+    soften(contacts, 1.0)
+    if down is not None and (thin or ended is not None):
+        path.begin(limits)
+        last = path.state, 0.0
+        ended = _settled(path, kept_out, down)
+    return ended
 
 
 def _settled(
-    path: Path[State, Forces], load_steps: int, inspect: Inspect[State, Forces], settle: Settle[State, Forces]
+    path: Path[State, Forces], inspect: Inspect[State, Forces], settle: Settle[State, Forces]
 ) -> Fault | None:
     """Lead a path from rest by descents, load step by load step: what has ended it before, if anything."""
-    path.state, path.load_factor, path.factor = path.structure.rest(), 0.0, None
-    path.snaps.clear()
-    path.notes.clear()
-    for step in range(1, load_steps + 1):
+    structure = path.structure
+    travel = structure.size * structure.gap(path.state, 1.0)
+    ways = ((one.moved + travel) / (WAY * one.radius) for one in structure.contacts)
+    steps = max(1, *map(math.ceil, ways))
+    for step in range(1, steps + 1):
         path.limit = path.factorisations + path.limits.factorisations
         try:
-            path.state, path.load_factor = settle(path, step / load_steps), step / load_steps
+            path.state, path.load_factor = settle(path, step / steps), step / steps
         except LoadStepFailed as failure:
             return Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
         path.factor = None
@@ -161,18 +128,21 @@ def _settled(
     return None
 
 
-def _stiffened(
-    path: Path[State, Forces], penalties: Penalties[State], share: float, inspect: Inspect[State, Forces]
-) -> Fault | None:
+def _raised(path: Path[State, Forces], share: float, inspect: Inspect[State, Forces]) -> Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
-    factor = LARGEST_FACTOR
+    structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
+
+    def same(before: State, state: State) -> bool:
+        return np.array_equal(structure.touching(before), structure.touching(state))
+
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
-        penalties.soften(target)
+        soften(structure.contacts, target)
         close = LOOSE if target < 1.0 else 0.0
         try:
-            path.state, path.factor = newton(path, penalties.restart(path.state), close, penalties.same)
+            state, size = structure.restarted(path.state)
+            path.state, path.factor = newton(path, Start(state, 1.0, 1.0, size), close, same)
         except LoadStepFailed as failure:
             factor = (target / share) ** 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:

@@ -36,6 +36,7 @@ from sheetbench.numerics.continuation.path import (
     Settle,
 )
 from sheetbench.numerics.continuation.stability import stability
+from sheetbench.numerics.continuation.stiffening import stiffened
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.threads import one_blas_thread
@@ -60,8 +61,8 @@ def trace_path(
     settle: the stable state of a structure under conservative loads that a path leads to at a load factor
     beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
     progress: called once an iteration. near: a state close to the equilibrium, to begin at; where that leads
-    to none that is stable, the path begins at rest. slenderness: thickness over size; where it is given, the
-    factors of a last correction that is next to nothing tell the stability.
+    to none that is stable, or with obstacles, the path begins at rest. slenderness: thickness over size;
+    where it is given, the factors of a last correction that is next to nothing tell the stability.
     buckled: leave an unstable equilibrium for the stable one that `settle` leads to.
     """
     with one_blas_thread():
@@ -69,48 +70,63 @@ def trace_path(
         path = Path(
             structure, solver, structure.rest(), limits=limits or Limits(), progress=progress, alike=alike
         )
-        ended: LoadStepFailed | Fault | None = None
-        careful, reached = False, None
-        if near is None or not _arrived(path, inspect, near):
-            ended = _follow(path, inspect)
-            more = 0 if isinstance(ended, Fault) else careful_budget(path)
-            careful = more > 0
-            if careful:
-                reached, stuck = path.state if ended is None else None, (path.state, path.load_factor, ended)
-                path.state, path.load_factor, path.factor = structure.rest(), 0.0, None
-                path.limit = path.factorisations + more
-                ended = _follow(path, inspect, careful)
-                if isinstance(ended, UnknownInertia):
-                    path.notes.append(f"{ended}: this equilibrium may be on another")
-                if reached is None and path.load_factor == 0.0:  # which says less than large steps did
-                    path.state, path.load_factor, ended = stuck
-                    careful = False
-                if reached is None:  # what is left of the path's own serves for snaps
-                    path.limit = max(path.limit, path.limits.factorisations)
-        while isinstance(ended, LoadStepFailed):
-            tried = ""
-            if settle is not None and structure.symmetric and _at_limit_point(path, ended):
-                left_at, doubt = path.load_factor, _doubt(path)
-                try:
-                    following = _snap(path, inspect, settle, careful)
-                except LoadStepFailed as failure:
-                    tried = f"; relaxed at a load factor {path.limits.snap_step:g} higher, {failure}"
-                else:
-                    path.snaps.append(left_at)
-                    path.notes.extend(doubt)
-                    ended = following
-                    continue
-            ended = _give_up(path, ended, tried)
-        if ended is not None and reached is not None:
-            if path.load_factor > 0.0 and not isinstance(ended, UnknownInertia):
-                here = f"small load steps end at load factor {path.load_factor:.4g}"
-                left = f", after {more} factorisations" if path.factorisations >= path.limit else ""
-                path.notes.append(
-                    f"{here}{left}: this equilibrium, which large ones led to, may be on another branch"
-                )
-            path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
+        if structure.contacts:
+            ended = stiffened(path, lambda path, inspect: _traced(path, inspect, settle), inspect, settle)
+        else:
+            ended = _traced(path, inspect, settle, near)
         conclude(path, ended, settle, buckled)
         return path
+
+
+def _traced(
+    path: Path[State, Forces],
+    inspect: Inspect[State, Forces],
+    settle: Settle[State, Forces] | None,
+    near: Start[State] | None = None,
+) -> Fault | None:
+    """Lead a path from rest, or from near the end, to load factor 1: what has ended it before, if
+    anything."""
+    ended: LoadStepFailed | Fault | None = None
+    careful, reached = False, None
+    if near is None or not _arrived(path, inspect, near):
+        ended = _follow(path, inspect)
+        more = 0 if isinstance(ended, Fault) else careful_budget(path)
+        careful = more > 0
+        if careful:
+            reached, stuck = path.state if ended is None else None, (path.state, path.load_factor, ended)
+            path.state, path.load_factor, path.factor = path.structure.rest(), 0.0, None
+            path.limit = path.factorisations + more
+            ended = _follow(path, inspect, careful)
+            if isinstance(ended, UnknownInertia):
+                path.notes.append(f"{ended}: this equilibrium may be on another")
+            if reached is None and path.load_factor == 0.0:  # which says less than large steps did
+                path.state, path.load_factor, ended = stuck
+                careful = False
+            if reached is None:  # what is left of the path's own serves for snaps
+                path.limit = max(path.limit, path.limits.factorisations)
+    while isinstance(ended, LoadStepFailed):
+        tried = ""
+        if settle is not None and path.structure.symmetric and _at_limit_point(path, ended):
+            left_at, doubt = path.load_factor, _doubt(path)
+            try:
+                following = _snap(path, inspect, settle, careful)
+            except LoadStepFailed as failure:
+                tried = f"; relaxed at a load factor {path.limits.snap_step:g} higher, {failure}"
+            else:
+                path.snaps.append(left_at)
+                path.notes.extend(doubt)
+                ended = following
+                continue
+        ended = _give_up(path, ended, tried)
+    if ended is not None and reached is not None:
+        if path.load_factor > 0.0 and not isinstance(ended, UnknownInertia):
+            here = f"small load steps end at load factor {path.load_factor:.4g}"
+            left = f", after {more} factorisations" if path.factorisations >= path.limit else ""
+            path.notes.append(
+                f"{here}{left}: this equilibrium, which large ones led to, may be on another branch"
+            )
+        path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
+    return ended
 
 
 def conclude(

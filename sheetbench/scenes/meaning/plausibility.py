@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from math import hypot
 from warnings import warn
-from weakref import WeakValueDictionary
 
 from sheetbench.errors import Implausible
 from sheetbench.scenes.language.summary import few
@@ -33,8 +32,6 @@ EARTH = (9.3, 10.3)  # m/s²; anything else is another planet or another unit
 RUBBER = 10.0  # stress over E of small strains: Treloar's rubber at seven times its length has 5
 LAYERS = 5.0  # times thicker or thinner than the sheet
 BURDEN = 100.0  # a payload's mass over the sheet's
-
-_told: WeakValueDictionary[int, SceneFields] = WeakValueDictionary()  # of whose slips was warned
 
 
 def slips(scene: SceneFields) -> tuple[str, ...]:
@@ -57,11 +54,9 @@ def slips(scene: SceneFields) -> tuple[str, ...]:
 def warn_of_slips(scenes: Iterable[tuple[str, SceneFields]], stacklevel: int) -> None:
     """Warn (Implausible) of the slips of scenes under the names given, of each scene once."""
     for name, scene in scenes:
-        if _told.get(id(scene)) is scene:
-            continue
-        _told[id(scene)] = scene
-        for slip in slips(scene):
+        for slip in () if "_warned" in vars(scene) else slips(scene):
             warn(Implausible(f"{name}: {slip}"), stacklevel=stacklevel + 1)
+        vars(scene)["_warned"] = True  # no key of the scene: equal ones stay equal
 
 
 def sheet_slips(sheet: Sheet) -> list[str]:

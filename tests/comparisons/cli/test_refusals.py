@@ -112,7 +112,7 @@ ROWS = {
     f"compare {ONE} --overwrite": "--overwrite: no effect without --out",
     f"compare {ONE} --every 1": "--every: no effect without --duration",
     f"simulate {TWO} --lumped 3 --duration 1 --step 1e-12": "steps to 1 s",
-    f"{SIMULATE} --every 1e-11": "samples, 1e-11 s apart",
+    f"{SIMULATE} --every 1e-11": "samples, 1e-11 s apart; 1e+07 at most",
     f"simulate {TWO} --lumped 3 --duration 1e9": "samples",
     f"simulate {TWO} --duration 0.01 --lumped {HUGE}x3": "grid",
     f"stability {ONE} --vary weather": "vary = 'weather': unknown, choose one of load",

@@ -5,6 +5,7 @@ import json
 import pytest
 from commands import run
 
+import sheetbench as sb
 from comparisons.models.quantities import sides
 
 
@@ -42,3 +43,25 @@ def test_the_version_and_the_help_of_a_verb_have_short_ways(capsys):
     page = capsys.readouterr().out
     assert run("help", "check") == 0 and capsys.readouterr().out == page
     assert run("help") == 0 and "compare" in capsys.readouterr().out
+
+
+WRONG = {
+    "calibrate": {
+        "loss_factor": "a lot",
+        "thickness": [1.0],
+        "prony": 3,
+        "lattice": {"grid": 9},
+        "cell": {},
+    },
+    "check": {"scene": 7.5, "out": True, "progress": "yes"},
+    "compare": {"elements": {}, "reference": b"shell", "k": "soft"},
+    "report": {"folder": 5},
+    "stability": {"vary": [object()]},
+}
+
+
+@pytest.mark.parametrize(("verb", "name"), [(verb, name) for verb, given in WRONG.items() for name in given])
+def test_values_of_another_kind_are_refused_by_name_in_python(verb, name):
+    scene = {} if verb == "report" or name == "scene" else {"scene": "two-edges-clamped"}
+    with pytest.raises(sb.BadInput, match=f"^{name}"):
+        getattr(sb, verb)(**scene, **{name: WRONG[verb][name]})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import runpy
 from xml.etree import ElementTree
 
 import meshio
@@ -13,6 +14,7 @@ from commands import run
 from comparisons.codes.cell import HINGES, _hinge, _triangle
 from comparisons.codes.files import OWN_MASSES, WRITERS
 from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.parameters import undamped
 from comparisons.codes.setup import setup
 from comparisons.codes.sheet_mesh import sheet_mesh
 from comparisons.scoring.reference import references
@@ -107,6 +109,20 @@ def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
         assert data.qfrc_spring.reshape(-1, 3)[:, axes] == pytest.approx(
             force[:, axes], rel=1e-4, abs=1e-4 * np.abs(force).max()
         )
+
+
+@pytest.mark.usefixtures("coarse_limits")
+def test_mujocos_script_steps_until_forces_balance(tmp_path, monkeypatch, capsys):
+    mujoco = pytest.importorskip("mujoco")
+    mesh, states, step = written("mujoco", tmp_path).mesh, [], mujoco.mj_step
+    monkeypatch.setattr(mujoco, "mj_step", lambda model, data: states.append(data) or step(model, data))
+    runpy.run_path(str(tmp_path / "run_mujoco.py"))["main"]()
+    said = json.loads(capsys.readouterr().out)
+    assert said["status"] == "converged" and said["iterations"] == len(states)
+    assert np.abs(states[-1].qacc).max() < 1e-7 * 0.188 / 2e-3**2  # what one more step would move
+    moved = states[-1].flexvert_xpos - mesh.vertices
+    for name, (vertices, shares) in mesh.probes.items():
+        assert said["probes"][name] == pytest.approx(np.array(shares) @ moved[vertices])
 
 
 @pytest.mark.usefixtures("coarse_limits")
@@ -241,5 +257,6 @@ def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
     known = keys.keys() & times.keys()
     assert known or any("The scene's damping is left out" in note for note in made.notes())
     assert all(keys[name] == pytest.approx(times[name]) for name in known)
+    assert not undamped(made.code, SCENE.material)
     texts = "".join(write.keywords["text"] for write in made.files().values())
     assert all(name in texts and f"{times[name]:.6g}"[:5] in texts for name in known)

@@ -238,6 +238,14 @@ def test_damping_is_sought_from_a_scene_without_any():
     assert unknown(undamped, "damping_rate").start == pytest.approx(0.08 * np.pi * first, rel=0.05)
 
 
+@pytest.mark.parametrize(
+    ("name", "least", "most"), [("rho", 1.678e-3, 1.678e9), ("h", 3e-9, 0.188), ("nu", -0.99, 0.4999)]
+)
+def test_bounds_are_a_million_times_the_scenes_value_or_what_makes_sense(name, least, most):
+    one = unknown(SEED, name)
+    assert [one.value(x) for x in one.bounds()] == pytest.approx([least, most])
+
+
 def test_an_equilibrium_knows_nothing_of_damping():
     still = Displacements(POINTS, solved(SEED))
     with pytest.raises(ValueError, match="does not depend on it"):

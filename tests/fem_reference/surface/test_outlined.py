@@ -10,6 +10,7 @@ from skfem import Basis, ElementQuad2
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians, shape
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import mesh_of, nodes_of
+from fem_reference.surface.mesh_points import SizeField, _quadtree
 from fem_reference.surface.outlined import quadrilaterals
 from sheetbench.scenes import load
 
@@ -39,6 +40,11 @@ PLANS = {
     "hole near a rim": (PLATE.difference(disc(0.1, 0.052, 0.05)), NONE),
     "oblique slit": (PLATE.difference(shapely.LineString([(0.05, 0.06), (0.15, 0.14)]).buffer(0.001)), NONE),
 }
+
+
+def test_a_quadtree_has_each_corner_once():
+    found = _quadtree((0.0, 0.0, 3.0, 1.0), SizeField(np.zeros((1, 2)), np.ones(1)))
+    assert found.tolist() == [[x, y] for x in range(4) for y in range(2)]
 
 
 @pytest.mark.parametrize("graded", [False, True])

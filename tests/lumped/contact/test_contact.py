@@ -234,7 +234,7 @@ def test_moving_obstacle_ends_at_its_last_place():
 
 def test_without_an_obstacle_nothing_of_contact_runs():
     """Neither at rest nor in motion, by calls that a profiler sees; with one it sees hundreds."""
-    files = "lumped/contact/contact.py", "discrete/contact.py", "continuation/stiffening.py"
+    files = "lumped/contact.py", "discrete/contact.py", "continuation/stiffening.py"
 
     def calls(scene):
         found = []

@@ -7,7 +7,7 @@ from contact_cases import FALLING as STRIP
 from scipy.optimize import brentq
 
 import lumped
-from lumped.contact.contact import MOVING
+from lumped.contact import MOVING
 from lumped.dynamics.explicit.step_limit import SAFETY, TOUCHING
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Gravity, Held, Material, Motion, Plane, Scene, Sheet

@@ -98,5 +98,7 @@ def test_a_scene_that_was_loaded_is_not_warned_of_again(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error", Implausible)
         sb.solve(scene, "plate", elements=1)
-    with pytest.warns(Implausible):  # another scene
-        sb.solve(scene.replace(name="other"), "plate", elements=1)
+    other = scene.replace()
+    assert other == scene and repr(other) == repr(scene)
+    with pytest.warns(Implausible):
+        sb.solve(other, "plate", elements=1)

@@ -64,14 +64,12 @@ def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.nd
     parts of its sides (2,) [m] or at their ends."""
     rules = []
     for parts in np.maximum(2, np.ceil(2.0 * sides / radius)).astype(int):
-        at = np.arange(parts + 1) / parts if ends else (np.arange(parts) + 0.5) / parts
+        at = (np.arange(parts + ends) + 0.5 * (not ends)) / parts
         shares = np.full(len(at), 1.0 / parts)
-        if ends:
-            shares[[0, -1]] *= 0.5
+        shares[[0, -1]] /= 1 + ends
         rules.append((np.stack([1.0 - at, at], axis=1), shares))
     (along_x, width), (along_y, height) = rules
-    weights = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
-    return weights, np.outer(height, width).ravel()
+    return np.kron(along_y, along_x), np.kron(height, width)
 
 
 class Contact(LatticeItem):
@@ -107,12 +105,8 @@ class Contact(LatticeItem):
         there = area[:, 0] > 0.0
         self.nodes = np.ascontiguousarray(nodes.reshape(len(area), -1)[there])
         self.area, self._rest = area[there], lattice.positions[self.nodes]
-        constants = constants_at(scene, (self.weights @ self._rest)[..., :2].reshape(-1, 2))
-        self.thickness, stretching = (
-            np.broadcast_to(part, self.area.size).reshape(self.area.shape)
-            for part in (constants.thickness, constants.stretching)
-        )
-        self.full = stretching / self.thickness**2
+        constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
+        self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots = assembly.pattern.among(self.nodes)
         self._eps = assembly.rounding

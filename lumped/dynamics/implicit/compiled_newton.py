@@ -19,6 +19,7 @@ from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, csr_arrays
+from sheetbench.numerics.typed import typed
 
 CONVERGED, STALE, LOST = range(3)
 
@@ -65,7 +66,7 @@ class CompiledNewton:
         band = system.problem.system.band
         assert band is not None
         self._system, self._band = system, band
-        self.arrays = Arrays(
+        arrays = Arrays(
             system.packing,
             system.scratch,
             system.damping.rate,
@@ -75,6 +76,7 @@ class CompiledNewton:
             len(band.order),
             band.width,
         )
+        self.arrays = typed(arrays)
         size = system.assembly.pattern.size
         force, velocity, base_u, base_v = np.zeros((4, size, 3))
         right = banded.padded_vector(len(band.order), band.width)

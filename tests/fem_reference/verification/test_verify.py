@@ -16,6 +16,7 @@ from fem_reference.verification import (
     heavy_elastica,
     manufactured_solid,
     mindlin_plates,
+    roll_up,
     round_shapes,
     run,
     slit_annulus,
@@ -62,8 +63,9 @@ def test_quick_cases_pass(name):
 @pytest.mark.parametrize(("case", "coarse"), [
     (manufactured_solid, {"ELEMENTS": (2, 4)}),
     (elliptic_plate, {"RADIAL": 4, "AROUND": 6, "LAYERS": 2, "TOLERANCE": 0.07}),
+    (roll_up, {"ELEMENTS": 8, "SHARES": (0.25, 1.0), "TOLERANCE": 2**4 * 2e-3}),
     (slit_annulus, {"RADIAL": 2, "AROUND": 16, "TOLERANCE": 0.013, "PUBLISHED": LIFTED}),
-], ids=["manufactured-solid", "nafems-le10", "slit-annulus"])  # fmt: skip
+], ids=["manufactured-solid", "nafems-le10", "roll-up", "slit-annulus"])  # fmt: skip
 def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, case, coarse):
     for name, value in coarse.items():
         monkeypatch.setattr(case, name, value)

@@ -20,6 +20,7 @@ derivative by the end has half of ∇n there. A dashpot makes the pressure p (1 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -32,13 +33,11 @@ from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Plane, Scene, free_rigid_motions
 from sheetbench.scenes.meaning.composition import constants_at
-from sheetbench.scenes.meaning.distances import Near, dyad, near, obstacles_by_name, projector
+from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
 from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 
 FINEST = 32  # points a side of a cell
-MOVING = (
-    0.065  # of ω_max², that contact in motion adds at most: 0.05 in the interior, where A ρ h is the mass
-)
+MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where the mass is A ρ h, not at edges
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
 KINDS = ("plane", "sphere", "cylinder")
@@ -65,14 +64,12 @@ def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.nd
     parts of its sides (2,) [m] or at their ends."""
     rules = []
     for parts in np.maximum(2, np.ceil(2.0 * sides / radius)).astype(int):
-        at = np.arange(parts + 1) / parts if ends else (np.arange(parts) + 0.5) / parts
+        at = (np.arange(parts + ends) + 0.5 * (not ends)) / parts
         shares = np.full(len(at), 1.0 / parts)
-        if ends:
-            shares[[0, -1]] *= 0.5
+        shares[[0, -1]] /= 1 + ends
         rules.append((np.stack([1.0 - at, at], axis=1), shares))
     (along_x, width), (along_y, height) = rules
-    weights = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
-    return weights, np.outer(height, width).ravel()
+    return np.kron(along_y, along_x), np.kron(height, width)
 
 
 class Contact(LatticeItem):
@@ -83,7 +80,8 @@ class Contact(LatticeItem):
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.radius = name, obstacle, obstacle.radius
         self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
-        self.moves = obstacle.motion is not None
+        self.moves, self.velocity = obstacle.motion is not None, obstacle.velocity
+        self.displacement = partial(obstacle.displacement, 1.0)
         self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas
@@ -107,21 +105,11 @@ class Contact(LatticeItem):
         there = area[:, 0] > 0.0
         self.nodes = np.ascontiguousarray(nodes.reshape(len(area), -1)[there])
         self.area, self._rest = area[there], lattice.positions[self.nodes]
-        constants = constants_at(scene, (self.weights @ self._rest)[..., :2].reshape(-1, 2))
-        self.thickness, stretching = (
-            np.broadcast_to(part, self.area.size).reshape(self.area.shape)
-            for part in (constants.thickness, constants.stretching)
-        )
-        self.full = stretching / self.thickness**2
+        constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
+        self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots = assembly.pattern.among(self.nodes)
         self._eps = assembly.rounding
-
-    def displacement(self, time: float) -> np.ndarray:
-        return self.obstacle.displacement(1.0, time)
-
-    def velocity(self, time: float) -> np.ndarray:
-        return self.obstacle.velocity(time)
 
     def _law(self, depth: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return A ψ [J], A p [N] and A p' [N/m] of patches `of` at depths (m, p) [m]."""
@@ -255,12 +243,6 @@ class Contact(LatticeItem):
         least = np.unravel_index(found.depth.argmax(), found.depth.shape)
         way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.normal[least]
         return way
-
-
-def contacts(scene: Scene, assembly: Assembly) -> tuple[Contact, ...]:
-    """Return the contact of a lattice with each of the scene's obstacles. Raises BadInput for one too
-    thin."""
-    return tuple(Contact(scene, assembly, name, each) for name, each in obstacles_by_name(scene).items())
 
 
 def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:

@@ -25,14 +25,14 @@ def pytest_configure():
 
 
 def pytest_collection_modifyitems(items):
-    """Tests of studies, of a browser, and two of three rows of a matrix or sweep are for `make nightly`."""
+    """Studies, a browser, five of six rows of a matrix, two of three of a sweep are for `make nightly`."""
     rows = {}
     for item in items:
         if "studies" in item.path.parts[-2:] or "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.nightly)
         sweep, place = item.get_closest_marker("sweep"), (item.path, getattr(item, "originalname", None))
         if "matrix" in item.path.stem and "row" in getattr(getattr(item, "callspec", None), "params", ()):
-            sweep, place = pytest.mark.sweep(3), item.path
+            sweep, place = pytest.mark.sweep(6), item.path
         if sweep:
             rows[place] = rows.get(place, -1) + 1
             if rows[place] % (sweep.args or (3,))[0]:

@@ -13,7 +13,7 @@ from sheetbench.scenes import Scene
 
 ALIGNED, OBLIQUE = range(30), range(30, 50)  # seeds: of sides along the axes, of any sides
 # that differed, some by ties of lines or held masses, others between cells
-OFTEN = {"lattice": (3, 9, 13, 14, 24, 28, 35, 45), "shell": (9, 15, 24, 29, 32, 35, 41, 47)}
+OFTEN = {"lattice": (3, 14, 28, 45), "shell": (9, 24, 32, 47)}
 # 7.5 cells of a lattice of 6 along one side, of a shell of 5 likewise
 HALVES = {"lattice": (4, 18), "shell": (4, 39)}
 # parts of a square of side 1 that are their own image across one diagonal, both, or all four lines
@@ -111,6 +111,7 @@ def test_a_shell_with_half_an_element_left_over_answers_alike(seed):
     assert max(changes.values()) < 1e-9
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("plan", ON_DIAGONALS)
 def test_a_shell_that_is_its_own_image_across_a_diagonal_answers_alike(plan):
     """Turned and mirrored they were 1e-4 to 1e-3 off: chance chose between two like triangulations."""

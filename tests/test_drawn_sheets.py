@@ -104,6 +104,7 @@ def test_strips_bend_as_their_closed_forms(kind, model, off):
     assert solution.displacement(TIP)[0, 2] == pytest.approx(expected, rel=off)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("shape", "off"),
     [
@@ -125,6 +126,7 @@ def test_lattice_and_shell_agree_on_stiff_parts(shape, off):
     assert np.abs(found - shell).max() < off * np.abs(shell).max()
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("name", "across", "off"),
     [("kirigami-strip", 17, 0.02), ("pouch", 17, 0.02), ("ray-fin", 17, 0.04), ("gripper-finger", 17, 0.04)],
@@ -248,6 +250,7 @@ def test_a_load_on_parts_of_an_edge_is_that_on_the_whole_of_it():
         scene.replace(loads=[{**pull, "edge": "y1", "where": parts[0]}])
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("word", SHAPED)
 def test_references_agree_on_shapes(word):
     """Of a stiff sheet, which bends little; a clamp within the sheet has a layer in the solid, as wide as the

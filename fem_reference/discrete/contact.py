@@ -34,7 +34,7 @@ class Touching(SheetItem):
 
     thin = False  # soft contact first, of all obstacles
 
-    def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
+    def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.moving, self.radius = name, obstacle, moving, obstacle.radius
         self.moved, self.on = float(np.linalg.norm(obstacle.displacement(1.0))), plan.elements
         constants, shape = constants_of(scene, plan.corners), areas(plan.corners)
@@ -72,7 +72,7 @@ class Touching(SheetItem):
     def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, m, 9, 3) [N]."""
         found, _, (_, load, _) = self._sunk(shape)
-        return load[..., None] * found.normal + self._rubbed(shape)
+        return load[..., None] * found.normal + self._rubbed(shape)[0]
 
     def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
@@ -84,7 +84,7 @@ class Touching(SheetItem):
         far = np.abs(after - before) > 1e-7 * self.thickness
         secant = (has - had) / np.where(far, after - before, 1.0)
         load = np.where(far, secant, self._pressed(0.5 * (before + after))[1])
-        return self._onto(middle, load[..., None] * now.mean_normal(then) + self._rubbed(middle))
+        return self._onto(middle, load[..., None] * now.mean_normal(then) + self._rubbed(middle)[0])
 
     def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, m, 9, 3)."""
@@ -105,32 +105,25 @@ class Touching(SheetItem):
         out[:, :, at, :, :, at] = np.einsum("rfen,cfen,fenij->nericj", by, by, blocks[:, on])
         return (on, out.reshape(-1, 18, 3, 18, 3)) if len(on) else None
 
-    def _speeds(self, shape: SheetShape) -> tuple[Near, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return where points are, A p [N], how fast they sink (faces, m, 9) [m/s], slide (faces, m, 9, 3),
-        and the root (faces, m, 9) of the law of friction."""
+    def _rubbed(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray]:
+        """Return forces (faces, m, 9, 3) [N] of the dashpot and of friction, in motion, and their derivatives
+        by points' velocities (faces, m, 9, 3, 3)."""
+        if not self.resists:
+            return np.zeros((*self.levers.shape, 3)), np.zeros((*self.levers.shape, 3, 3))
         found, _, (_, load, _) = self._sunk(shape)
+        across, tau = dyad(found.normal), self.obstacle.contact_damping
         speed = self._points(shape.rates) - self.obstacle.velocity(shape.at)
         sinking = -(speed * found.normal).sum(axis=-1)
         sliding = speed + sinking[..., None] * found.normal
-        return found, load, sinking, sliding, np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
-
-    def _rubbed(self, shape: SheetShape) -> np.ndarray:
-        """Return the forces (faces, m, 9, 3) of the dashpot and of friction, in motion."""
-        if not self.resists:
-            return np.zeros((*self.levers.shape, 3))
-        found, load, sinking, sliding, slip = self._speeds(shape)
-        pressed = load * np.maximum(self.obstacle.contact_damping * sinking, -1.0)
-        rubbed = self.obstacle.friction * load / slip
-        return np.asarray(pressed[..., None] * found.normal - rubbed[..., None] * sliding)
+        slip = np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
+        rubbed = (self.obstacle.friction * load / slip)[..., None]
+        pressed = (load * np.maximum(tau * sinking, -1.0))[..., None]
+        damped = (tau * load * (tau * sinking > -1.0))[..., None, None]
+        along = np.eye(3) - across - dyad(sliding / slip[..., None])
+        return pressed * found.normal - rubbed * sliding, -damped * across - rubbed[..., None] * along
 
     def damping(self, shape: SheetShape) -> Tangent | None:
-        if not self.resists:
-            return None
-        found, load, sinking, sliding, slip = self._speeds(shape)
-        tau, across = self.obstacle.contact_damping, dyad(found.normal)
-        pressed, rubbed = tau * load * (tau * sinking > -1.0), self.obstacle.friction * load / slip
-        along = np.eye(3) - across - dyad(sliding / slip[..., None])
-        return self._between(-pressed[..., None, None] * across - rubbed[..., None, None] * along)
+        return self._between(self._rubbed(shape)[1])
 
     def potential(self, shape: SheetShape) -> float:
         return float(self._sunk(shape)[2][0].sum())
@@ -141,7 +134,7 @@ class Touching(SheetItem):
         if shape.v is None or not shape.v.any():
             return 0.0, 0.0
         moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
-        rubbed = self._rubbed(shape)
+        rubbed = self._rubbed(shape)[0]
         taken = rubbed.sum(axis=(0, 1, 2)) @ moved - self._onto(shape, rubbed) @ step
         return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ moved)
 

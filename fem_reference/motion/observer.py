@@ -61,7 +61,7 @@ class ReferenceObserver:
 
     def stretches(self, samples: Sampled, count: int) -> np.ndarray:
         """Return how far the sheet is strained in the first samples, (count,)."""
-        return np.array([self._model.stretch(motion.q, motion.time) for motion in samples.motions[:count]])
+        return np.array([self._model.shape(one.q, one.time).stretch for one in samples.motions[:count]])
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

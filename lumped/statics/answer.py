@@ -56,8 +56,7 @@ def solution(
     if coupling is not None:
         reactions |= coupling.reactions(exerted)
     drive = Drive(state.load_factor)
-    touching = {item.name: item.exerted(u, drive) for item in problem.items}
-    reactions |= {name: force.sum(axis=0) for name, force in touching.items()}
+    reactions |= {item.name: item.exerted(u, drive).sum(axis=0) for item in problem.items}
     found = {item.name: item.report(u, drive) for item in problem.items}
     pressed = (
         {"contact_pressure": np.sum([pressure for _, pressure in found.values()], axis=0)} if found else {}
@@ -84,7 +83,7 @@ def solution(
         history=tuple(path.history),
         load_factor=state.load_factor,
         actuators=wrenches,
-        balance=balance(scene, problem, state, reactions, exerted, sum(touching.values()), linear),
+        balance=balance(scene, problem, state, reactions, exerted, linear),
         contacts=contacts,
         snaps=tuple(path.snaps),
         remarks=outcome.notes,

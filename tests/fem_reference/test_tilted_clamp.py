@@ -149,6 +149,7 @@ def test_the_linear_models_agree_on_a_stiff_tilted_sheet():
         assert relative(solve(scene, model, size).displacement(points)[:, 2], shell) < 0.007
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
 @pytest.mark.parametrize(("edge", "axis"), [("x0", (0.0, 1.0, 0.0)), ("y1", (1.0, 0.0, 0.0))])
 def test_a_tilt_is_the_edge_moved_by_that_rotation(model, edge, axis):

@@ -38,6 +38,7 @@ DRAWN = HALF.replace(
     patches=[{"shape": ROOT, "young": 5e6}],
 )
 FIBRES = {"young_1": 5e6, "young_2": 1e6, "poisson_12": 0.3, "shear_12": 4e5, "angle": 0.5}
+FIBRES |= {"shear_13": 6e5, "shear_23": 2e5}
 SKEW = HALF.replace(  # an oblique rim
     supports=[CLAMP],
     loads=[PointLoad(at=(0.2, 0.1), force=(0.0, 0.0, 0.02))],

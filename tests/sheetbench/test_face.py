@@ -91,6 +91,7 @@ VERBS: dict[str, Callable[[Any], Any]] = {
 }
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("verb", VERBS)
 def test_a_scene_a_name_and_a_path_are_the_same_to_every_verb(tmp_path, verb):
     scene = sb.load(NAME)

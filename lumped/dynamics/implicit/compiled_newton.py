@@ -14,11 +14,12 @@ from numba import njit
 
 from lumped.dynamics.drag import LatticeDrag, add_drag
 from lumped.dynamics.system import System
-from lumped.springs.all_forces import add_forces
+from lumped.springs.all_forces import add_forces, power_again
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, csr_arrays
+from sheetbench.numerics.typed import typed
 
 CONVERGED, STALE, LOST = range(3)
 
@@ -65,7 +66,7 @@ class CompiledNewton:
         band = system.problem.system.band
         assert band is not None
         self._system, self._band = system, band
-        self.arrays = Arrays(
+        arrays = Arrays(
             system.packing,
             system.scratch,
             system.damping.rate,
@@ -75,6 +76,7 @@ class CompiledNewton:
             len(band.order),
             band.width,
         )
+        self.arrays = typed(arrays)
         size = system.assembly.pattern.size
         force, velocity, base_u, base_v = np.zeros((4, size, 3))
         right = banded.padded_vector(len(band.order), band.width)
@@ -110,8 +112,9 @@ class CompiledNewton:
 def add_forces_and_dampers(
     arrays: Arrays, u: np.ndarray, v: np.ndarray, elastic: bool, force: np.ndarray
 ) -> float:
-    """Add the forces (n, 3) [N] of dampers, of the masses' own damping and of the air at a displacement and
-    velocity (n, 3), and of springs if `elastic`; return the power [W] that the dampers take."""
+    """Add the forces (n, 3) [N] of the masses' own damping and of the air at a displacement and velocity
+    (n, 3), and of springs and dampers if `elastic`; return the power [W] that all dampers take, those along
+    springs unless `elastic` at the displacement of the last such call."""
     power = add_drag(arrays.drag, u, v, force)
     for i in range(len(arrays.rate)):
         for q in range(3):
@@ -119,8 +122,10 @@ def add_forces_and_dampers(
             force[i, q] += resisted
             power += resisted * v[i, q]
     damped = arrays.packing.damped
-    if elastic or damped:
-        power += add_forces(u, v, elastic, damped, arrays.packing, arrays.scratch, force)[1]
+    if elastic:
+        power += add_forces(u, v, NUMBA_TRUE, damped, arrays.packing, arrays.scratch, force)[1]
+    elif damped:
+        power += power_again(v, arrays.packing, arrays.scratch)
     return power
 
 

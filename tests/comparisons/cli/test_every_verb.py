@@ -80,7 +80,8 @@ def test_a_folder_is_for_one_question(kept, name, here, capsys):
 
 
 @pytest.mark.parametrize("name", ANSWERED)
-def test_what_is_no_folder_is_refused(name, here, capsys):
+def test_what_is_no_folder_is_refused(name, here, monkeypatch, capsys):
+    monkeypatch.setattr("comparisons.codes.setup.limit_error", lambda *_: 0.0)
     Path("taken").write_text("")
     for out, said in (("", "--out = ''"), ("taken", "taken")):
         assert run(*SMALL[name].split(), "--out", out) == 2
@@ -112,6 +113,7 @@ def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys)
     assert one_line(capsys) == "sheetbench: a request to be quiet\n"
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("width", [50, 80, 160])
 @pytest.mark.parametrize("verb", VERBS)
 def test_a_help_page_cuts_nothing_off(monkeypatch, capsys, verb, width):
@@ -171,6 +173,7 @@ def numbers(text):
     return re.findall(r"(?<!\^)-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", plain)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", ANSWERED)
 def test_no_number_is_cut(kept, name, way):

@@ -33,7 +33,7 @@ def described(name):
 def folders(tmp_path_factory):
     """Folders by the scene that is in them."""
     made = tmp_path_factory.mktemp("lattices")
-    for name in ("graded", *LAWS, "hinged", "cut", "woven", "skew", "muscles", "table"):
+    for name in ("graded", *LAWS, "hinged", "cut", "woven", "skew", "muscles", "table", "napkin"):
         scene, settings = SCENES[name]
         export(made / name, scene, spring_set(scene, **settings))
     export(made / "blown", BLOWN, spring_set(BLOWN, 3))
@@ -68,15 +68,19 @@ def test_numpy_alone_finds_our_displacements(name):
     assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
 
 
-def test_the_numpy_reader_is_a_program(folders, capsys):
+@pytest.mark.parametrize(
+    ("name", "found", "count"),
+    [("hinged", "displacements at rest by", "+"), ("napkin", "the folder has no equilibrium", "*")],
+)
+def test_the_numpy_reader_is_a_program(folders, capsys, name, found, count):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("sys.argv", ["read_lattice.py", str(folders["hinged"])])
+        patch.setattr("sys.argv", ["read_lattice.py", str(folders[name])])
         with pytest.raises(SystemExit) as left:
             runpy.run_path(str(READERS / "read_lattice.py"), run_name="__main__")
     assert not left.value.code
     said = capsys.readouterr()
-    assert said.out.startswith("forces of 3 states off by")
-    assert re.fullmatch(r"(statics of \d+ masses, load in \d+ step\(s\)\n)+", said.err)
+    assert said.out.startswith("forces of 3 states off by") and found in said.out
+    assert re.fullmatch(rf"(statics of \d+ masses, load in \d+ step\(s\)\n){count}", said.err)
 
 
 @pytest.mark.nightly  # six seconds
@@ -105,7 +109,7 @@ def test_cpp_steps_to_our_displacements(folders, tmp_path):
     subprocess.run([str(COMPILER), "-O1", "-std=c++17", str(source), "-o", str(program)], check=True)
     page = (folders["muscles"] / "README.md").read_text(encoding="utf-8")
     assert "`natural.csv`" in page and "changes over time" in page
-    refusals = {"blown": "dead loads only", "table": "no obstacles"}
+    refusals = {"blown": "dead loads only", "table": "no obstacles", "napkin": "no obstacles"}
     for name, place in folders.items():
         found = subprocess.run([str(program), str(place)], capture_output=True, text=True, timeout=120)
         assert found.returncode == (2 if name in refusals else 0), found.stdout + found.stderr

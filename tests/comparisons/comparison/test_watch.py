@@ -10,7 +10,7 @@ from sheetbench.errors import BadInput
 from sheetbench.runs.watch import Watch
 from sheetbench.scenes import Scene, load
 
-MODELS = ("lumped", "plate", "shell", "solid")
+MODELS = ("lumped", "plate", "shell", pytest.param("solid", marks=pytest.mark.nightly))
 SOFT = {
     "name": "soft",
     "sheet": {"length_x": 0.2, "length_y": 0.1, "thickness": 0.003},

@@ -13,7 +13,7 @@ from sheetbench.scenes import EdgeMotion, Gravity, Pressure
 from sheetbench.scenes.objects.supports import Clamped, Curved, Motion
 from sheetbench.scenes.objects.tables import FactorTable
 
-MODELS = ("plate", "shell", "solid")
+MODELS = ("plate", "shell", pytest.param("solid", marks=pytest.mark.nightly))
 
 
 @pytest.fixture(scope="module")

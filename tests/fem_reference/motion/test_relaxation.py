@@ -12,7 +12,7 @@ BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
 RAMP, PULL = 0.01, 1e-9
 
 
-@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+@pytest.mark.parametrize("model", ["plate", "shell", pytest.param("solid", marks=pytest.mark.nightly)])
 def test_a_held_strain_relaxes_as_its_prony_series(model):
     """A strip of next to no mass, pulled in 10 ms and held: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the ramp.
     The update is exact for it; what is left is inertia, damped by the integrator."""

@@ -16,6 +16,8 @@ from fem_reference.verification import (
     heavy_elastica,
     manufactured_solid,
     mindlin_plates,
+    roll_up,
+    round_shapes,
     run,
     slit_annulus,
 )
@@ -24,7 +26,7 @@ from fem_reference.verification.rows import absolutely, relatively
 from sheetbench.answers.layout import blocks
 
 ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws", "rubber")  # test_locking, test_strain_laws
-HEAVIEST = ("disc-bending", "nafems-fv16", "end-shear")  # by night
+HEAVIEST = ("disc-bending", "disc-frequencies", "nafems-fv16", "end-shear")  # by night
 QUICK = [name for name, case in CASES.items() if case.quick and name not in ELSEWHERE]
 VALUES = {  # case → how many values, beside the changes from half the mesh
     "end-shear": 16, "roll-up": 6, "slit-annulus": 10, "heavy-elastica": 24, "settling-strip": 2,
@@ -61,12 +63,18 @@ def test_quick_cases_pass(name):
 @pytest.mark.parametrize(("case", "coarse"), [
     (manufactured_solid, {"ELEMENTS": (2, 4)}),
     (elliptic_plate, {"RADIAL": 4, "AROUND": 6, "LAYERS": 2, "TOLERANCE": 0.07}),
+    (roll_up, {"ELEMENTS": 8, "SHARES": (0.25, 1.0), "TOLERANCE": 2**4 * 2e-3}),
     (slit_annulus, {"RADIAL": 2, "AROUND": 16, "TOLERANCE": 0.013, "PUBLISHED": LIFTED}),
-], ids=["manufactured-solid", "nafems-le10", "slit-annulus"])  # fmt: skip
+], ids=["manufactured-solid", "nafems-le10", "roll-up", "slit-annulus"])  # fmt: skip
 def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, case, coarse):
     for name, value in coarse.items():
         monkeypatch.setattr(case, name, value)
     held(list(case.rows("coarse")))
+
+
+def test_a_discs_frequencies_are_met_on_a_coarse_mesh(monkeypatch):
+    monkeypatch.setattr(round_shapes, "ELEMENTS", 12)
+    held(list(round_shapes.frequencies("coarse")))
 
 
 @pytest.mark.slow

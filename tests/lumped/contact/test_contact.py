@@ -25,6 +25,7 @@ from scipy.optimize import fsolve
 import fem_reference
 import lumped
 from lumped.actuators import Drive
+from lumped.contact import points_of_cells
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
@@ -268,3 +269,10 @@ def test_what_statics_refuse():
         solve(laid_strip(0.05), (5, 3, 2), linear=True)
     with pytest.raises(SceneError, match="nothing stops translation along x"):
         solve(lying_quarter(supports=()), (5, 5, 2))
+
+
+@pytest.mark.parametrize("ends", [False, True])
+def test_points_of_a_cell_share_its_area_and_hang_from_its_corners_alike(ends):
+    weights, shares = points_of_cells(np.array([0.02, 0.03]), 0.01, ends)
+    assert len(shares) == ((5 * 7) if ends else (4 * 6))  # at most half a radius apart
+    assert weights.sum(axis=1) == pytest.approx(1.0) and shares @ weights == pytest.approx(0.25)

@@ -93,7 +93,7 @@ def test_restitution_of_the_dashpot():
 
 
 def test_friction_slows_a_slide():
-    slope, friction, duration = 0.5, 0.3, 0.1
+    slope, friction, duration = 0.5, 0.3, 0.05
     slide = block(Plane(position=(0.0, 0.0, -0.001), friction=friction), slope)
     history = run(slide, duration, grid=(3, 3, 2))
     gone = 0.5 * GRAVITY * (np.sin(slope) - friction * np.cos(slope)) * duration**2

@@ -21,12 +21,17 @@ HINGED = [{"edge": "x0", "kind": "hinged"}, {"edge": "x1", "kind": "held", "comp
 MOVED = [
     {"edge": "x0", "kind": "clamped", "motion": {"time": [0, 1], "displacement": [[0, 0, 0], [0, 0, 1]]}}
 ]
+GROWING = [
+    {"kind": "edge", "edge": "x1", "force_per_length": [0.0, 0.0, 5.0],
+     "history": {"time": [0.0, 0.012], "factor": [0.0, 1.0]}},
+]  # fmt: skip
 TABLE = scenes.DamperSet.model_validate({"axial": 0.3, "vertical": 1.0, "cross": {"x": 0.2, "y": 0.1}})
 CASES = {
     "dampers in proportion": make_scene(damping_time=1e-3),
     "dampers of a table, and of masses": make_scene(damping_rate=3.0).replace(dampers=TABLE),
     "air": make_scene().replace(air=scenes.Air(drag=100.0)),
     "supports that hold means": make_scene(supports=HINGED),
+    "a load that grows": make_scene("one-edge-clamped", loads=GROWING, gravity=False, damping_time=1e-3),
     "a moving support": make_scene("one-edge-clamped", supports=MOVED, damping_time=1e-3),
 }
 

@@ -72,7 +72,8 @@ class Moduli:
             names |= {"D16": d[..., 0, 2], "D26": d[..., 1, 2], "A16": a[..., 0, 2], "A26": a[..., 1, 2]}
         if square:
             return {**names, "S": s[..., 0]}
-        return {**names, "D22": d[..., 1, 1], "A22": a[..., 1, 1], "Sx": s[..., 0], "Sy": s[..., 1]}
+        both = {"Sxy": self.coupling} if oblique else {}
+        return {**names, "D22": d[..., 1, 1], "A22": a[..., 1, 1], "Sx": s[..., 0], "Sy": s[..., 1]} | both
 
 
 def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:

@@ -227,7 +227,7 @@ def test_a_held_base_stops_rigid_motions(base, free):
     assert len(scenes.free_rigid_motions(scene)) == free
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep(4)
 @pytest.mark.parametrize("base, segments", [("start", 8), ("middle", 8), ("middle", 7), ("end", 5)])
 def test_a_held_base_carries_sheet_and_chain_in_statics_and_at_the_end_of_a_run(base, segments):
     chain = {"edge": "x0", "base": base, "segments": segments, "bending_stiffness": 5.0}

@@ -53,6 +53,7 @@ UNLIKE = {
 }
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 @pytest.mark.parametrize("name", UNLIKE)
 def test_the_order_of_the_actuators_makes_no_difference(model, name):
@@ -94,7 +95,7 @@ BASES = ("free", "start", "middle", "end")
 def test_chains_around_a_sheet_hold_nothing_twice():
     """A constraint that follows from the others would make the equations singular."""
     draw, solved = np.random.default_rng(4), 0
-    while solved < 15:
+    while solved < 6:
         edges = draw.permutation(["x0", "x1", "y0", "y1"])[: draw.integers(2, 5)]
         left = sorted({"x0", "y0"} - {*edges})[:1]
         chains = [

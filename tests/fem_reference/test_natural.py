@@ -98,6 +98,7 @@ def test_the_lattice_is_within_two_thousandths_of_the_shell_with_a_band_of_muscl
     assert np.abs(solid - shell).max() < 3e-4 * np.abs(shell).max()
 
 
+@pytest.mark.nightly  # by day: the lattice in lumped/test_natural.py, `self-bending`
 def test_a_bimetal_bends_alike_in_all_models():
     """The solid has its layers; z of a strip 20 mm wide, by Timoshenko's k0 [1/m] and 0.3 ν k0 b at the
     clamp."""

@@ -194,6 +194,7 @@ def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
 
 
+@pytest.mark.nightly
 def test_both_sheets_move_side_by_side(tmp_path):
     """A GIF with both in every frame, the lattice's half and the shell's each changing over time."""
     from PIL import Image

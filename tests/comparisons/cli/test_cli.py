@@ -152,7 +152,7 @@ def test_a_long_version_says_what_is_installed(capsys):
 
 
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("line", ["score", "score --json", "compare --help"])
+@pytest.mark.parametrize("line", ["check --schema", "score --json", "compare --help"])
 def test_an_output_that_nobody_reads_on_is_no_fault(line):
     """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends, for what is longer than a
     pipe holds and for what is not."""

@@ -1,6 +1,6 @@
 """An exit status, words and numbers as documented, and no file but where it was requested.
 
-Two hundred examples, the same ones every time; `make fuzz` draws 24 000 others (`fuzz.long`).
+Some 160 examples, the same ones every time; `make fuzz` draws 24 000 others (`fuzz.long`).
 """
 
 import pytest

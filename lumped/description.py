@@ -24,7 +24,6 @@ from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, require_no_branches
-from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.objects.supports import named
 
 
@@ -271,7 +270,7 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
         for name, support in named(scene.supports).items()
         if support.motion is not None
     ]
-    moving += [name for name, each in obstacles_by_name(scene).items() if each.motion is not None]
+    moving += [name for name, each in scene.named_obstacles().items() if each.motion is not None]
     courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
     changes = [f"{name} moves over time; here it is where it ends" for name in moving]
     if any(load.history is not None for load in courses):

@@ -28,7 +28,9 @@ def pytest_collection_modifyitems(items):
     """Studies, a browser, five of six rows of a matrix, two of three of a sweep are for `make nightly`."""
     rows = {}
     for item in items:
-        if "studies" in item.path.parts[-2:] or "browser" in getattr(item, "fixturenames", ()):
+        if "studies" in item.path.relative_to(item.config.rootpath).parts or "browser" in getattr(
+            item, "fixturenames", ()
+        ):
             item.add_marker(pytest.mark.nightly)
         sweep, place = item.get_closest_marker("sweep"), (item.path, getattr(item, "originalname", None))
         if "matrix" in item.path.stem and "row" in getattr(getattr(item, "callspec", None), "params", ()):

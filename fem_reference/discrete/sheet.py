@@ -37,7 +37,6 @@ from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
-from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
@@ -97,7 +96,7 @@ class Discrete(Output):
             self.items.append(Drag(scene.air.coefficient))
         if self.model != "plate":  # which is linear
             given = scene, self.plan, moving, self.model == "solid"
-            self.contacts = [Touching(*given, *one) for one in obstacles_by_name(scene).items()]
+            self.contacts = [Touching(*given, *one) for one in scene.named_obstacles().items()]
             self.items += self.contacts
 
     @property

@@ -149,7 +149,11 @@ class Static(Creeping[StaticState, Forces]):
         return any(one.step_share(*ends) < 1.0 for one in self.sheet.contacts)
 
     def restarted(self, state: StaticState) -> tuple[StaticState, float]:
-        return self.unextrapolated(state), self.potential(state, 1.0)[1]
+        return state, self.potential(state, 1.0)[1]
+
+    def touching(self, state: StaticState) -> np.ndarray:
+        shape = self.sheet.shape(state.q, 1.0)
+        return np.array([one.report(shape)[1] > 0.0 for one in self.sheet.contacts])
 
     def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)

@@ -42,7 +42,6 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
-from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.meaning.natural_state import natural_of_cells
 from sheetbench.scenes.objects.material import limit_note
 from sheetbench.scenes.objects.orthotropy import FIBRES
@@ -147,7 +146,7 @@ def build_problem(
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    items = tuple(Contact(scene, assembly, *each) for each in obstacles_by_name(scene).items())
+    items = tuple(Contact(scene, assembly, *each) for each in scene.named_obstacles().items())
     return Problem(assembly, constraints, Loads(scene, assembly), size, items)
 
 

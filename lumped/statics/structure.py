@@ -152,7 +152,10 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         return any(one.step_share(*ways) < 1.0 for one in self.problem.items)
 
     def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
-        return LatticeState(state.u, 1.0), 0.0
+        return state._replace(residual=None), 0.0
+
+    def touching(self, state: LatticeState) -> np.ndarray:
+        return np.array([one.report(state.u, Drive(1.0))[1] > 0.0 for one in self.problem.contacts])
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
         return self.problem.system.factor(blocks, more)

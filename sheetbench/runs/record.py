@@ -19,7 +19,6 @@ from sheetbench.runs.run import Observer, Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.objects.obstacles import CREEPS
 
 
@@ -94,7 +93,7 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
             status, message = run.finish(lambda: recipe.start(method))
         done = now()
         parts, whole = split(columns, kept.samples()), kept.frames()
-    creeping = (f"{name}: {CREEPS}" for name, one in obstacles_by_name(recipe.scene).items() if one.friction)
+    creeping = (f"{name}: {CREEPS}" for name, one in recipe.scene.named_obstacles().items() if one.friction)
     return History(
         label=recipe.label,
         integrator=recipe.integrator,

@@ -38,6 +38,7 @@ WORST = {
 }
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", PLATE)
 def test_six_frequencies_on_six_supports(name):
     """Within 1.6 % at 9 × 9 × 2 and 0.55 % at 17 × 17 × 2 (the fifth with opposite edges clamped, 0.543);

@@ -71,6 +71,7 @@ def ask(place, cache):
     ).stderr
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("at", ["the cache", "a kernel's folder"])
 def test_a_folder_that_others_may_write_to_is_refused(tmp_path, at):
     """What lies there is unpickled: somebody else's was executed."""

@@ -102,11 +102,6 @@ class CompiledNewton:
             self.factors = factors
         return bool(definite)
 
-    def solve(self, b: np.ndarray) -> np.ndarray:
-        """Return x with A x = b, of the unknowns, as the factors have it."""
-        found: np.ndarray = banded.solve_unrefined(self.factors, self._band.width, self._band.order, b)
-        return found
-
 
 @njit(cache=True)
 def add_forces_and_dampers(

@@ -16,7 +16,13 @@ from typing import Any
 import numpy as np
 
 from lumped.dynamics.implicit import compiled_newton
-from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton, NewtonLimits, iterate
+from lumped.dynamics.implicit.compiled_newton import (
+    CONVERGED,
+    CompiledNewton,
+    NewtonLimits,
+    correct,
+    iterate,
+)
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import System
 from sheetbench.numerics.reduced import Factor, SingularMatrixError
@@ -134,10 +140,13 @@ class Newton:
     def excess(self, equation: StepEquation, u: np.ndarray) -> float:
         """Return the energy [J] that u (n, 3) has too much by the equation, along stiff directions most: half
         the work of what it leaves along the correction of that; infinite where no factors kept serve."""
+        by, compiled = (equation.mass_coefficient, equation.damping_coefficient), self._compiled
+        if compiled is not None and self.near(by[0]):
+            given = equation.base_u, equation.base_v, by, self._system.loads([equation.time])[0]
+            corrected, workspace = u.copy(), compiled.workspace
+            correct(corrected, *given, compiled.arrays, compiled.factors, workspace)
+            return 0.5 * float(np.vdot(workspace.force, u - corrected))
         left = self._system.problem.reduce(self._residual(equation, u))
-        by = equation.mass_coefficient, equation.damping_coefficient
-        if self._compiled is not None and self.near(by[0]):
-            return 0.5 * float(left @ self._compiled.solve(left))
         return 0.5 * float(left @ self._factor.solve(left)) if self._factor and self._key == by else np.inf
 
     def _solve_general(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray:

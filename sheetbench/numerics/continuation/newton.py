@@ -8,6 +8,7 @@ corrections that do not shrink.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import isfinite
 from typing import Generic
@@ -72,12 +73,17 @@ class Predictor(Generic[State, Forces]):
 
 
 def newton(
-    path: Path[State, Forces], first: Start[State] | Predictor[State, Forces], close: float = 0.0
+    path: Path[State, Forces],
+    first: Start[State] | Predictor[State, Forces],
+    close: float = 0.0,
+    same: Callable[[State, State], bool] | None = None,
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those at hand are,
-    which next to nothing has changed since. close: a residual that is good enough. Raises StepFailed."""
+    which next to nothing has changed since. close: a residual that is good enough, of a state that is the
+    `same` as the one before its correction. Raises StepFailed."""
     structure, limits = path.structure, path.limits
     state, target, before = first.state, first.target, np.inf
+    previous: State | None = None
     factor: Factor | None = None
     off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
     works, lengths = [first.work], [first.length]
@@ -93,7 +99,8 @@ def newton(
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
             settled = imbalance <= structure.imbalance_floor(state, forces)
-        if relative <= close or (settled and structure.gap(state, target) <= limits.tolerance):
+        loose = relative <= close and (same is None or (previous is not None and same(previous, state)))
+        if loose or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None
         last, back = lengths[-1], limits.back
         if len(lengths) > back and last >= max(lengths[-1 - back], limits.shrinking * lengths[-2]):
@@ -126,7 +133,7 @@ def newton(
         if not lengths[-1] < limits.farthest:
             raise LoadStepFailed(Status.DIVERGED, "the corrections have no end", first.length)
         works.append(abs(float(step @ rows)))
-        state, before = following, imbalance
+        previous, state, before = state, following, imbalance
     raise LoadStepFailed(
         Status.STEP_LIMIT, f"no equilibrium in {limits.corrections} corrections", first.length
     )

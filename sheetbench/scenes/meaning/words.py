@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import degrees, hypot
 
 from sheetbench.scenes.meaning.composition import mass_of
-from sheetbench.scenes.meaning.distances import nearest, obstacles_by_name
+from sheetbench.scenes.meaning.distances import nearest
 from sheetbench.scenes.meaning.natural_words import natural_in_words
 from sheetbench.scenes.meaning.payloads import carried
 from sheetbench.scenes.meaning.region import area_in, resultant
@@ -67,7 +67,7 @@ def in_words(scene: SceneFields) -> list[tuple[str, str]]:
         where = name if shape is not None else f"edge {name}"
         sentences.append((where, f"{_support(support, sheet)}{inside}"))
     sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
-    for name, one in obstacles_by_name(scene).items():
+    for name, one in scene.named_obstacles().items():
         sentences.append((name, _obstacle(one, nearest(scene, one)[0])))
     sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
     if scene.initial is not None:

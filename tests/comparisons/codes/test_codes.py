@@ -168,6 +168,7 @@ def test_masses_and_loads_of_every_code_are_the_sheets(code):
     assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_a_payload_is_in_the_masses_of_codes_that_have_them(code):

@@ -50,6 +50,7 @@ def test_a_rod_bent_out_of_reach_is_no_start(model):
         moved(scene, model, 0.01, elements=1)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", MODELS)
 def test_a_motion_starts_from_the_equilibrium_that_statics_find(model):
     """The held load is in the statics; let go, the energy at the start is the elastic one, and is kept."""

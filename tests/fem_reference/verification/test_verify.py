@@ -94,6 +94,7 @@ def test_all_cases_pass(tmp_path, capsys):
     assert {file.name for file in tmp_path.iterdir()} >= {"verification.json", "verification.csv"}
 
 
+@pytest.mark.nightly
 def test_values_of_this_project_are_not_called_somebody_else_s():
     rows = [row for name in ("nafems-fv16", "leissa-one-edge", "mindlin-clamped") for row in rows_of(name)]
     assert all(row.source for row in rows)

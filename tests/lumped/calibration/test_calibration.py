@@ -125,6 +125,7 @@ def test_a_law_of_components_has_the_moduli_of_their_mean():
     assert got.membrane == pytest.approx(expected.membrane) and got.bending == pytest.approx(expected.bending)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("method", ["consistent", "moduli"])
 @pytest.mark.parametrize("grid", [(5, 5), (33, 33), (9, 13), (9, 25), (25, 9)])
 def test_every_modulus_is_met(method, grid):

@@ -166,6 +166,7 @@ def test_springs_of_the_material_alone_are_not_those_of_a_laminate():
         lumped.solve(scene.replace(layers=CROSS), springs)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_identify_finds_moduli_and_the_angle_of_fibres(model, tmp_path):
     """From a lattice's own answer; of a shell, from a shell's."""

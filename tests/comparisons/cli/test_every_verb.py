@@ -80,8 +80,7 @@ def test_a_folder_is_for_one_question(kept, name, here, capsys):
 
 
 @pytest.mark.parametrize("name", ANSWERED)
-def test_what_is_no_folder_is_refused(name, here, monkeypatch, capsys):
-    monkeypatch.setattr("comparisons.codes.setup.limit_error", lambda *_: 0.0)
+def test_what_is_no_folder_is_refused(name, here, capsys):
     Path("taken").write_text("")
     for out, said in (("", "--out = ''"), ("taken", "taken")):
         assert run(*SMALL[name].split(), "--out", out) == 2

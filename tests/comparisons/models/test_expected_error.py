@@ -156,6 +156,7 @@ def test_loads_in_its_plane_bend_no_flat_sheet():
     assert layers(both) == layers(both.replace(loads=()))
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
 def test_frequencies_about_the_deformed_sheet_have_theirs(name):
     """By mode: within a factor of two and 0.2 % of what the shell says."""

@@ -33,6 +33,7 @@ def test_a_held_strain_relaxes_as_its_prony_series(model):
     assert np.abs(found)[held] == pytest.approx(at_rest * series[held], rel=1e-6)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["plate", "shell"])
 def test_energy_is_kept_in_books_with_branches(model):
     """Within the step's error, as without branches; branches dissipate."""

@@ -153,6 +153,7 @@ def test_what_holds_at_a_shared_corner_is_what_holds_the_shells_rod(name):
     assert off[1] < 0.5 * off[0] or off[0] < 0.01
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("base", ["end", "start"])
 def test_a_base_carries_the_chain_that_ends_where_it_stands(base):
     """Forces on bases and segments: with the corner's share, and as the shell counts them."""
@@ -187,6 +188,7 @@ def test_a_chain_that_is_held_along_itself_twice_is_refused(name):
     assert 'base = "free"' in str(refused.value)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     "chains", [(chain("y1", 2.0, 4), chain("x1", 2.0, 3)), (chain("y0", 2.0, 8),)], ids=["shared", "clamped"]
 )

@@ -18,8 +18,7 @@ import subprocess
 import sys
 from collections import Counter
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
 from functools import cache
 from itertools import islice
 from pathlib import Path
@@ -47,7 +46,7 @@ def main(folder: Path, place: str, count: int) -> None:
     for fault in faults:
         if fault["result"] in ("", "survives") and "why" not in fault:
             fault |= tried(fault, nearest)
-            print(f"{fault['result']} {fault['by']}\n{fault['change']}", flush=True)
+            print(f"{fault['result']} {fault['by'] or fault['change']}", flush=True)
             kept.write_text(json.dumps(faults, indent=1, ensure_ascii=False))
         results[fault["file"], "no fault" if "why" in fault else fault["result"]] += 1
     for (file, result), number in sorted(results.items()):
@@ -125,10 +124,10 @@ def first_failed(test: str, words: list[str]) -> str:
         texts = {item: f"{item.name} {inspect.getsource(item.obj)}" for item in items}
         items.sort(key=lambda item: -sum(has(texts[item], word) for word in words))
 
-    def note(report: pytest.TestReport) -> None:
-        failed.extend([report.nodeid] * report.failed)
-
-    hooks = SimpleNamespace(pytest_collection_modifyitems=order, pytest_runtest_logreport=note)
+    hooks = SimpleNamespace(
+        pytest_collection_modifyitems=order,
+        pytest_runtest_logreport=lambda report: failed.extend([report.nodeid] * report.failed),
+    )
     status = pytest.main(["-x", "-q", "-n0", "-p", "no:cacheprovider", test], plugins=[hooks])
     return "".join(failed[:1]) or "an import" * (status in (2, 3, 4))
 

@@ -9,10 +9,9 @@ an equation a step.
 
 Dampers take the mean of their power at both ends of a step; with obstacles, whose dashpots come and go in ten
 steps, R̄·(u₁ − u₀ − h² (a₁ − a₀)/6), R̄ the mean of R₀ and of R₁ as predicted. With F the other forces the
-kinetic energy gains (F̄ − R̄)·h v̄, h v̄ = u₁ − u₀ + h² (a₁ − a₀)/4, and the potential loses F̄·(u₁ − u₀) −
-h³ F''v³/12, whose sum is that of (h²/6) F'v a: but for differences of (F − R)²/m and F²/m, which come back as
-a contact ends, (h²/6m) R̄ ΔF is left beside −R̄·(u₁ − u₀). By the mean power the balance of a sheet that lands
-flat on a dashpot is off by up to 0.9 % of its fall for good, so by 0.01 %.
+kinetic energy gains (F̄ − R̄)·h v̄, h v̄ = u₁ − u₀ + h² (a₁ − a₀)/4, the potential loses F̄·(u₁ − u₀) −
+h³ F''v³/12: but for what comes back as a contact ends that leaves (h²/6m) R̄ ΔF beside −R̄·(u₁ − u₀). By the
+mean power the balance of a flat landing would be off by up to 0.9 % of its fall for good, not 0.01 %.
 """
 
 from __future__ import annotations

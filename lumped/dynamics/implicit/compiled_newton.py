@@ -126,7 +126,6 @@ def add_forces_and_dampers(
 
 @njit(cache=True)
 def iterate(
-    first: int,
     left: int,
     u: np.ndarray,
     base_u: np.ndarray,
@@ -137,27 +136,21 @@ def iterate(
     arrays: Arrays,
     factors: np.ndarray,
     workspace: NewtonWorkspace,
-) -> tuple[int, int, int, int]:
-    """Solve equations with û, v̂ (k, n, 3), c₂ and c₁, and loads (k, n, 3), or (1, n, 3) if they are the same,
-    for u in place from the `first` on, which has corrections `left`: how that ended, the equation where it
-    did, what corrections that one has left, and how many were made in all."""
-    made = 0
-    for i in range(first, len(u)):
-        acting, last = external[min(i, len(external) - 1)], np.inf
-        while True:
-            if left == 0:
-                return STALE, i, left, made
-            length = correct(u[i], base_u[i], base_v[i], by, acting, arrays, factors, workspace)
-            left, made = left - 1, made + 1
-            if length < limits.tolerance:
-                break
-            if not length <= limits.largest:
-                return LOST, i, left, made
-            if length > limits.stale * last:
-                return STALE, i, left, made
-            last = length
-        left = limits.corrections
-    return CONVERGED, len(u), left, made
+) -> tuple[int, int]:
+    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has corrections
+    `left`: how that ended, and what corrections it has left then."""
+    last = np.inf
+    while left > 0:
+        length = correct(u, base_u, base_v, by, external, arrays, factors, workspace)
+        left -= 1
+        if length < limits.tolerance:
+            return CONVERGED, left
+        if not length <= limits.largest:
+            return LOST, left
+        if length > limits.stale * last:
+            return STALE, left
+        last = length
+    return STALE, 0
 
 
 @njit(cache=True)

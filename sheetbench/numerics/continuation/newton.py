@@ -8,7 +8,6 @@ corrections that do not shrink.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import isfinite
 from typing import Generic
@@ -73,17 +72,14 @@ class Predictor(Generic[State, Forces]):
 
 
 def newton(
-    path: Path[State, Forces],
-    first: Start[State] | Predictor[State, Forces],
-    close: float = 0.0,
-    same: Callable[[State, State], bool] | None = None,
+    path: Path[State, Forces], first: Start[State] | Predictor[State, Forces], close: float = 0.0
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those at hand are,
-    which next to nothing has changed since. close: a residual that is good enough, of a state that is the
-    `same` as the one before its correction. Raises StepFailed."""
+    which next to nothing has changed since. close: a residual that is good enough once a
+    correction has left the same points touching obstacles. Raises StepFailed."""
     structure, limits = path.structure, path.limits
     state, target, before = first.state, first.target, np.inf
-    previous: State | None = None
+    touching = np.empty(0, bool)
     factor: Factor | None = None
     off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
     works, lengths = [first.work], [first.length]
@@ -99,7 +95,8 @@ def newton(
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
             settled = imbalance <= structure.imbalance_floor(state, forces)
-        loose = relative <= close and (same is None or (previous is not None and same(previous, state)))
+        touched, touching = touching, structure.touching(state) if close > 0.0 else touching
+        loose = relative <= close and np.array_equal(touched, touching)
         if loose or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None
         last, back = lengths[-1], limits.back
@@ -133,7 +130,7 @@ def newton(
         if not lengths[-1] < limits.farthest:
             raise LoadStepFailed(Status.DIVERGED, "the corrections have no end", first.length)
         works.append(abs(float(step @ rows)))
-        previous, state, before = state, following, imbalance
+        state, before = following, imbalance
     raise LoadStepFailed(
         Status.STEP_LIMIT, f"no equilibrium in {limits.corrections} corrections", first.length
     )

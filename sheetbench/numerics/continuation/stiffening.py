@@ -133,16 +133,13 @@ def _raised(path: Path[State, Forces], share: float, inspect: Inspect[State, For
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
 
-    def same(before: State, state: State) -> bool:
-        return np.array_equal(structure.touching(before), structure.touching(state))
-
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
         soften(structure.contacts, target)
         close = LOOSE if target < 1.0 else 0.0
         try:
             state, size = structure.restarted(path.state)
-            path.state, path.factor = newton(path, Start(state, 1.0, 1.0, size), close, same)
+            path.state, path.factor = newton(path, Start(state, 1.0, 1.0, size), close)
         except LoadStepFailed as failure:
             factor = (target / share) ** 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:

@@ -72,6 +72,10 @@ def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, case, coarse):
     held(list(case.rows("coarse")))
 
 
+def test_a_mesh_too_coarse_for_an_equilibrium_has_no_value():
+    assert np.isnan(roll_up.rolled(1.0, 2)).tolist() == [True, True]
+
+
 def test_a_discs_frequencies_are_met_on_a_coarse_mesh(monkeypatch):
     monkeypatch.setattr(round_shapes, "ELEMENTS", 12)
     held(list(round_shapes.frequencies("coarse")))

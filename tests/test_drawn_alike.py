@@ -96,7 +96,7 @@ def rows():
         yield from ((model, seed, True) for seed in HALVES[model])
 
 
-@pytest.mark.parametrize(("model", "seed", "half"), rows())
+@pytest.mark.parametrize(("model", "seed", "half"), list(rows()))
 def test_a_drawn_sheet_answers_alike(model, seed, half):
     answer, *sizes = MODELS[model]
     changes = changed_by(draw(seed, seed in OBLIQUE), lambda scene: answer(scene, sizes[half]))

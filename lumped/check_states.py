@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from lumped.actuators import Drive
-from lumped.assembly import Assembly
 from lumped.calibration import Calibration
-from lumped.contact import Contact
 from lumped.lattice import Lattice
+from lumped.statics.problem import Problem
 from lumped.statics.solver import solve
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Scene, free_rigid_motions
@@ -32,15 +29,16 @@ class CheckState:
 
 
 def check_states(
-    scene: Scene, calibration: Calibration, assembly: Assembly, touching: Sequence[Contact]
+    scene: Scene, calibration: Calibration, problem: Problem
 ) -> tuple[tuple[CheckState, ...], tuple[str, ...]]:
     """Return two imposed states, with obstacles three, and the equilibrium, and why there is none."""
+    lattice = problem.assembly.lattice
     shapes = [
-        ("stretched", f"stretched and warped by {STRETCH:g} and {WARP:g}", _stretched(assembly.lattice)),
-        ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(assembly.lattice)),
+        ("stretched", f"stretched and warped by {STRETCH:g} and {WARP:g}", _stretched(lattice)),
+        ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(lattice)),
     ]
-    if touching:
-        into = shapes[0][2] + touching[0].clearance(shapes[0][2])
+    for one in problem.contacts[:1]:
+        into = shapes[0][2] + one.clearance(shapes[0][2])
         shapes.append(("pressed", "stretched and moved into obstacle 1", into))
     why: tuple[str, ...] = ()
     if free := free_rigid_motions(scene):
@@ -54,8 +52,7 @@ def check_states(
             why = (f"no equilibrium to check by: {solution.status}: {solution.message}",)
     states = []
     for name, meaning, displacement in shapes:
-        energy, force = assembly.force(displacement)
-        energy += sum(each.add_force(displacement, Drive(), force) for each in touching)
+        energy, force = problem.internal(displacement, 1.0)
         states.append(CheckState(name, meaning, displacement, force, energy))
     return tuple(states), why
 

@@ -14,8 +14,7 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.check_states import CheckState, check_states
-from lumped.contact import contacts
-from lumped.contact.table import contact_table
+from lumped.contact import contact_table
 from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
@@ -25,7 +24,6 @@ from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, require_no_branches
-from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.objects.supports import named
 
 
@@ -83,7 +81,7 @@ class Couple:
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles (`lumped.contact.table`); notes: what of
+    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles (`lumped.contact`); notes: what of
     the scene is not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
 
     index: np.ndarray
@@ -124,8 +122,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     moments, pressures = problem.loads.at_time(None)
     pressed = pressures != 0.0
     couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
-    touching = contacts(scene, assembly)
-    states, why = check_states(scene, calibration, assembly, touching)
+    states, why = check_states(scene, calibration, problem)
     found = Description(
         index=np.stack([i, j, k], axis=1),
         positions=lattice.positions,
@@ -138,7 +135,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         pressure=pressures[pressed],
         pressed=lattice.mid_cells[pressed],
         couples=couples,
-        contact=contact_table(touching, layers),
+        contact=contact_table(problem.contacts, layers),
         states=states,
         notes=(*_left_out(scene), *why),
     )
@@ -273,7 +270,7 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
         for name, support in named(scene.supports).items()
         if support.motion is not None
     ]
-    moving += [name for name, each in obstacles_by_name(scene).items() if each.motion is not None]
+    moving += [name for name, each in scene.named_obstacles().items() if each.motion is not None]
     courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
     changes = [f"{name} moves over time; here it is where it ends" for name in moving]
     if any(load.history is not None for load in courses):

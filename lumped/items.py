@@ -7,6 +7,7 @@ internal: the gradient of the energy. `Drive` says how far loads and commands ar
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
@@ -18,11 +19,14 @@ Since = tuple[np.ndarray, Drive]  # where a step begins, for the force whose wor
 
 
 class LatticeItem(Protocol):
-    """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does;
-    resists: whether it takes energy. One that inherits this leaves out what has a default here."""
+    """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does, with its
+    displacement (3,) [m] and velocity (3,) [m/s] at a time [s]; resists: whether it takes energy. One that
+    inherits this leaves out what has a default here."""
 
     name: str
     moves: bool
+    displacement: Callable[[float], np.ndarray]
+    velocity: Callable[[float], np.ndarray]
     resists: bool
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
@@ -48,14 +52,6 @@ class LatticeItem(Protocol):
         self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
     ) -> None:
         """Add scale × its derivative by the velocity [N·s/m]."""
-
-    def displacement(self, time: float) -> np.ndarray:
-        """Return how far (3,) [m] what it is fixed to has moved at a time [s]."""
-        return np.zeros(3)
-
-    def velocity(self, time: float) -> np.ndarray:
-        """Return its velocity (3,) [m/s]."""
-        return np.zeros(3)
 
     def exerted(self, u: np.ndarray, drive: Drive, v: np.ndarray | None = None) -> np.ndarray:
         """Return its forces on the masses (n, 3) [N], at a velocity (n, 3) [m/s] in motion."""

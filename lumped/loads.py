@@ -104,13 +104,13 @@ class Loads:
             elif isinstance(load, Pressure):
                 part.pressure += load.value * cell_shares(scene, lattice, load.where)
         last = [(part.factor(None), part) for part in self._parts.values()]
-        self.pressure = np.sum([factor * part.pressure for factor, part in last], axis=0)
+        self.pressure = sum(factor * part.pressure for factor, part in last)
         others = [factor * part.dead for factor, part in last[1:]]
         self.last_dead = np.sum([self.dead, *others], axis=0) if others else self.dead
         self.turning = any(part.moments for _, part in last)
         self.follow = self.turning or any(part.pressure.any() for _, part in last)
-        closed = encloses_volume(scene.supports) and not scene.shaped_by
-        self.conservative = not self.turning and (closed or not self.follow)
+        enclosed = self.follow and encloses_volume(scene.supports) and not scene.shaped_by
+        self.conservative = not self.turning and (enclosed or not self.follow)
         self.potential = not self.follow and len(last) == 1
         frozen(tuple(part.dead for part in self._parts.values()))
 

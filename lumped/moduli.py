@@ -28,8 +28,8 @@ from typing import Any
 import numpy as np
 
 from lumped.lattice import STEPS
-from lumped.sections import ROUNDING, CellSection
-from lumped.spring_constants import Springs, of_faces, of_rubber
+from lumped.sections import ROUNDING, CellSection, free
+from lumped.spring_constants import FACES, Springs, of_faces, of_rubber
 from sheetbench.scenes import Constants, Material, Sheet, SpringSet
 
 # of the links of STEPS: family and direction, how many there are, and whether they span lx, ly and lz
@@ -40,12 +40,13 @@ LEVEL = int(np.sum(SPAN[:, 2] == 0.0))  # those within a layer, which come first
 
 @dataclass(frozen=True)
 class Moduli:
-    """In-plane forms A [N/m] and D [N·m], (…, 3, 3) over (x, y, xy); shear stiffness S (…, 2) [N/m]; of cells
-    the dots are (cells,) or (rows, columns)."""
+    """In-plane forms A [N/m] and D [N·m], (…, 3, 3) over (x, y, xy); shear stiffness S (…, 2) [N/m], and what
+    couples shear along x with that along y, (…); of cells the dots are (cells,) or (rows, columns)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
+    coupling: np.ndarray
 
     @property
     def oblique(self) -> np.ndarray:
@@ -53,6 +54,11 @@ class Moduli:
         both = ((form, form[..., :2, 2]) for form in (self.membrane, self.bending))
         found = [np.abs(skew).max(axis=-1) > ROUNDING * form[..., 0, 0] for form, skew in both]
         return np.asarray(found[0] | found[1])
+
+    @property
+    def free_shear(self) -> np.ndarray:
+        """S along x and y (…, 2) where no force shears the other way."""
+        return free(self.shear, self.coupling)
 
     def named(self, square: bool, oblique: bool = False) -> dict[str, np.ndarray]:
         """The moduli by name, (…) each; on square cells the x and y values are one."""
@@ -66,7 +72,8 @@ class Moduli:
             names |= {"D16": d[..., 0, 2], "D26": d[..., 1, 2], "A16": a[..., 0, 2], "A26": a[..., 1, 2]}
         if square:
             return {**names, "S": s[..., 0]}
-        return {**names, "D22": d[..., 1, 1], "A22": a[..., 1, 1], "Sx": s[..., 0], "Sy": s[..., 1]}
+        both = {"Sxy": self.coupling} if oblique else {}
+        return {**names, "D22": d[..., 1, 1], "A22": a[..., 1, 1], "Sx": s[..., 0], "Sy": s[..., 1]} | both
 
 
 def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
@@ -120,12 +127,14 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     relaxed = gap[..., :2, 2, None] * gap[..., None, 2, :2]
     in_gap[..., :2, :2] -= np.divide(relaxed, upright, out=np.zeros_like(relaxed), where=upright > 0.0)
     shear = gap[..., :2, 2]
-    if springs.of.keys() & {"face_shear", "face_diagonal_shear"}:
+    if springs.of.keys() & FACES:
         shear = shear + sum(of_faces(springs, sides**2))
+    coupling = springs.along("face_coupling", 0) * sides.prod(axis=-1) / np.sum(sides**2, axis=-1)
     return Moduli(
         membrane=layers * in_layer + (layers - 1) * in_gap + _in_plane(springs, "mid_area"),
         bending=(second_moment(layers) * in_layer + second_moment(layers - 1) * in_gap) * square,
         shear=shear_gaps(layers) * shear,
+        coupling=shear_gaps(layers) * np.broadcast_to(coupling, shape),
     )
 
 
@@ -133,7 +142,7 @@ def of_springs(springs: Springs | SpringSet, spacing: tuple[float, float, float]
     """Moduli of an interior patch of the lattice with these springs, alike in all cells."""
     one = springs if isinstance(springs, Springs) else Springs.read(springs)
     found = of_cells(replace(one, layer_distance=spacing[2]), np.array([[spacing[:2]]]), layers)
-    return Moduli(found.membrane[0, 0], found.bending[0, 0], found.shear[0, 0])
+    return Moduli(found.membrane[0, 0], found.bending[0, 0], found.shear[0, 0], found.coupling[0, 0])
 
 
 def _of_links(form: np.ndarray) -> np.ndarray:
@@ -166,8 +175,9 @@ def of_section(section: CellSection, spacing: Any) -> Moduli:
     """Moduli of sections, with MacNeal's S* of the in-plane spacings (lx, ly) (…, 2) [m] as the shear
     stiffness."""
     own = np.diagonal(section.bending, axis1=-2, axis2=-1)[..., :2]
-    shear = 1.0 / (1.0 / section.shear + np.square(spacing) / (12.0 * own))
-    return Moduli(section.membrane, section.bending, shear)
+    residual = (np.square(spacing) / (12.0 * own))[..., None] * np.eye(2)
+    shear = np.linalg.inv(np.linalg.inv(section.shear) + residual)
+    return Moduli(section.membrane, section.bending, np.diagonal(shear, axis1=-2, axis2=-1), shear[..., 0, 1])
 
 
 def of_sheet(sheet: Sheet, material: Material, spacing: tuple[float, float]) -> Moduli:

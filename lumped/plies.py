@@ -10,7 +10,7 @@ With Q of a ply in its own axes and t its angle (Tsai and Pagano)
 
 Plies from z₀ to z₁ have A = Σ C (z₁ − z₀), D = Σ C (z₁³ − z₀³)/3. Transverse forces Q_x, Q_y have the
 stresses of cylindrical bending, in each ply (a − b z²) Q with b = C₁₁/2D₁₁, of which their shear compliance
-is made; of one ply S = κ G h, κ = 5/6. What couples shear along x with that along y a lattice does not have.
+is made; of one ply S = κ G h, κ = 5/6.
 Source: Jones, Mechanics of Composite Materials (1999), 2.7, 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
 """
 
@@ -22,7 +22,7 @@ import numpy as np
 
 from sheetbench.scenes.objects.orthotropy import Ply
 
-Parts = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def in_plane(ply: Ply) -> np.ndarray:
@@ -39,8 +39,7 @@ def in_plane(ply: Ply) -> np.ndarray:
 
 
 def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
-    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S along x and y (…, 2) [N/m] of plies, where there is no shear
-    the other way and where there is no force."""
+    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S (…, 2, 2) [N/m] of plies."""
     moduli = [in_plane(ply) for ply in plies]
     layers = list(zip(moduli, plies, strict=True))
     stretching = sum(c * (ply.high - ply.low) for c, ply in layers)
@@ -55,10 +54,8 @@ def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
         squares = squares - three * (mixed + mixed.swapaxes(-1, -2))
         compliance = compliance + squares * _shear_compliance(ply)
         below = a - b * ply.high**2
-    h = np.asarray(thickness)[..., None]
-    shear, free = np.linalg.inv(compliance), 1.0 / np.diagonal(compliance, axis1=-2, axis2=-1)
-    shear = np.diagonal(shear, axis1=-2, axis2=-1)
-    return h[..., None] * stretching, h[..., None] ** 3 * bending, h * shear, h * free
+    h = np.asarray(thickness)[..., None, None]
+    return h * stretching, h**3 * bending, h * np.linalg.inv(compliance)
 
 
 def _shear_compliance(ply: Ply) -> np.ndarray:

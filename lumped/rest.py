@@ -38,7 +38,7 @@ class CellRest(NamedTuple):
 
 class Faces(NamedTuple):
     """nodes (m, 4, 1) masses; cells, shares (m, q): the plan cells beside each and their shares; axis: (m,) 0
-    along x, 1 along y, 2 over diagonals."""
+    along x, 1 along y, 2 over diagonals along x and y, 3 over the others."""
 
     nodes: np.ndarray
     cells: np.ndarray
@@ -100,7 +100,7 @@ class Rest:
             cells, shares = family.cells[low], family.shares[low]
             if axis > 1:  # of one cell each
                 cells, shares = np.repeat(cells, 2, axis=1), 0.5 * np.repeat(shares, 2, axis=1)
-            parts.append((nodes, cells, shares, np.full(len(a), min(axis, 2))))
+            parts.append((nodes, cells, shares, np.full(len(a), axis)))
         return Faces(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
 

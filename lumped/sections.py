@@ -43,15 +43,14 @@ ROUNDING = 1e-12  # of moduli, for what is 0
 
 @dataclass(frozen=True, eq=False)
 class CellSection:
-    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2) [N/m] along x and y,
-    free_shear the same where no force shears the other way, per_area (…) [kg/m²]; of cells the dots are
-    (rows, columns); rims: the oblique ones, where there are any; share: the sheet's of each cell, where some
-    are cut; growth: of the sides of each, where patches have grown."""
+    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2, 2) [N/m] along x and
+    y, per_area (…) [kg/m²]; of cells the dots are (rows, columns); rims: the oblique ones, where there are
+    any; share: the sheet's of each cell, where some are cut; growth: of the sides of each, where patches have
+    grown."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
-    free_shear: np.ndarray
     per_area: np.ndarray
     rims: ObliqueRims | None = None
     share: np.ndarray | None = None
@@ -74,8 +73,7 @@ class CellSection:
         rigidity = stretching * h**2 / 12.0
         shear = SHEAR_CORRECTION * young / (2.0 * (1.0 + nu)) * h
         membrane, bending = (k[..., None, None] * unit for k in (stretching, rigidity))
-        both = np.stack([shear, shear], axis=-1)
-        return cls(membrane, bending, both, both, density * h)
+        return cls(membrane, bending, shear[..., None, None] * np.eye(2), density * h)
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
         """With every part of it changed, but for the rims."""
@@ -86,13 +84,23 @@ class CellSection:
         return CellSection(**{name: getattr(self, name) + getattr(other, name) for name in PARTS})
 
     @property
+    def free_shear(self) -> np.ndarray:
+        """S along x and y (…, 2) [N/m] where no force shears the other way."""
+        return free(np.diagonal(self.shear, axis1=-2, axis2=-1), self.shear[..., 0, 1])
+
+    @property
     def layer_width(self) -> np.ndarray:
         """λ (…, 2) [m], in which the twisting moment fades at free edges normal to x and to y: √(D/S), D
         `twisting` and S along the edge, across which no force shears; h/√10 of an isotropic sheet."""
         return np.sqrt(_over(twisting(self.bending), self.free_shear[..., ::-1]))
 
 
-PARTS = ("membrane", "bending", "shear", "free_shear", "per_area")
+PARTS = ("membrane", "bending", "shear", "per_area")
+
+
+def free(shear: np.ndarray, coupling: np.ndarray) -> np.ndarray:
+    """S along x and y (…, 2) of those without shear the other way and their coupling (…)."""
+    return np.asarray(shear - _over((coupling**2)[..., None] + 0.0 * shear, shear[..., ::-1]))
 
 
 def twisting(bending: np.ndarray) -> np.ndarray:
@@ -202,10 +210,5 @@ def _in_series(section: CellSection, axis: int, begin: np.ndarray, share: np.nda
         rest = mean(part - row[..., :, None] * share_of_row[..., None, :])
         return rest + mixed[..., :, None] * mixed[..., None, :] / compliance[..., None, None]
 
-    def along_each(part: np.ndarray) -> np.ndarray:
-        found = mean(part)
-        found[..., axis] = 1.0 / mean(1.0 / part[..., axis])
-        return found
-
-    shears = along_each(section.shear), along_each(section.free_shear)
-    return CellSection(form(section.membrane), form(section.bending), *shears, mean(section.per_area))
+    parts: dict[str, Any] = {name: form(getattr(section, name)) for name in PARTS[:3]}
+    return CellSection(**parts, per_area=mean(section.per_area))

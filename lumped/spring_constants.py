@@ -58,8 +58,9 @@ STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε
 } | {
     "rims": tuple((name, 0) for name in RIMS_OWN),
 }
+FACES = ("face_shear", "face_diagonal_shear", "face_coupling")
 MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
-SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN)
+SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN, "face_coupling")
 ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
 REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
 NONE = np.zeros((1, 1, 1))
@@ -290,7 +291,9 @@ def of_faces(springs: Springs, squares: np.ndarray) -> tuple[np.ndarray, np.ndar
     sides, those over their diagonals, (rows, columns, 2) each. squares: of the sides (lx, ly) [m²], the
     same."""
     beside = np.stack([springs.along("face_shear", axis) for axis in (0, 1)], axis=-1)
-    over = springs.along("face_diagonal_shear", 0)[..., None]
+    over = (springs.along("face_diagonal_shear", 0) + 0.5 * np.abs(springs.along("face_coupling", 0)))[
+        ..., None
+    ]
     return beside, 2.0 * over * squares / squares.sum(axis=-1, keepdims=True)
 
 

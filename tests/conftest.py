@@ -1,5 +1,6 @@
 """What tests of several files stand on: answers without a solver, a campaign's store."""
 
+import gc
 import signal
 
 import fake_solutions
@@ -17,24 +18,32 @@ from sheetbench.answers.solution import Solution
 
 def pytest_configure():
     """Ctrl-C is heard in the background too, and by processes of tests; no drawn example has a time limit."""
+    gc.set_threshold(20_000, 20, 20)
     signal.signal(signal.SIGINT, signal.default_int_handler)
     settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
     settings.load_profile("any machine")
 
 
 def pytest_collection_modifyitems(items):
-    """Tests of studies, of a browser, and two of three rows of a matrix or sweep are for `make nightly`."""
+    """Studies, a browser, five of six rows of a matrix, two of three of a sweep are for `make nightly`."""
     rows = {}
     for item in items:
-        if "studies" in item.path.parts[-2:] or "browser" in getattr(item, "fixturenames", ()):
+        if "studies" in item.path.relative_to(item.config.rootpath).parts or "browser" in getattr(
+            item, "fixturenames", ()
+        ):
             item.add_marker(pytest.mark.nightly)
         sweep, place = item.get_closest_marker("sweep"), (item.path, getattr(item, "originalname", None))
         if "matrix" in item.path.stem and "row" in getattr(getattr(item, "callspec", None), "params", ()):
-            sweep, place = pytest.mark.sweep(3), item.path
+            sweep, place = pytest.mark.sweep(6), item.path
         if sweep:
             rows[place] = rows.get(place, -1) + 1
             if rows[place] % (sweep.args or (3,))[0]:
                 item.add_marker(pytest.mark.nightly)
+
+
+def pytest_collection_finish():
+    """What is imported and collected stays: a tenth of the time went into looking through it for garbage."""
+    gc.freeze()
 
 
 @pytest.fixture

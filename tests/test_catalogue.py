@@ -28,6 +28,7 @@ def test_the_table_has_every_scene_and_model():
     assert {(name, model) for name, models in KEPT.items() for model in models} == set(CASES)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(("name", "model"), CASES)
 def test_the_answers_are_those_of_the_table(name, model):
     solution = MODELS[model](load(name))

@@ -34,6 +34,7 @@ def answer(scene, model):
     return lumped.solve(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=4)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid", "calculix"])
 def test_a_uniform_sheet_cut_into_patches_of_its_own_material_is_the_same(model):
     plain = load("two-edges-clamped")
@@ -77,6 +78,7 @@ STRIPS = {
 }  # fmt: skip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("kind", STRIPS)
 @pytest.mark.parametrize(
     ("model", "off"), [("lumped", 0.005), ("plate", 1e-5), ("shell", 1e-5), ("solid", 5e-4)]
@@ -104,6 +106,7 @@ def test_strips_bend_as_their_closed_forms(kind, model, off):
     assert solution.displacement(TIP)[0, 2] == pytest.approx(expected, rel=off)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("shape", "off"),
     [
@@ -125,6 +128,7 @@ def test_lattice_and_shell_agree_on_stiff_parts(shape, off):
     assert np.abs(found - shell).max() < off * np.abs(shell).max()
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize(
     ("name", "across", "off"),
     [("kirigami-strip", 17, 0.02), ("pouch", 17, 0.02), ("ray-fin", 17, 0.04), ("gripper-finger", 17, 0.04)],
@@ -229,7 +233,9 @@ SHAPED = {
 @pytest.mark.parametrize("word", ["cutout", "support.where"])
 def test_plate_and_shell_begin_to_move_alike(word):
     scene = load("one-edge-clamped").replace(probes={}, **SHAPED[word])
-    found = [fem_reference.simulate(scene, model, 5e-4, elements=2) for model in ("plate", "shell")]
+    found = [
+        fem_reference.simulate(scene, model, 5e-4, elements=2, step=1e-4) for model in ("plate", "shell")
+    ]
     ends = [np.array([probe[-1] for probe in history.probes.values()]) for history in found]
     assert np.abs(ends[1]).max() > 0.0 and np.allclose(*ends, rtol=0.0, atol=0.01 * np.abs(ends[1]).max())
 
@@ -248,6 +254,7 @@ def test_a_load_on_parts_of_an_edge_is_that_on_the_whole_of_it():
         scene.replace(loads=[{**pull, "edge": "y1", "where": parts[0]}])
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("word", SHAPED)
 def test_references_agree_on_shapes(word):
     """Of a stiff sheet, which bends little; a clamp within the sheet has a layer in the solid, as wide as the

@@ -32,7 +32,7 @@ def test_a_name_that_is_too_long_is_said_in_a_line(capsys, arguments):
 def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
     plain = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     usual, *odd = (
-        subprocess.run([*PROGRAM, "check"], env=plain | given, capture_output=True, text=True)
+        subprocess.run([*PROGRAM, "--help"], env=plain | given, capture_output=True, text=True)
         for given in ({}, {"COLUMNS": "0", "LINES": "²"}, {"COLUMNS": "9" * 12, "LINES": "0"})
     )
     for one in odd:

@@ -50,8 +50,7 @@ def test_two_derivations_of_the_section_agree():
     thickness = np.linspace(0.001, 0.002, 5)
     membrane, bending, shear = plies.section(layers, thickness)
     found = lumped.plies.section(layers, thickness)
-    own, free = (np.diagonal(part, axis1=1, axis2=2) for part in (shear, np.linalg.inv(shear)))
-    for mine, theirs in zip(found, (membrane, bending, own, 1.0 / free), strict=True):
+    for mine, theirs in zip(found, (membrane, bending, shear), strict=True):
         assert mine == pytest.approx(theirs, rel=1e-12, abs=1e-12 * np.abs(theirs).max())
 
 
@@ -119,6 +118,7 @@ STRONG = dict(young_1=200e6, young_2=8e6, poisson_12=0.3, shear_12=4e6)
 WOVEN = dict(young_1=50e6, young_2=50e6, poisson_12=0.2, shear_12=2e6)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("angle", [0.0, np.pi / 6, np.pi / 4])
 @pytest.mark.parametrize("fibres", [FIBRES, STRONG, WOVEN], ids=["rubber", "strong", "woven"])
 def test_lattice_and_shell_agree(fibres, angle):
@@ -166,6 +166,7 @@ def test_springs_of_the_material_alone_are_not_those_of_a_laminate():
         lumped.solve(scene.replace(layers=CROSS), springs)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_identify_finds_moduli_and_the_angle_of_fibres(model, tmp_path):
     """From a lattice's own answer; of a shell, from a shell's."""

@@ -29,6 +29,7 @@ STATIC = {  # the small question of each, about an equilibrium that does not hol
 MAPS = ("tradeoff", "crosscheck", "stability")  # of many solves, each with its status
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.usefixtures("few", "undrawn")
 @pytest.mark.parametrize("verb", STATIC)
 def test_an_answer_that_is_none_is_a_document_too(verb, places, tmp_path, capsys):

@@ -102,6 +102,7 @@ def test_a_body_that_turns_about_the_strip_slows_its_twist_alone():
     assert np.allclose(fine, turning, rtol=0.02)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("model", ["lumped", *REFERENCES])
 @pytest.mark.parametrize("spread", [False, True])
 def test_at_rest_a_payload_is_the_force_of_its_weight(model, spread):

@@ -60,6 +60,7 @@ def test_verbs_that_do_not_say_so(sheet, key, verb, options, who, capsys):
     assert f"{key}: {who} is for isotropic sheets" in one_line(capsys)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     "options",
     [

@@ -272,6 +272,7 @@ def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
             each = value if isinstance(value, list | tuple) else [value]
             return ",".join("x".join(map(str, n)) if isinstance(n, list | tuple) else str(n) for n in each)
         if kind.startswith("list["):
+            value = [f"{key}={one}" for key, one in value.items()] if isinstance(value, Mapping) else value
             each = value if isinstance(value, list | tuple) else [value]
             return [str(one) if isinstance(one, Path) else _single(parameter.name, one) for one in each]
         if "Path" in kind and isinstance(value, str):

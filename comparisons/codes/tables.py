@@ -105,9 +105,8 @@ def natural(lattice: Description) -> str:
 def contacts(lattice: Description) -> dict[str, str]:
     """Return the tables of obstacles, with the largest stiffness of their points, and of the points."""
     of, corners = lattice.contact, [f"corner_{n}" for n in range(1, 5)]
-    most = [
-        of["contact_stiffness"][of["contact_obstacle"] == n].max() for n in range(len(of["obstacle_kind"]))
-    ]
+    most = np.zeros(len(of["obstacle_kind"]))
+    np.maximum.at(most, of["contact_obstacle"], of["contact_stiffness"])
     kinds = np.array(["plane", "sphere", "cylinder"])[of["obstacle_kind"]]
     place = (of[f"obstacle_{name}"] for name in ("position", "direction", "radius"))
     joined = np.array([[*map(_joined, masses)] for masses in of["contact_corners"].tolist()])

@@ -10,15 +10,15 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, PathPatch, Polygon
+from matplotlib.patches import PathPatch
 from matplotlib.path import Path
+from shapely import LineString
 
 from comparisons.pictures.arrows import load_arrows
 from comparisons.pictures.plan import edge_ends, held_lines
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, plain
-from sheetbench.scenes import Cylinder, EdgeLoad, Scene, Sphere, holds_director
-from sheetbench.scenes.objects.obstacles import AnyObstacle
+from sheetbench.scenes import EdgeLoad, Plane, Scene, holds_director
 from sheetbench.scenes.objects.shapes import Shape
 from sheetbench.scenes.objects.supports import named, place
 
@@ -61,8 +61,12 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
             _part(axis, scene, payload.where, f"mass {number}", drawn_as)
         elif payload.at is not None:
             axis.plot(*1e3 * np.array(payload.at), "s", markersize=7, color=PAYLOAD)
-    for obstacle in scene.obstacles:
-        _obstacle(axis, scene, obstacle)
+    for one in scene.obstacles:
+        if not isinstance(one, Plane):  # which has no shadow
+            ends = np.array(one.position) + np.outer((-1.0, 1.0), max(scene.sheet.lengths) * one.direction)
+            caps: Any = "flat" if any(one.direction[:2]) else "round"
+            shadow = LineString(ends[:, :2]).buffer(one.radius, cap_style=caps)
+            axis.add_patch(_filled(shadow, facecolor=OBSTACLE, edgecolor=DARK, alpha=0.5, linestyle="--"))
     _arrows(axis, scene, 1e3 * LONGEST * lengths.max())
     for name, at in scene.probes.items():
         axis.plot(1e3 * at[0], 1e3 * at[1], "o", markersize=3, markerfacecolor="white", markeredgecolor=DARK)
@@ -72,20 +76,6 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         axis.set_title(plain(scene.title or scene.name, longest=60), fontsize=8)
     axis.margins(0.06)
     return figure
-
-
-def _obstacle(axis: Axes, scene: Scene, obstacle: AnyObstacle) -> None:
-    """A sphere's or a cylinder's shadow on the plan, dashed; a plane has none."""
-    x, y, _ = (1e3 * coordinate for coordinate in obstacle.position)
-    style: dict[str, Any] = {"edgecolor": DARK, "facecolor": OBSTACLE, "alpha": 0.5, "linestyle": "--"}
-    if isinstance(obstacle, Sphere):
-        axis.add_patch(Circle((x, y), 1e3 * obstacle.radius, **style))
-    elif isinstance(obstacle, Cylinder) and np.hypot(*obstacle.direction[:2]) > 0.0:
-        along = obstacle.direction[:2] / np.hypot(*obstacle.direction[:2])
-        across = 1e3 * obstacle.radius * np.array([-along[1], along[0]])
-        end = 1e3 * max(scene.sheet.lengths) * along
-        corners = [(x, y) + side * across + way * end for side, way in ((1, -1), (1, 1), (-1, 1), (-1, -1))]
-        axis.add_patch(Polygon(corners, **style))
 
 
 def _arrows(axis: Axes, scene: Scene, longest: float) -> None:

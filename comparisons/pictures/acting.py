@@ -39,8 +39,7 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
     if len(plan):
         seen.append(_arrows(stage, stage.deformed(solution, plan), arrows))
-    for obstacle in scene.obstacles:
-        seen.append(stage.obstacle(obstacle))
+    seen += map(stage.obstacle, scene.obstacles)
     bodies = np.array([payload.at for payload in scene.masses if payload.at is not None]).reshape(-1, 2)
     if len(bodies):
         stage.payloads(stage.deformed(solution, bodies))

@@ -6,7 +6,7 @@ Displacements are multiplied by `scale` for drawing. Needs off-screen drawing
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -68,19 +68,17 @@ class Stage:
         of it."""
         at, along = np.array(obstacle.position) + obstacle.displacement(1.0, time), obstacle.direction
         middle = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0])
+        way, round_ = ((middle - at) @ along) * along, obstacle.radius
         if isinstance(obstacle, Plane):
-            foot = middle - ((middle - at) @ along) * along
-            body = pyvista.Plane(center=foot, direction=along, i_size=1.3 * self.size, j_size=1.3 * self.size)
+            side = 1.3 * self.size
+            body = pyvista.Plane(center=middle - way, direction=along, i_size=side, j_size=side)
         elif isinstance(obstacle, Cylinder):
-            foot = at + ((middle - at) @ along) * along
-            body = pyvista.Cylinder(
-                center=foot, direction=along, radius=obstacle.radius, height=1.2 * self.size, resolution=80
-            )
+            long, way = 1.2 * self.size, at + way
+            body = pyvista.Cylinder(center=way, direction=along, radius=round_, height=long, resolution=80)
         else:
-            body = pyvista.Sphere(radius=obstacle.radius, center=at, theta_resolution=60, phi_resolution=60)
+            body = pyvista.Sphere(radius=round_, center=at, theta_resolution=60, phi_resolution=60)
         self.plotter.add_mesh(body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=True)
-        x0, x1, y0, y1, z0, z1 = body.bounds
-        return np.array([[x, y, z] for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
+        return np.array([*product(*np.reshape(body.bounds, (3, 2)))])
 
     def chain(self, points: np.ndarray) -> None:
         """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""

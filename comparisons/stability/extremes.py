@@ -104,9 +104,8 @@ def _tags(study: str, **cell: Any) -> dict[str, Any]:
 
 
 def _scaled(scene: Scene, name: str, models: Mapping[str, Spec], truth: Spec) -> Iterator[Cell]:
-    if name == "load" and scene.gravity is None and not scene.loads:
-        return
-    if name == "obstacle" and not scene.obstacles:
+    there_is = {"load": scene.gravity or scene.loads, "obstacle": scene.obstacles}
+    if not there_is.get(name, True):
         return
     for factor in FACTORS[name]:
         label, refusal, there = f"{name} × {factor:g}", "", scene

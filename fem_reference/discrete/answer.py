@@ -13,8 +13,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.sheet import Discrete
+from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
@@ -25,14 +24,15 @@ from sheetbench.numerics.continuation.path import Path
 EPSILON = float(np.finfo(float).eps)
 
 
-def sheet_of(path: Path[StaticState, Forces]) -> DiscreteElements:
-    """Return the sheet that a path is of."""
-    return cast(Static, path.structure).sheet
+def shape_of(path: Path[StaticState, Forces]) -> SheetShape:
+    """Return the shape of a sheet at the last equilibrium of a path."""
+    return cast(Static, path.structure).shape(path.state, path.load_factor)
 
 
-def judge(sheet: Discrete, path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
+def judge(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
     """Return status and notes of a path that has ended, strains beyond the law among them."""
-    outside = sheet.beyond(sheet.stretch(path.state.q, path.load_factor))
+    shape = shape_of(path)
+    outside = shape.sheet.beyond(shape.stretch)
     if not outside or path.status is Status.NON_FINITE:
         return path.status, path.notes
     return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]
@@ -40,30 +40,28 @@ def judge(sheet: Discrete, path: Path[StaticState, Forces]) -> tuple[Status, lis
 
 def answered(path: Path[StaticState, Forces], **own: Any) -> Solution:
     """Return the answer at the end of a path; own: the fields of it that are the model's own."""
-    sheet, share = sheet_of(path), path.load_factor
-    forces = path.structure.forces(path.state, share)
+    shape, share = shape_of(path), path.load_factor
+    sheet, forces = shape.sheet, path.structure.forces(path.state, share)
     left = max(Limits.tolerance * forces.size, path.structure.imbalance(path.state, forces))
     if sheet.norm == 2:  # a sum of n numbers is at most √n times their norm
         left *= np.sqrt(sheet.unknowns)
-    allowed = float(left + EPSILON * sheet.summed(forces.shape))
-    own = {"iterations": path.factorisations, "load_factor": share} | own
-    return answer(sheet, path.state.q, forces.residual, share, forces.size, allowed, **own)
+    allowed = float(left + EPSILON * sheet.summed(shape))
+    own = {"iterations": path.factorisations, "load_factor": share, "stretch": shape.stretch} | own
+    return answer(shape, forces.residual, forces.size, allowed, **own)
 
 
 def answer(
-    sheet: Discrete,
-    q: np.ndarray,
+    shape: SheetShape,
     residual: np.ndarray,
-    share: float,
     size: float,
     allowed: float,
     balanced: bool = True,
     **own: Any,
 ) -> Solution:
-    """Return the answer at q (N,), with a residual (N,), under a share of the load. size, allowed: of the
+    """Return the answer in a shape under its share of the load, with a residual (N,). size, allowed: of the
     balance (`scenes.Balance`), which there is only where `balanced`."""
+    sheet, q, share = shape.sheet, shape.q, shape.at
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
-    shape = sheet.shape(q, share)
     edges, wrenches, line = sheet.wrenches(shape, residual)
     reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(shape)
     held = sheet.holding(q, residual, share)

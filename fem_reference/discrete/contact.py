@@ -3,13 +3,12 @@ with an offset of half the thickness, on the faces of a solid.
 
 A point x = φ + ζ d of the sheet, ζ = 0 or ±h/2, at a distance r from the obstacle, whose gradient is n
 (`sheetbench.scenes.meaning.distances`), is o + δ₀ − r deep, o = h/2 of a mid-surface, 0 of faces. The work of
-the pressure p(depth) in sinking is its energy ψ per area, ½ k depth² at rest, and its force −∂/∂x gives
+the pressure p(depth) in sinking is its energy ψ per area, ½ k depth² at rest, k = E/h, and its force gives
 
     f = A p n on φ,  ζ f on d;      −∂f/∂x = A (p' n nᵀ − p ∇n).
 
-A node's area is ∫N dA, all positive on nine nodes, where it is Simpson's rule; those at Gauss points are
-nine constraints on four nodes an element, whose pressures scatter. k = E/h; see
-`sheetbench.scenes.objects.obstacles` for what the words mean.
+A node's area is ∫N dA of each of its elements, all positive on nine nodes, where it is Simpson's rule; at
+Gauss points nine constraints on four nodes an element would scatter the pressure.
 """
 
 from __future__ import annotations
@@ -27,44 +26,37 @@ from sheetbench.scenes.meaning.distances import Near, dyad, near
 from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 
 SOFTER, ROUNDED = 0.01, 0.3  # in motion: of k, and over which part of the thickness the law is rounded
-Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (faces, n)
+Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (faces, m, 9)
 
 
 class Touching(SheetItem):
-    """Contact with one obstacle. share: of its stiffness; levers: ζ (faces, n) of a node's points [m]."""
+    """Contact with one obstacle. share: of its stiffness; levers: ζ (faces, m, 9) [m] of elements' nodes."""
 
-    def __init__(self, scene: Scene, plan: Plan, name: str, obstacle: AnyObstacle, moving: bool, solid: bool):
+    thin = False  # soft contact first, of all obstacles
+
+    def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.moving, self.radius = name, obstacle, moving, obstacle.radius
-        self.moved, self.thin = float(np.linalg.norm(obstacle.displacement(1.0))), False
-        on, count = plan.elements, len(plan.nodes)
+        self.moved, self.on = float(np.linalg.norm(obstacle.displacement(1.0))), plan.elements
         constants, shape = constants_of(scene, plan.corners), areas(plan.corners)
-
-        def at_nodes(part: np.ndarray) -> np.ndarray:
-            return np.bincount(on.ravel(), ((shape * part) @ AT_GAUSS[0]).ravel(), count)
-
-        self.area = at_nodes(np.ones_like(shape))
-        self.thickness = at_nodes(constants.thickness) / self.area
-        self.full = at_nodes(constants.stretching / constants.thickness**2) / self.area
-        self.elements, self.place = np.empty((2, count), int)  # of the elements of a node, the last has it
-        for i in range(9):
-            self.elements[on[:, i]], self.place[on[:, i]] = np.arange(len(on)), i
-        self.levers = np.outer((-0.5, 0.5) if solid else (0.0,), self.thickness)
+        self.area = shape @ AT_GAUSS[0]
+        self.thickness = (shape * constants.thickness) @ AT_GAUSS[0] / self.area
+        self.full = (shape * constants.stretching / constants.thickness**2) @ AT_GAUSS[0] / self.area
+        self.levers = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), self.thickness)
         self.offset = (0.0 if solid else 0.5) * self.thickness
         self.share = SOFTER if moving else 1.0
         self.resists = moving and bool(obstacle.friction or obstacle.contact_damping)
 
     def _points(self, vectors: np.ndarray) -> np.ndarray:
-        """Return x (faces, n, 3) [m] of vectors (m, 18, 3)."""
-        middle, director = vectors[self.elements, self.place], vectors[self.elements, 9 + self.place]
-        return np.asarray(middle + self.levers[..., None] * director)
+        """Return x (faces, m, 9, 3) [m] of vectors (m, 18, 3)."""
+        return np.asarray(vectors[:, :9] + self.levers[..., None] * vectors[:, 9:])
 
     def _near(self, shape: SheetShape) -> Near:
-        """Return where points (faces, n) are beside the obstacle as it is then."""
+        """Return where points (faces, m, 9) are beside the obstacle as it is then."""
         drive = (1.0, shape.at) if self.moving else (shape.at, None)
         return near(self.obstacle, self._points(shape.vectors), *drive)
 
     def _sunk(self, shape: SheetShape) -> tuple[Near, np.ndarray, Pressed]:
-        """Return where points are, and how deep (faces, n) [m], < 0 of one that is clear."""
+        """Return where points are, and how deep (faces, m, 9) [m], < 0 of one that is clear."""
         found = self._near(shape)
         depth = self.offset + TOUCH * self.thickness - found.distance
         return found, depth, self._pressed(depth)
@@ -78,9 +70,9 @@ class Touching(SheetItem):
         return scale * energy, scale * force, scale * curved / over
 
     def _pulled(self, shape: SheetShape) -> np.ndarray:
-        """Return forces at points (faces, n, 3) [N]."""
+        """Return forces at points (faces, m, 9, 3) [N]."""
         found, _, (_, load, _) = self._sunk(shape)
-        return load[..., None] * found.normal + self._rubbed(shape)
+        return load[..., None] * found.normal + self._rubbed(shape)[0]
 
     def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
@@ -92,14 +84,12 @@ class Touching(SheetItem):
         far = np.abs(after - before) > 1e-7 * self.thickness
         secant = (has - had) / np.where(far, after - before, 1.0)
         load = np.where(far, secant, self._pressed(0.5 * (before + after))[1])
-        return self._onto(middle, load[..., None] * now.mean_normal(then) + self._rubbed(middle))
+        return self._onto(middle, load[..., None] * now.mean_normal(then) + self._rubbed(middle)[0])
 
     def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
-        """Return forces on the coordinates (N,) of those at points (faces, n, 3)."""
-        out = np.zeros_like(shape.vectors)
-        out[self.elements, self.place] = pull.sum(axis=0)
-        out[self.elements, 9 + self.place] = (self.levers[..., None] * pull).sum(axis=0)
-        return shape.sheet.of_surface(np.arange(len(out)), out)
+        """Return forces on the coordinates (N,) of those at points (faces, m, 9, 3)."""
+        both = pull.sum(axis=0), (self.levers[..., None] * pull).sum(axis=0)
+        return shape.sheet.of_surface(np.arange(len(self.on)), np.concatenate(both, axis=1))
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
         found, _, (_, load, slope) = self._sunk(shape)
@@ -108,43 +98,32 @@ class Touching(SheetItem):
         )
 
     def _between(self, blocks: np.ndarray) -> Tangent | None:
-        """Return derivatives (faces, n, 3, 3) of points' forces by their places as the elements have them."""
-        touching = np.flatnonzero(blocks.any(axis=(0, 2, 3)))
-        if not len(touching):
-            return None
-        on, rows = np.unique(self.elements[touching], return_inverse=True)
-        out, at = np.zeros((len(on), 2, 9, 3, 2, 9, 3)), self.place[touching]
-        by = np.stack([np.ones_like(self.levers), self.levers])[..., touching]  # of φ, and of d
-        of_nodes = np.einsum("rfn,cfn,fnij->nricj", by, by, blocks[:, touching])
-        out[rows, :, at, :, :, at] = of_nodes  # no two have the same place
-        return on, out.reshape(-1, 18, 3, 18, 3)
+        """Return derivatives (faces, m, 9, 3, 3) of points' forces by their places as elements have them."""
+        on, at = np.flatnonzero(blocks.any(axis=(0, 2, 3, 4))), np.arange(9)
+        by = np.stack([np.ones_like(self.levers), self.levers])[:, :, on]  # of φ, and of d
+        out = np.zeros((len(on), 2, 9, 3, 2, 9, 3))
+        out[:, :, at, :, :, at] = np.einsum("rfen,cfen,fenij->nericj", by, by, blocks[:, on])
+        return (on, out.reshape(-1, 18, 3, 18, 3)) if len(on) else None
 
-    def _speeds(self, shape: SheetShape) -> tuple[Near, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return where points are, A p [N], how fast they sink (faces, n) and slide (faces, n, 3) [m/s], and
-        the root (faces, n) of the law of friction."""
-        found, _, (_, load, _) = self._sunk(shape)
-        speed = self._points(shape.rates) - self.obstacle.velocity(shape.at)
-        sinking = -(speed * found.normal).sum(axis=2)
-        sliding = speed + sinking[..., None] * found.normal
-        return found, load, sinking, sliding, np.sqrt((sliding**2).sum(axis=2) + SLIP_SPEED**2)
-
-    def _rubbed(self, shape: SheetShape) -> np.ndarray:
-        """Return the forces (faces, n, 3) of the dashpot and of friction, in motion."""
+    def _rubbed(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray]:
+        """Return forces (faces, m, 9, 3) [N] of the dashpot and of friction, in motion, and their derivatives
+        by points' velocities (faces, m, 9, 3, 3)."""
         if not self.resists:
-            return np.zeros((*self.levers.shape, 3))
-        found, load, sinking, sliding, slip = self._speeds(shape)
-        pressed = load * np.maximum(self.obstacle.contact_damping * sinking, -1.0)
-        rubbed = self.obstacle.friction * load / slip
-        return np.asarray(pressed[..., None] * found.normal - rubbed[..., None] * sliding)
+            return np.zeros((*self.levers.shape, 3)), np.zeros((*self.levers.shape, 3, 3))
+        found, _, (_, load, _) = self._sunk(shape)
+        across, tau = dyad(found.normal), self.obstacle.contact_damping
+        speed = self._points(shape.rates) - self.obstacle.velocity(shape.at)
+        sinking = -(speed * found.normal).sum(axis=-1)
+        sliding = speed + sinking[..., None] * found.normal
+        slip = np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
+        rubbed = (self.obstacle.friction * load / slip)[..., None]
+        pressed = (load * np.maximum(tau * sinking, -1.0))[..., None]
+        damped = (tau * load * (tau * sinking > -1.0))[..., None, None]
+        along = np.eye(3) - across - dyad(sliding / slip[..., None])
+        return pressed * found.normal - rubbed * sliding, -damped * across - rubbed[..., None] * along
 
     def damping(self, shape: SheetShape) -> Tangent | None:
-        if not self.resists:
-            return None
-        found, load, sinking, sliding, slip = self._speeds(shape)
-        tau, across = self.obstacle.contact_damping, dyad(found.normal)
-        pressed, rubbed = tau * load * (tau * sinking > -1.0), self.obstacle.friction * load / slip
-        along = np.eye(3) - across - dyad(sliding / slip[..., None])
-        return self._between(-pressed[..., None, None] * across - rubbed[..., None, None] * along)
+        return self._between(self._rubbed(shape)[1])
 
     def potential(self, shape: SheetShape) -> float:
         return float(self._sunk(shape)[2][0].sum())
@@ -155,9 +134,9 @@ class Touching(SheetItem):
         if shape.v is None or not shape.v.any():
             return 0.0, 0.0
         moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
-        rubbed = self._rubbed(shape)
-        taken = rubbed.sum(axis=(0, 1)) @ moved - self._onto(shape, rubbed) @ step
-        return float(taken), float(self._pulled(shape).sum(axis=(0, 1)) @ moved)
+        rubbed = self._rubbed(shape)[0]
+        taken = rubbed.sum(axis=(0, 1, 2)) @ moved - self._onto(shape, rubbed) @ step
+        return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ moved)
 
     def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {self.name: (self._points(shape.vectors), self._pulled(shape))}
@@ -169,4 +148,8 @@ class Touching(SheetItem):
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""
         _, depth, (_, load, _) = self._sunk(shape)
-        return ContactState.of(depth.max(axis=0) / self.thickness, self.area), load.sum(axis=0) / self.area
+        area = np.bincount(self.on.ravel(), self.area.ravel())
+        deepest = np.full(len(area), -np.inf)
+        np.maximum.at(deepest, self.on, (depth / self.thickness).max(axis=0))
+        pressure = np.bincount(self.on.ravel(), load.sum(axis=0).ravel()) / area
+        return ContactState.of(deepest, area), pressure

@@ -39,6 +39,11 @@ class SheetShape:
         """What Z, δq = Z x, is made of."""
         return self.sheet.frame(self.q, self.at)
 
+    @cached_property
+    def stretch(self) -> Any:
+        """How far the sheet is strained, as its `beyond` takes it."""
+        return self.sheet.stretch(self)
+
     # of a sheet of elements whose strains are quadratic in the coordinates
 
     @cached_property

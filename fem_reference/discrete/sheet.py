@@ -37,7 +37,6 @@ from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
-from sheetbench.scenes.meaning.distances import obstacles_by_name
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
@@ -96,11 +95,8 @@ class Discrete(Output):
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
         if self.model != "plate":  # which is linear
-            solid = self.model == "solid"
-            self.contacts = [
-                Touching(scene, self.plan, name, one, moving, solid)
-                for name, one in obstacles_by_name(scene).items()
-            ]
+            given = scene, self.plan, moving, self.model == "solid"
+            self.contacts = [Touching(*given, *one) for one in scene.named_obstacles().items()]
             self.items += self.contacts
 
     @property
@@ -299,7 +295,7 @@ class Discrete(Output):
         return ""
 
     @abstractmethod
-    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
+    def stretch(self, shape: SheetShape) -> float:
         """How far the sheet is strained, as `beyond` takes it."""
 
     def beyond(self, stretch: float) -> str:

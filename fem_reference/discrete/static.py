@@ -54,6 +54,7 @@ class Static(Creeping[StaticState, Forces]):
     def __init__(self, sheet: DiscreteElements):
         self.sheet, self.prestrained = sheet, sheet.natural is not None
         self.contacts, self.size = sheet.contacts, sheet.longest
+        self._last: SheetShape | None = None
 
     @property
     def symmetric(self) -> bool:
@@ -62,6 +63,12 @@ class Static(Creeping[StaticState, Forces]):
     @property
     def unknowns(self) -> int:
         return self.sheet.unknowns
+
+    def shape(self, state: StaticState, load_factor: float) -> SheetShape:
+        """The sheet at a state, one and the same for all who look at that in turn."""
+        if (last := self._last) is None or last.q is not state.q or last.at != load_factor:
+            self._last = last = self.sheet.shape(state.q, load_factor)
+        return last
 
     def rest(self) -> StaticState:
         """Flat, and free of stress where nothing acts on it."""
@@ -74,18 +81,16 @@ class Static(Creeping[StaticState, Forces]):
         return replace(of, q=state.q)
 
     def potential(self, state: StaticState, load_factor: float) -> tuple[float, float]:
-        sheet = self.sheet
-        shape = sheet.shape(state.q, load_factor)
+        sheet, shape = self.sheet, self.shape(state, load_factor)
         stored = sheet.elastic(shape) + sum(body.energy(state.q, load_factor) for body in sheet.bodies)
         of_items = sum(item.potential(shape) for item in sheet.items)
         return stored + of_items, stored + abs(of_items)
 
     def dragged(self, state: StaticState, load_factor: float, drag: float) -> Static:
-        return Static(self.sheet.dragged(self.sheet.shape(state.q, load_factor), drag))
+        return Static(self.sheet.dragged(self.shape(state, load_factor), drag))
 
     def forces(self, state: StaticState, load_factor: float) -> Forces:
-        sheet = self.sheet
-        shape = sheet.shape(state.q, load_factor)
+        sheet, shape = self.sheet, self.shape(state, load_factor)
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
@@ -107,7 +112,7 @@ class Static(Creeping[StaticState, Forces]):
     def gap(self, state: StaticState, load_factor: float) -> float:
         """Largest distance from what is prescribed, relative to the sheet's size, or change of a director."""
         sheet = self.sheet
-        step = sheet.short(sheet.shape(state.q, load_factor)) * sheet.scale
+        step = sheet.short(self.shape(state, load_factor)) * sheet.scale
         return float(np.abs(step).max() / sheet.lever)
 
     def system(
@@ -144,7 +149,11 @@ class Static(Creeping[StaticState, Forces]):
         return any(one.step_share(*ends) < 1.0 for one in self.sheet.contacts)
 
     def restarted(self, state: StaticState) -> tuple[StaticState, float]:
-        return self.unextrapolated(state), self.potential(state, 1.0)[1]
+        return state, self.potential(state, 1.0)[1]
+
+    def touching(self, state: StaticState) -> np.ndarray:
+        shape = self.sheet.shape(state.q, 1.0)
+        return np.array([one.report(shape)[1] > 0.0 for one in self.sheet.contacts])
 
     def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)

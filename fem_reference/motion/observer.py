@@ -43,9 +43,8 @@ class ReferenceObserver:
             reactions = model.reactions(motion.exerted)
             forces = [reactions[name] for name in self._reactions]
             shape = model.shape(motion.q, motion.time, motion.v)
-            forces += [
-                pull.sum(axis=(0, 1)) for one in model.contacts for _, pull in one.holds(shape).values()
-            ]
+            holds = (one.holds(shape)[one.name][1] for one in model.contacts)
+            forces += [force.reshape(-1, 3).sum(axis=0) for force in holds]
             wrenches = model.wrenches(shape, motion.exerted, motion.a)[1]
             forces += [wrench.ravel() for wrench in wrenches.values()]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))
@@ -62,7 +61,7 @@ class ReferenceObserver:
 
     def stretches(self, samples: Sampled, count: int) -> np.ndarray:
         """Return how far the sheet is strained in the first samples, (count,)."""
-        return np.array([self._model.stretch(motion.q, motion.time) for motion in samples.motions[:count]])
+        return np.array([self._model.shape(one.q, one.time).stretch for one in samples.motions[:count]])
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

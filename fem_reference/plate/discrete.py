@@ -224,8 +224,8 @@ class DiscretePlate(Discrete):
 
     # what is shown
 
-    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
-        return strained(self.elements, q)
+    def stretch(self, shape: SheetShape) -> float:
+        return strained(self.elements, shape.q)
 
     def beyond(self, stretch: float) -> str:
         if stretch > TURN_LIMIT:

@@ -88,10 +88,8 @@ def _solved(begin: float, sheet: DiscretePlate, label: str, settings: dict[str, 
     rounding = ROUNDINGS * EPSILON * (abs(matrix) @ np.abs(q) + np.abs(force))
     singular = status is Status.SINGULAR
     return answer(
-        sheet,
-        q,
+        sheet.shape(q, 1.0),
         left,
-        1.0,
         size,
         float((rounding / sheet.scale).sum()),
         not singular,

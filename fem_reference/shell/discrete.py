@@ -306,8 +306,8 @@ class DiscreteShell(DiscreteElements):
     def inside_out(self, q: np.ndarray) -> str:
         return inverted(self.element, self.gather(q))
 
-    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
-        return membrane_strain(self.element, self.shape(q, at).strain)
+    def stretch(self, shape: SheetShape) -> float:
+        return membrane_strain(self.element, shape.strain)
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return q.reshape(-1, 3)[: self.nodes]

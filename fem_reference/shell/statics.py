@@ -155,7 +155,7 @@ def _run(
 def trace_on(sheet: DiscreteShell) -> tuple[np.ndarray, Status, list[str]]:
     """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
     path = trace_path(Static(sheet), sheet.solver(), inspector(False), relax)
-    return path.state.q, *judge(sheet, path)
+    return path.state.q, *judge(path)
 
 
 def _solution(
@@ -167,7 +167,7 @@ def _solution(
     spent: Sequence[_Run] = (),
 ) -> Solution:
     """The answer of a run; spent: those before it, the last first."""
-    status, notes = judge(run.sheet, run.path)
+    status, notes = judge(run.path)
     runs = [*reversed(spent), run]
     return answered(
         run.path,
@@ -181,7 +181,6 @@ def _solution(
         snaps=tuple(run.path.snaps),
         fallback=fallback,
         remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
-        stretch=run.sheet.stretch(run.path.state.q, run.path.load_factor),
     )
 
 

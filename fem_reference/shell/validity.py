@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.answer import sheet_of
+from fem_reference.discrete.answer import shape_of
 from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.shell.element import BENDING, MEMBRANE, Element
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
@@ -37,12 +37,13 @@ def inspector(graded: bool) -> Inspect[StaticState, Forces]:
     """What `trace_path` is to look at; graded: elements are stretched, and may be without harm."""
 
     def inspect(path: Path[StaticState, Forces]) -> Fault | None:
-        sheet, q = sheet_of(path), path.state.q
-        if found := sheet.inside_out(q):
+        shape = shape_of(path)
+        sheet = shape.sheet
+        if found := sheet.inside_out(shape.q):
             return Fault(Status.INVERTED, found)
         assert isinstance(sheet.element, Element)
         thickness = sheet.scene.sheet.thickness
-        bent = stretch(sheet.element, sheet.shape(q, path.load_factor).strain, thickness) if graded else 0.0
+        bent = stretch(sheet.element, shape.strain, thickness) if graded else 0.0
         return STRETCHED if bent > STRETCH_LIMIT and stability(path)[0] is not Status.CONVERGED else None
 
     return inspect

@@ -260,8 +260,8 @@ class DiscreteSolid(DiscreteElements):
         ratio = self.element.volume_ratio(self.gather(q))
         return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
 
-    def stretch(self, q: np.ndarray, at: float = 1.0) -> float:
-        return largest_stretch(*(self.on_surface(at)[:, :9] for at in (np.zeros_like(q), q)))
+    def stretch(self, shape: SheetShape) -> float:
+        return largest_stretch(*(self.on_surface(q)[:, :9] for q in (np.zeros_like(shape.q), shape.q)))
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return self._on_columns(q).reshape(-1, 3)

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.discrete.answer import answered, judge, sheet_of
+from fem_reference.discrete.answer import answered, judge, shape_of
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.materials import LAWS
@@ -91,7 +91,7 @@ def _solved(
     ready = now()
     path = trace_path(Static(sheet), sheet.solver(), inspected, None, progress=progress)
     done = now()
-    status, notes = judge(sheet, path)
+    status, notes = judge(path)
     return answered(
         path,
         label=label,
@@ -101,19 +101,18 @@ def _solved(
         solve_seconds=done - ready,
         history=tuple(path.history),
         remarks=(*notes, *limit_notes(law, scene.material, status)),
-        stretch=sheet.stretch(path.state.q),
     )
 
 
 def trace_on(sheet: DiscreteSolid) -> tuple[np.ndarray, Status, list[str]]:
     """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
     path = trace_path(Static(sheet), sheet.solver(), inspected, None)
-    return path.state.q, *judge(sheet, path)
+    return path.state.q, *judge(path)
 
 
 def inspected(path: Path[StaticState, Forces]) -> Fault | None:
     """Return why a step of the path is given up: a brick that has turned inside out."""
-    found = sheet_of(path).inside_out(path.state.q)
+    found = shape_of(path).sheet.inside_out(path.state.q)
     return Fault(Status.INVERTED, found) if found else None
 
 

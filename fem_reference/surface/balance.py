@@ -127,9 +127,11 @@ def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
     """Of all loads but those on areas, which are the mesh's own."""
     others = tuple(load for load in scene.loads if not isinstance(load, AreaLoad))
     scene = scene.model_copy(update={"loads": others})
+    if not surface.own and scene.uniform and not scene.pierced:
+        return dead_force(scene)
     mass = float(surface.masses(scene).sum())
     if not surface.own:
-        return dead_force(scene, None if scene.uniform and not scene.pierced else mass)
+        return dead_force(scene, mass)
     sides = {name: surface.sides(facets) for name, facets in (surface.plan.mesh.boundaries or {}).items()}
     lengths = {name: float(surface.lengths(on).sum()) for name, on in sides.items()}
     return dead_force(scene, mass, lengths)

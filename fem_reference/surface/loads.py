@@ -226,7 +226,8 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
         weighed = areas(corners) * constants_of(scene, corners).per_area
         acceleration = np.array(scene.gravity.last_acceleration)
         dead += area_force(weighed, plan.elements, count, acceleration)
-        dead += np.outer(carried.of_scene(scene, plan).at_nodes(plan), acceleration)
+        if scene.masses:
+            dead += np.outer(carried.of_scene(scene, plan).at_nodes(plan), acceleration)
     for load in scene.loads:
         factor = load.last_factor
         match load:

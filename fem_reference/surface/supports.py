@@ -81,7 +81,8 @@ class Supports:
         for driven in self.driven:
             placed = driven.placed(load_factor, time)
             out[0, driven.nodes], out[1, driven.nodes] = placed.displacement, placed.director
-        out[0] += (load_factor if time is None else 1.0) * self.shift(time)
+        if self.shifts:
+            out[0] += (load_factor if time is None else 1.0) * self.shift(time)
         return out
 
     def shift(self, time: float | None = None) -> np.ndarray:

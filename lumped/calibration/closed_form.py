@@ -21,6 +21,9 @@ A12, the rest to strain springs, with lz the least for which none is negative. O
 vanish if P is G11/3. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given,
 and larger.
 
+Where S* couples shear along x with that along y, an upright face over one diagonal of a cell has S*xy, and
+|S*xy| r of S*x, |S*xy|/r of S*y, each at most COUPLED of them; the links have the rest.
+
 What lz leaves free is the cost of a strain that varies across a cell. A cell bent in its plane, ε_x = χ y,
 has the links along x on its two sides stretched and nothing else: with E_x of A11 in those it stores ½ E_x (χ
 ly/2)² per area, where the sheet, free to contract, stores ½ (A11 − A12²/A22) χ² ly²/12. So links along the
@@ -58,6 +61,7 @@ from lumped.moduli import Moduli, second_moment, shear_gaps
 from lumped.spring_constants import Springs, by_direction
 
 FIRMER = 4.0  # columns of a lattice with `gradients`, at no cost to the explicit step of cells of 5 h or more
+COUPLED = 0.9  # of the shear stiffness along a side, at most in faces over diagonals
 PAIRS = ("axial", "cross", "stretch", "mid_stretch")  # of links and strains along x and y
 
 
@@ -108,8 +112,11 @@ def closed_form(
     lx, ly = sides.T
     sigma, sigma_gap = second_moment(layers), second_moment(layers - 1)
     squares, membrane, bending = sides**2, target.membrane, target.bending
-    gap = target.shear * squares / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     ratios = squares / squares[:, ::-1]
+    most = COUPLED * (target.shear / np.sqrt(ratios)).min(axis=1)
+    coupling = np.clip(target.coupling, -most, most)
+    rest_of_shear = target.shear - np.abs(coupling)[:, None] * np.sqrt(ratios)
+    gap = rest_of_shear * squares / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
     upright = (FIRMER if gradients else 1.0) * vertical(target, sides, 1.0)  # kz lz² [N·m]
     bracket = 5.0 + 3.0 * bending[:, 0, 1] / bending[:, 0, 0]
     share = diagonals_for_waves(target, lx * ly, bracket) if waves else 1.0 / 3.0
@@ -163,7 +170,9 @@ def closed_form(
         np.where(fibres, 0.0, part)
         for part in (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2], rest[:, 0, 1])
     )
-    of: dict[str, Any] = {}
+    of: dict[str, Any] = {
+        "face_coupling": coupling * squares.sum(axis=1) / (lx * ly * shear_gaps(layers)) * lz2
+    }
     if fibres.any():
         of["stretch"] = np.where(fibres, (_own(layer) - axial).T, 0.0)
         for cells, form in (("", layer), ("mid_", rest)):

@@ -69,7 +69,7 @@ def twist_of(each: EachCell, springs: Springs, whole: moduli.Moduli) -> Twist:
     """Return how cells twist; whole: the moduli of their springs."""
     shares = diagonals_share(each, springs)
     twisting, stretch = sections.twisting(whole.bending), sections.stretch_by_twist(whole.bending)
-    return Twist(twisting, whole.shear[..., ::-1], shares[..., ::-1], stretch, each.section.layer_width)
+    return Twist(twisting, whole.free_shear[..., ::-1], shares[..., ::-1], stretch, each.section.layer_width)
 
 
 def with_edges(
@@ -121,7 +121,7 @@ def _of_edges(
                 ]
             factor = edge_factors(rows[0], rows[1], rows[2], rows[3], lost[:, 0], both)
             factor = factor.copy()
-            if np.isnan(factor).any():
+            if not np.all(factor > 0.0):
                 edge = f"{'xy'[axis]}{int(far)}"
                 notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")
                 factor = np.where(np.isnan(factor), MOST if unequal else 1.0, factor)
@@ -150,8 +150,8 @@ def edge_factors(
     lost: np.ndarray,
     both: bool,
 ) -> np.ndarray:
-    """f of the cells along one edge of strips, or along both, (m,); NaN where no factor makes the strip lose
-    that width.
+    """f of the cells along one edge of strips, or along both, (m,); 0 where even that loses less than it
+    should, NaN where else no factor makes the strip lose that width.
 
     Of each cell across the strips, (m, n), or 1 in place of either for all: width [m]; twisting: D66 [N·m];
     shear: S along the edge [N/m]; by_diagonals: the share of it in the cells' diagonals; the same from either
@@ -181,14 +181,16 @@ def edge_factors(
     alone = 0.5 * ((inside * twisting * width).sum(axis=1) - (pulls[..., 0] * sheared[..., 0]).sum(axis=1))
     opening, yielding = (pulls[..., 1, None] * sheared).sum(axis=1).T
     number = 1 if cells == 1 else len(edges)
-    wanted = 0.5 * twisting[:, 0] * (width.sum(axis=1) - len(edges) * lost) - alone
+    left = width.sum(axis=1) - len(edges) * lost
+    wanted = 0.5 * twisting[:, 0] * left - alone
     with np.errstate(divide="ignore", invalid="ignore"):
         compliance = 0.5 * (width[:, 0] - opening) ** 2 / wanted - yielding
         # all factors of an edge's cell together
         factor = width[:, 0] / (number * twisting[:, 0] * compliance)
     if both and cells == 1:
         factor = 1.0 - 0.5 * (1.0 - factor)
-    return np.where(held & (wanted > 0.0) & (compliance > 0.0) & (factor <= MOST), factor, np.nan)
+    found = held & (wanted > 0.0) & (compliance > 0.0) & (factor <= MOST)
+    return np.where(held & (left > 0.0) & (wanted <= 0.0), 0.0, np.where(found, factor, np.nan))
 
 
 def _solved(own: np.ndarray, beside: np.ndarray, pulls: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

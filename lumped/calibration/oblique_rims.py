@@ -36,14 +36,14 @@ def at_oblique_rims(
     bending = states @ whole.bending[at] @ np.swapaxes(states, 1, 2)
     twisting, stretch = (form(bending)[:, 0] for form in (sections.twisting, sections.stretch_by_twist))
     shear, free = (
-        1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.shear, each.section.free_shear)
+        1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.free_shear, each.section.free_shear)
     )
     share = (t**2 * twist.shares[at][:, ::-1]).sum(axis=1)
     width, lost = np.sqrt(each.sides[at].prod(axis=1)), np.sqrt(twisting / free)
     strips = np.repeat([width, twisting, shear, share], STRIP, axis=1).reshape(4, -1, STRIP)
     factor = edge_factors(strips[0], strips[1], strips[2], strips[3], lost, False)
     notes = []
-    if np.isnan(factor).any():
+    if not np.all(factor > 0.0):
         notes.append("no twisting stiffness of the cells along an oblique rim makes it right")
         factor = np.where(np.isnan(factor), 1.0, factor)
     # γ_nt + r ε_tt, whose strains along x and y count twice in the first

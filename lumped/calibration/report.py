@@ -37,10 +37,11 @@ def report(
     sheet = moduli.of_section(section, sides)
     whole = moduli.of_cells(springs, each.sides, each.grid[2]) if whole is None else whole
     there = np.broadcast_to(each.there, whole.shear.shape[:2])
-    got = moduli.Moduli(whole.membrane[there], whole.bending[there], whole.shear[there])
+    got = moduli.Moduli(*(part[there] for part in vars(whole).values()))
     rigidity, other = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
     square = np.abs(sides[:, 0] - sides[:, 1]) < ALIKE * sides[:, 0]
-    named = bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), bool(sheet.oblique.any())
+    oblique = bool(sheet.oblique.any())
+    named = not oblique and bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), oblique
     names = sheet.named(*named)
     targets, found = (np.array([*of.values()]) for of in (names, got.named(*named)))
     likes = np.array([names[_like(name)] for name in names])
@@ -53,7 +54,8 @@ def report(
         asked_got_miss = (float(values[row, at]) for values in (targets, found, misses))
         rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
         if name.startswith("S"):
-            rows[name]["kappa_G_h"] = float(section.shear[at, int(name == "Sy")])
+            axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
+            rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
     areas = [springs["area"], springs["mid_area"]]
     if min(map(np.min, areas)) < 0.0 or springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}:
         _require_positive(springs, got)
@@ -79,8 +81,8 @@ def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
 
 
 def _like(name: str) -> str:
-    """The modulus by whose size another is measured: D11 for D12, D16 and D26."""
-    return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name
+    """The modulus by whose size another is measured: D11 for D12, D16 and D26, Sx for Sxy."""
+    return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name.replace("Sxy", "Sx")
 
 
 def _areas(springs: Springs) -> str:

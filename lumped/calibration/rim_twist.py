@@ -107,7 +107,7 @@ def _taken(
         of = count == cells
         strips = [np.repeat(part[of, None], cells, axis=1) for part in (width, twisting, shear, shares)]
         factor[of] = edge_factors(strips[0], strips[1], strips[2], strips[3], lost[of], both)
-    if np.isnan(factor).any():
+    if not np.all(factor > 0.0):
         notes.append("no twisting stiffness of the cells along a rim makes it right")
         factor = np.where(np.isnan(factor), MOST, factor)
     return (np.where(corner[at], np.maximum(factor, AT_CORNERS), factor) - 1.0) * twisting

@@ -29,6 +29,7 @@ _MEANINGS = {
     "gent_limit": "limit of I1 − 3, without a unit",
     "face_shear": "strain spring of an upright face along a cell's side, transverse shear",
     "face_diagonal_shear": "face_shear over a cell's diagonals",
+    "face_coupling": "face_shear over one of them, by its sign: couples both shears",
     "edge_shear": "correction to the shear spring of a layer's cells along a free, hinged or held edge",
     "strip_shear": "edge_shear where the opposite edge is free, hinged or held too, by their distance",
     "edge_coupling": "of the strain along such an edge, which counts with the shear there (no unit)",

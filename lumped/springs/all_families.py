@@ -18,8 +18,8 @@ from numba import njit
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
 from lumped.rest import Rest, rest_of
+from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
-from lumped.spring_constants import of_edge_cells, of_rubber
 from lumped.springs import cells, links
 from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
@@ -28,6 +28,7 @@ from lumped.springs.links import LinkArrays
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
+from sheetbench.numerics.typed import typed
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
@@ -62,8 +63,9 @@ class AllFamilies:
         self.families = tuple(families)
         found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
-        self.springs = SpringArrays(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_))
+        self.springs = typed(SpringArrays(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_)))
         self._found, self._pattern = found, pattern
+        self._where = typed(Blocks(pattern.blocks, pattern.mirror, pattern.diagonal))
         self._others = [family for place, family in found.items() if place < 0]
         rounded = [family.rounded() for family in families] if single else None
         self._rounded = None if rounded is None else AllFamilies(rounded, pattern)
@@ -134,8 +136,6 @@ class AllFamilies:
         """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
         springs' own where there are none, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
         extrapolated: whether the stresses are those that `advance` predicts."""
-        pattern = self._pattern
-        where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
         blocks: np.ndarray = tangent(
             np.ascontiguousarray(u),
             stress or NO_STRESSES,
@@ -144,7 +144,7 @@ class AllFamilies:
             scale,
             inertia,
             self.springs,
-            where,
+            self._where,
         )
         for family in self._others:
             apart = np.zeros_like(blocks)
@@ -293,11 +293,12 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
 
 def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
     """On the upright faces between the layers, against their shear."""
-    if springs.of.keys() & {"face_shear", "face_diagonal_shear"}:
+    if springs.of.keys() & FACES:
         rest = rest_of(lattice, pattern)
         faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
-        along = (springs.along("face_shear", axis) for axis in (0, 1))
-        each = (*along, springs.along("face_diagonal_shear", 0))
+        along = [springs.along("face_shear", axis) for axis in (0, 1)]
+        over, one = (springs.along(name, 0) for name in FACES[1:])
+        each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
         stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis[:, None], faces.cells]
         stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area

@@ -77,6 +77,17 @@ def add_damping_again(
 
 
 @njit(**OPTIONS)
+def power_again(v: np.ndarray, packing: Packing, scratch: Scratch) -> float:
+    """Return the power [W] that dampers take at velocity v (n, 3) [m/s], at the displacement of the last
+    `add_forces`."""
+    for q in range(3):
+        past = np.uint64(q) * packing.size
+        for p in range(len(packing.order)):
+            scratch.v[past + np.uint64(p)] = v[packing.order[p], q]
+    return add_damping_again(scratch.u, scratch.v, packing, scratch.force, scratch.tile)
+
+
+@njit(**OPTIONS)
 def _pass(
     u: np.ndarray,
     v: np.ndarray,

@@ -18,6 +18,7 @@ from lumped.springs import cells, laws, links
 from lumped.springs.cell_laws import AREA_AND_STRAINS, CellLaw
 from lumped.springs.cells import CellArrays
 from lumped.springs.links import LinkArrays
+from sheetbench.numerics.typed import typed
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +121,7 @@ class Links(Family):
     def arrays(self) -> LinkArrays:
         """Return what the loops take."""
         rest = self.rest_length if self.natural is None else self.natural
-        return LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots)
+        return typed(LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots))
 
     def largest_strains(self, states: np.ndarray) -> np.ndarray:
         """Return the largest relative change of length of the in-plane links at displacements (k, n, 3) [m],
@@ -223,7 +224,7 @@ class SpringCells(Family):
     def arrays(self) -> CellArrays:
         """Return what the loops take."""
         area = self.area if self.natural is None else self.natural
-        return CellArrays(self.nodes, self.sides, area, self.law.tag(self.constants), self.slots)
+        return typed(CellArrays(self.nodes, self.sides, area, self.law.tag(self.constants), self.slots))
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
         """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and

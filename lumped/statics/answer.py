@@ -56,13 +56,10 @@ def solution(
     if coupling is not None:
         reactions |= coupling.reactions(exerted)
     drive = Drive(state.load_factor)
-    touching = {item.name: item.exerted(u, drive) for item in problem.items}
-    reactions |= {name: force.sum(axis=0) for name, force in touching.items()}
-    found = {item.name: item.report(u, drive) for item in problem.items}
-    pressed = (
-        {"contact_pressure": np.sum([pressure for _, pressure in found.values()], axis=0)} if found else {}
-    )
-    contacts = {name: state for name, (state, _) in found.items()}
+    reactions |= {item.name: item.exerted(u, drive).sum(axis=0) for item in problem.items}
+    contacts = {item.name: item.report(u, drive) for item in problem.items}
+    pressures = [pressure for _, pressure in contacts.values()]
+    pressed = {"contact_pressure": np.sum(pressures, axis=0)} if pressures else {}
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
     settings |= {"layer_distance": calibration.layer_distance, **as_settings(calibration.grading)}
@@ -84,8 +81,8 @@ def solution(
         history=tuple(path.history),
         load_factor=state.load_factor,
         actuators=wrenches,
-        balance=balance(scene, problem, state, reactions, exerted, sum(touching.values()), linear),
-        contacts=contacts,
+        balance=balance(scene, problem, state, reactions, exerted, linear),
+        contacts={name: state for name, (state, _) in contacts.items()},
         snaps=tuple(path.snaps),
         remarks=outcome.notes,
     )

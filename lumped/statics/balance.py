@@ -22,12 +22,10 @@ def balance(
     state: LatticeState,
     reactions: dict[str, np.ndarray],
     exerted: np.ndarray,
-    touching: np.ndarray | float = 0.0,
     linear: bool = False,
 ) -> Balance:
     """The balance of an equilibrium: its reactions (3,) [N], and what is exerted on masses and rows, internal
-    less external force (size, 3) [N]; touching: forces of obstacles on the masses (size, 3) [N]; linear: on
-    the flat sheet."""
+    less external force (size, 3) [N]; linear: on the flat sheet."""
     lattice, coupling = problem.assembly.lattice, problem.assembly.coupling
     n, share = lattice.mass_count, state.load_factor
     at = np.zeros_like(state.u) if linear else state.u
@@ -38,7 +36,8 @@ def balance(
     mass = None if cells is None else float((cells.per_area * lattice.cell_areas).sum())
     force = sum(reactions.values(), share * (dead_force(scene, mass) + followers))
     held = np.where(problem.constraints.held[:n], exerted[:n], 0.0)
-    arms = places.T @ (held + (external + touching)[:n])  # Σ x f, whose antisymmetric part is Σ x × f
+    acting = sum((item.exerted(at, Drive(share)) for item in problem.items), external)
+    arms = places.T @ (held + acting[:n])  # Σ x f, whose antisymmetric part is Σ x × f
     moment = np.array([arms[1, 2] - arms[2, 1], arms[2, 0] - arms[0, 2], arms[0, 1] - arms[1, 0]])
     if coupling is not None:
         moment += coupling.held_moment(at, exerted, Drive(share))

@@ -14,6 +14,7 @@ from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
+from lumped.contact import Contact
 from lumped.items import LatticeItem
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses
@@ -60,6 +61,7 @@ class Problem:
 
     def __post_init__(self) -> None:
         self.conservative = self.assembly.conservative and self.loads.conservative
+        self.contacts = [item for item in self.items if isinstance(item, Contact)]
         coupling = self.assembly.coupling
         self.multipliers = coupling.multipliers if coupling is not None else 0
         self._free = self.constraints.transform_arrays

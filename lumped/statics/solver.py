@@ -12,7 +12,7 @@ from lumped.actuators import Coupling
 from lumped.assembly import Assembly, Precision
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.contact import contacts
+from lumped.contact import Contact
 from lumped.lattice import Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
@@ -146,7 +146,8 @@ def build_problem(
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    return Problem(assembly, constraints, Loads(scene, assembly), size, contacts(scene, assembly))
+    items = tuple(Contact(scene, assembly, *each) for each in scene.named_obstacles().items())
+    return Problem(assembly, constraints, Loads(scene, assembly), size, items)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:

@@ -14,7 +14,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.actuators import Drive
-from lumped.contact import Contact
 from lumped.statics.faults import broken
 from lumped.statics.problem import LatticeState, Problem, Residual
 from sheetbench.numerics.continuation.limits import Limits
@@ -56,7 +55,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def __init__(self, scene: Scene, problem: Problem):
         self.scene, self.problem, self.limits = scene, problem, LIMITS
         self.prestrained, self.size = problem.assembly.natural is not None, problem.size
-        self.contacts = [item for item in problem.items if isinstance(item, Contact)]
+        self.contacts = problem.contacts
         self._moves = bool(problem.prescribed(1.0).any())
         self._iterates = problem.descends and problem.system.unknowns > ITERATED
         if problem.assembly.precision == "single":  # whose corrections never are idle
@@ -153,7 +152,10 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         return any(one.step_share(*ways) < 1.0 for one in self.problem.items)
 
     def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
-        return LatticeState(state.u, 1.0), 0.0
+        return state._replace(residual=None), 0.0
+
+    def touching(self, state: LatticeState) -> np.ndarray:
+        return np.array([one.report(state.u, Drive(1.0))[1] > 0.0 for one in self.problem.contacts])
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
         return self.problem.system.factor(blocks, more)

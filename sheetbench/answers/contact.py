@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
 from sheetbench.answers.table import NUMBER
-from sheetbench.scenes.meaning.distances import obstacles_by_name
-from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH
-
-if TYPE_CHECKING:
-    from sheetbench.scenes.scene import Scene
+from sheetbench.scenes.objects.obstacles import TOUCH
 
 DEEP = 1e-3  # penetration over the thickness from which on a note says so
 UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: points as near as that to touching
@@ -46,9 +42,3 @@ class ContactState:
         near = f"{self.undecided} points are about to touch or to leave: stability undecided"
         doubts = (self.penetration > DEEP, deep + "spread by the grid"), (self.undecided > 0, near)
         return [words for there, words in doubts if there]
-
-
-def friction_notes(scene: Scene) -> list[str]:
-    """Return what a model of friction cannot do, a clause an obstacle that rubs."""
-    creeps = f"friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
-    return [f"{name}: {creeps}" for name, one in obstacles_by_name(scene).items() if one.friction > 0.0]

@@ -8,6 +8,8 @@ import numpy as np
 import scipy.sparse as sp
 from numba import njit
 
+from sheetbench.numerics.typed import typed
+
 
 class Rows(NamedTuple):
     """A sparse matrix by rows: row i has the columns and values pointers[i] to pointers[i + 1]."""
@@ -20,7 +22,7 @@ class Rows(NamedTuple):
 def csr_arrays(matrix: sp.csr_array) -> Rows:
     """Return the arrays of a SciPy matrix, their integers int64: kernels are compiled for each size apart."""
     pointers, columns = (part.astype(np.int64) for part in (matrix.indptr, matrix.indices))
-    return Rows(pointers, columns, matrix.data)
+    return typed(Rows(pointers, columns, matrix.data))
 
 
 @njit(cache=True, nogil=True)

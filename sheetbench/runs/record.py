@@ -10,7 +10,6 @@ from typing import Any, Generic, TypedDict, cast
 
 import numpy as np
 
-from sheetbench.answers.contact import friction_notes
 from sheetbench.answers.history import History
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
@@ -20,6 +19,7 @@ from sheetbench.runs.run import Observer, Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.obstacles import CREEPS
 
 
 @dataclass(frozen=True)
@@ -93,12 +93,13 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
             status, message = run.finish(lambda: recipe.start(method))
         done = now()
         parts, whole = split(columns, kept.samples()), kept.frames()
+    creeping = (f"{name}: {CREEPS}" for name, one in recipe.scene.named_obstacles().items() if one.friction)
     return History(
         label=recipe.label,
         integrator=recipe.integrator,
         settings={**recipe.settings, **method.settings(), "every": schedule.every},
         status=status,
-        message="; ".join(filter(None, [message, *friction_notes(recipe.scene)])),
+        message="; ".join(filter(None, [message, *creeping])),
         time=parts["time"][""],
         probes=parts.get("probe", {}),
         energies=parts["energy"],

@@ -41,7 +41,6 @@ from sheetbench.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from sheetbench.answers.balance import Balance, dead_force
-    from sheetbench.answers.contact import ContactState
     from sheetbench.answers.history import History
     from sheetbench.answers.solution import About, FieldMesh, Iteration, Solution, Status, comparable
 
@@ -59,7 +58,6 @@ __all__ = [
     "Chain",
     "Clamped",
     "Constants",
-    "ContactState",
     "CurvatureTable",
     "Curved",
     "Cutout",
@@ -119,7 +117,6 @@ __all__ = [
 
 _ANSWERS = {  # imported from here too; they import the scenes themselves
     "balance": "Balance dead_force",
-    "contact": "ContactState",
     "history": "History",
     "solution": "About FieldMesh Iteration Solution Status comparable",
 }

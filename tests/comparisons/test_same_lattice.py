@@ -143,6 +143,7 @@ CHOSEN = {*NAMED, "crosscheck", "advise"}
 UNABLE = {"live": ("5x7", "0.4:x0")}  # one number for the grid, one grading for all edges
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", VERBS)
 def test_the_same_words_are_the_same_lattice(name, tmp_path):
     ask, words = VERBS[name]

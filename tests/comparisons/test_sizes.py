@@ -50,19 +50,16 @@ print(with_peak_memory(lambda: sb.solve("two-edges-clamped", model, **settings))
 """
 
 
-def test_peaks_are_within_a_factor_of_two_of_what_is_told():
-    """In processes of their own, above what the code takes."""
-    settings_of = {"lumped": {"grid": [33, 33, 2]}, "shell": {"elements": 20}}
-    running = {
-        model: subprocess.Popen(
-            [sys.executable, "-c", PEAK, model, json.dumps(settings)], stdout=subprocess.PIPE, text=True
-        )
-        for model, settings in settings_of.items()
-    }
-    for model, process in running.items():
-        peak = int(process.communicate()[0])
-        predicted = sizes.size(scenes.load(SCENE), spec_of(model, settings_of[model]))
-        assert predicted is not None and 0.5 < predicted.memory / peak < 2.0
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize(
+    ("model", "settings"), [("shell", {"elements": 20}), ("lumped", {"grid": [33, 33, 2]})]
+)
+def test_peaks_are_within_a_factor_of_two_of_what_is_told(model, settings):
+    """In a process of its own, above what the code takes."""
+    command = [sys.executable, "-c", PEAK, model, json.dumps(settings)]
+    peak = int(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    predicted = sizes.size(scenes.load(SCENE), spec_of(model, settings))
+    assert predicted is not None and 0.5 < predicted.memory / peak < 2.0
 
 
 def test_sizes_grow_with_every_count():

@@ -215,6 +215,7 @@ FAULTS = {
 }
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("model", REFERENCES)
 def test_no_reference_answers_with_a_load_that_is_not_the_scenes(monkeypatch, model, fault):

@@ -44,3 +44,16 @@ def test_modes_about_a_stretched_strip_are_those_of_its_rubber():
     lattice = lumped.modes(pulled(), count=3, about="deformed").frequencies
     assert lattice == pytest.approx(rubber, rel=5e-3)
     assert linear[0] > 1.05 * rubber[0]
+
+
+HOLE = {"shape": {"circle": {"centre": [0.05, 0.025], "radius": 0.01}}}
+
+
+@pytest.mark.parametrize(
+    ("last", "cutouts", "graded"), [("clamped", [], False), ("hinged", [], True), ("clamped", [HOLE], True)]
+)
+def test_meshes_are_graded_where_an_edge_or_a_rim_lets_twist_go(last, cutouts, graded):
+    kinds = dict.fromkeys(("x0", "x1", "y0"), "clamped") | {"y1": last}
+    held = [{"edge": edge, "kind": kind} for edge, kind in kinds.items()]
+    scene = pulled(law=None).replace(supports=held, loads=[], cutouts=cutouts)
+    assert fem_reference.solve(scene, "shell", elements=2).settings["graded"] is graded

@@ -95,7 +95,9 @@ def test_the_plate_is_their_limit_of_small_motions(name):
     assert_allclose(total, 0.0, atol=1e-9 * np.abs(plate.actuators["x1"]).max())
 
 
-@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+@pytest.mark.parametrize(
+    "model", ["lumped", "plate", "shell", pytest.param("solid", marks=pytest.mark.nightly)]
+)
 def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model):
     bound, moved = chain(curvature=2.0), motion(displacement=LIFT)
     first, second = (

@@ -18,6 +18,7 @@ from sheetbench.answers.solution import Status
 from sheetbench.scenes import Gravity
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
 @pytest.mark.parametrize(
     ("model", "options"),

@@ -142,6 +142,7 @@ def test_forces_begin_with_hookes_law_and_bend_as_said(law, poisson):
         assert stress(law, "one way", strain, of) == pytest.approx(begins, rel=4.0 * strain**2)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["shell", "solid"])
 @pytest.mark.parametrize("law", LAWS)
 def test_a_patch_of_uneven_elements_is_stretched_evenly(model, law):

@@ -1,7 +1,8 @@
 """The test files that run a module, the nearest first.
 
 A test file is the nearer, the fewer imports lie between it and the module; one that names the module, its
-folder or a function is nearer than that, and so is one in the module's own folder or with its name.
+folder or a function is nearer than that, and so is one in the module's own folder or with its name. Of those
+as near the shorter comes first: it takes less time.
 
 Usage: python tests/helpers/nearest.py FILE [COUNT]   (10 unless given)
 """
@@ -34,12 +35,12 @@ class Nearest:
 
         folders, stem = Path(module).parent.parts, Path(module).stem
 
-        def nearness(test: str) -> tuple[float, str]:
+        def nearness(test: str) -> tuple[float, int]:
             mentions = sum(has(self._texts[test], word) for word in words)
             place = Path(self._tests[test])
             beside = sum(map(str.__eq__, folders, place.parent.parts[1:]))
             near = MENTION * mentions + FOLDER * beside + NAMED * has(place.stem, stem)
-            return distances.get(test, farthest) - near, test
+            return distances.get(test, farthest) - near, len(self._texts[test])
 
         return [self._tests[test] for test in sorted(self._tests, key=nearness)]
 

@@ -21,6 +21,7 @@ from rich.console import Console
 
 from comparisons.cli import characters, console
 from comparisons.cli.output import Output, OutputOptions
+from comparisons.codes import coefficients, setup
 from comparisons.pictures import offscreen
 from comparisons.stability import extremes
 from comparisons.sweep import executors
@@ -85,8 +86,9 @@ def run_here(patch: pytest.MonkeyPatch) -> None:
 
 
 def few_runs(patch: pytest.MonkeyPatch) -> None:
-    """Run campaigns here, and maps with two runs along each axis."""
+    """Run campaigns here, maps with two runs along each axis, limits of codes' meshes on coarse ones."""
     run_here(patch)
+    patch.setattr(setup, "limit_error", lambda *given: coefficients.limit_error(*given, elements=2))
     for name, values in FEW.items():
         patch.setattr(extremes, name, values)
 

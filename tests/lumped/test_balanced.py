@@ -76,6 +76,7 @@ def test_what_cannot_be_balanced_is_refused(whole):
         whole.balanced()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_verb_says_what_it_promises(tmp_path, capsys):
     arguments = ["two-edges-settling", "--lumped", "3", "--state-space", "0", "--about", "flat", "--json"]
     assert run("modes", *arguments, "--reduce", "balanced:6", "--out", str(tmp_path)) == 0

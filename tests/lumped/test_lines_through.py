@@ -73,6 +73,13 @@ def test_a_support_holds_the_masses_on_its_border_whatever_the_rounding():
     assert held_crossings(lines, held).sum() == 9
 
 
+@pytest.mark.parametrize(("reach", "columns"), [(0.035, 2), (0.039, 3)])
+def test_a_support_holds_masses_of_whose_surroundings_it_takes_two_fifths(reach, columns):
+    """A quarter and 0.45 of the ten millimetres on either side of the third column."""
+    shape = Shape.model_validate({"rectangle": {"x": (0.0, reach), "y": (0.0, 0.1)}})
+    assert held_crossings(grid_lines(Sheet(0.1, 0.1, 3e-3), (6, 6, 2)), shape).sum() == 6 * columns
+
+
 def test_the_places_are_the_sides_of_shapes_and_the_ends_of_edges_and_are_written_with_springs():
     strip = load("kirigami-strip")
     x, y = places = sides_of_shapes(strip)

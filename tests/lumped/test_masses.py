@@ -8,6 +8,7 @@ import pytest
 import lumped
 from lumped.lattice import build
 from lumped.masses import mass_matrix, masses
+from lumped.statics.solver import build_problem
 from sheetbench.scenes import Material, Scene, Sheet
 from studies.transfer.scenes import transfer_scenes
 
@@ -37,6 +38,7 @@ WORST = {
 }
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", PLATE)
 def test_six_frequencies_on_six_supports(name):
     """Within 1.6 % at 9 × 9 × 2 and 0.55 % at 17 × 17 × 2 (the fifth with opposite edges clamped, 0.543);
@@ -111,3 +113,13 @@ def test_frequencies_are_those_of_the_bending_stiffness_whatever_the_layers_dist
         for method in ("consistent", "consistent-membrane")
     )
     assert other == pytest.approx(one, rel=1e-4)
+
+
+@pytest.mark.parametrize(("supports", "distribution"), [((), "gregory"), (("x0",), "tributary")])
+def test_a_free_sheet_falls_flat_and_a_held_one_weighs_what_its_cells_do(supports, distribution):
+    """The weight is of the masses that move, or of those around each; at a clamp the latter are exact."""
+    clamps = [{"kind": "clamped", "edge": edge} for edge in supports]
+    scene = SCENE.replace(gravity={"acceleration": (0.0, 0.0, -9.81)}, supports=clamps)
+    problem = build_problem(scene, lumped.calibrate(SHEET, scene.material, 5))
+    weighed = masses(scene, problem.assembly.lattice, distribution)
+    assert problem.loads.dead[:, 2] == pytest.approx(-9.81 * weighed)

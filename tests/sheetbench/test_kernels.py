@@ -71,6 +71,7 @@ def ask(place, cache):
     ).stderr
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("at", ["the cache", "a kernel's folder"])
 def test_a_folder_that_others_may_write_to_is_refused(tmp_path, at):
     """What lies there is unpickled: somebody else's was executed."""
@@ -89,16 +90,6 @@ def test_a_folder_that_others_may_write_to_is_refused(tmp_path, at):
     assert (done.returncode, done.stdout) == (2, "")
     assert said in done.stderr and "Traceback" not in done.stderr
     assert not [path for path in cache.rglob("*") if path.is_file()]
-
-
-def test_folders_of_kernels_are_the_users_alone_whatever_the_umask(tmp_path):
-    done = subprocess.run(
-        ["sh", "-c", 'umask 0 && exec "$0" -c "$1"', sys.executable, ASK],
-        env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
-    )
-    made = [tmp_path / "cache", *(tmp_path / "cache").iterdir()]
-    assert done.returncode == 0 and len(made) > 1
-    assert {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o700}
 
 
 @pytest.mark.nightly
@@ -131,13 +122,19 @@ caching.IndexDataCacheFile.save = save
 """
 
 
-def test_a_kernel_is_kept_by_one_process_at_a_time(tmp_path):
-    """Else a process would load, for its own arguments, what another compiled for others: and crash."""
-    env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+def test_a_kernel_is_kept_by_one_process_at_a_time_in_folders_of_its_user_alone(tmp_path):
+    """Else a process would load, for its own arguments, what another compiled for others: and crash. Folders
+    are the user's whatever the umask."""
     said = subprocess.run(
-        [sys.executable, "-c", ALONE + ASK], env=env, capture_output=True, text=True, check=True
+        ["sh", "-c", 'umask 0 && exec "$0" -c "$1"', sys.executable, ALONE + ASK],
+        env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
+        capture_output=True,
+        text=True,
+        check=True,
     )
     assert set(said.stdout.split("\n")) == {"alone", ""}
+    made = [tmp_path / "cache", *(tmp_path / "cache").iterdir()]
+    assert len(made) > 1 and {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o700}
 
 
 def test_the_processor_is_the_common_one_unless_numba_is_there_before():

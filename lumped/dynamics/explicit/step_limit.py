@@ -27,7 +27,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.dynamics.system import System
 
-SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and where obstacles are touched (`lumped.contact.contact`)
+SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and where obstacles are touched (`lumped.contact`)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,12 @@ The elastic forces are computed once a step; the damping forces twice, with the 
 velocity, since they at hand from half a step before would leave the scheme of first order. Undamped it is
 stable for ω h ≤ 2, damped as `lumped.dynamics.explicit.step_limit` has it. No chains: their constraints want
 an equation a step.
+
+Dampers take the mean of their power at both ends of a step; with obstacles, whose dashpots come and go in ten
+steps, R̄·(u₁ − u₀ − h² (a₁ − a₀)/6), R̄ the mean of R₀ and of R₁ as predicted. With F the other forces the
+kinetic energy gains (F̄ − R̄)·h v̄, h v̄ = u₁ − u₀ + h² (a₁ − a₀)/4, the potential loses F̄·(u₁ − u₀) −
+h³ F''v³/12: but for what comes back as a contact ends that leaves (h²/6m) R̄ ΔF beside −R̄·(u₁ − u₀). By the
+mean power the balance of a flat landing would be off by up to 0.9 % of its fall for good, not 0.01 %.
 """
 
 from __future__ import annotations
@@ -63,17 +69,19 @@ class Verlet(Integrator):
             u = u + motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
             half = half + motion.rate(time) - motion.rate(state.time)
         force = system.external(u, time) - system.elastic(u, time)[1]
-        acting = force
-        if system.resists:
-            acting = force - system.damping_force(u, state.v + h * state.a, time)[1]
-        acceleration = system.accelerate(acting)
+        predicted = system.damping_force(u, state.v + h * state.a, time)[1] if system.resists else 0.0
+        acceleration = system.accelerate(force - predicted)
         if not np.isfinite(acceleration).all():
             raise StepFailed("a number overflowed")
         v, taken = half + 0.5 * h * acceleration, 0.0
         if system.resists:
             power, resisting = system.damping_force(u, v, time)
-            before, _ = system.damping_force(state.u, state.v, state.time)
+            before, resisted = system.damping_force(state.u, state.v, state.time)
             taken = 0.5 * h * (before + power)
             acceleration = system.accelerate(force - resisting)
+            if system.items:
+                way = u - state.u - h * h / 6.0 * (acceleration - state.a)
+                of_ends = h * ((resisted * state.v).sum() + (resisting * v).sum())
+                taken += 0.5 * float(((resisted + predicted) * way).sum() - of_ends)
         after, relaxed = system.relaxed(state, State(time, u, v, acceleration))
         return Advance(after, taken + relaxed, work(system, state, after))

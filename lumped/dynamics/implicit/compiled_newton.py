@@ -14,11 +14,12 @@ from numba import njit
 
 from lumped.dynamics.drag import LatticeDrag, add_drag
 from lumped.dynamics.system import System
-from lumped.springs.all_forces import add_forces
+from lumped.springs.all_forces import add_forces, power_again
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, csr_arrays
+from sheetbench.numerics.typed import typed
 
 CONVERGED, STALE, LOST = range(3)
 
@@ -65,7 +66,7 @@ class CompiledNewton:
         band = system.problem.system.band
         assert band is not None
         self._system, self._band = system, band
-        self.arrays = Arrays(
+        arrays = Arrays(
             system.packing,
             system.scratch,
             system.damping.rate,
@@ -75,6 +76,7 @@ class CompiledNewton:
             len(band.order),
             band.width,
         )
+        self.arrays = typed(arrays)
         size = system.assembly.pattern.size
         force, velocity, base_u, base_v = np.zeros((4, size, 3))
         right = banded.padded_vector(len(band.order), band.width)
@@ -100,18 +102,14 @@ class CompiledNewton:
             self.factors = factors
         return bool(definite)
 
-    def solve(self, b: np.ndarray) -> np.ndarray:
-        """Return x with A x = b, of the unknowns, as the factors have it."""
-        found: np.ndarray = banded.solve_unrefined(self.factors, self._band.width, self._band.order, b)
-        return found
-
 
 @njit(cache=True)
 def add_forces_and_dampers(
     arrays: Arrays, u: np.ndarray, v: np.ndarray, elastic: bool, force: np.ndarray
 ) -> float:
-    """Add the forces (n, 3) [N] of dampers, of the masses' own damping and of the air at a displacement and
-    velocity (n, 3), and of springs if `elastic`; return the power [W] that the dampers take."""
+    """Add the forces (n, 3) [N] of the masses' own damping and of the air at a displacement and velocity
+    (n, 3), and of springs and dampers if `elastic`; return the power [W] that all dampers take, those along
+    springs unless `elastic` at the displacement of the last such call."""
     power = add_drag(arrays.drag, u, v, force)
     for i in range(len(arrays.rate)):
         for q in range(3):
@@ -119,14 +117,15 @@ def add_forces_and_dampers(
             force[i, q] += resisted
             power += resisted * v[i, q]
     damped = arrays.packing.damped
-    if elastic or damped:
-        power += add_forces(u, v, elastic, damped, arrays.packing, arrays.scratch, force)[1]
+    if elastic:
+        power += add_forces(u, v, NUMBA_TRUE, damped, arrays.packing, arrays.scratch, force)[1]
+    elif damped:
+        power += power_again(v, arrays.packing, arrays.scratch)
     return power
 
 
 @njit(cache=True)
 def iterate(
-    first: int,
     left: int,
     u: np.ndarray,
     base_u: np.ndarray,
@@ -137,27 +136,21 @@ def iterate(
     arrays: Arrays,
     factors: np.ndarray,
     workspace: NewtonWorkspace,
-) -> tuple[int, int, int, int]:
-    """Solve equations with û, v̂ (k, n, 3), c₂ and c₁, and loads (k, n, 3), or (1, n, 3) if they are the same,
-    for u in place from the `first` on, which has corrections `left`: how that ended, the equation where it
-    did, what corrections that one has left, and how many were made in all."""
-    made = 0
-    for i in range(first, len(u)):
-        acting, last = external[min(i, len(external) - 1)], np.inf
-        while True:
-            if left == 0:
-                return STALE, i, left, made
-            length = correct(u[i], base_u[i], base_v[i], by, acting, arrays, factors, workspace)
-            left, made = left - 1, made + 1
-            if length < limits.tolerance:
-                break
-            if not length <= limits.largest:
-                return LOST, i, left, made
-            if length > limits.stale * last:
-                return STALE, i, left, made
-            last = length
-        left = limits.corrections
-    return CONVERGED, len(u), left, made
+) -> tuple[int, int]:
+    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has corrections
+    `left`: how that ended, and what corrections it has left then."""
+    last = np.inf
+    while left > 0:
+        length = correct(u, base_u, base_v, by, external, arrays, factors, workspace)
+        left -= 1
+        if length < limits.tolerance:
+            return CONVERGED, left
+        if not length <= limits.largest:
+            return LOST, left
+        if length > limits.stale * last:
+            return STALE, left
+        last = length
+    return STALE, 0
 
 
 @njit(cache=True)

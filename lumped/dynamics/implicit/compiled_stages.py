@@ -76,11 +76,11 @@ def solve_stages(
             left = limits.corrections
             _guess(i, step, stages, base_u, u)
         at = min(i, len(step.loads) - 1)
-        status, _, left, corrections = iterate(
-            0, left, stages.u[i : i + 1], bases_u.reshape(1, -1, 3), bases_v.reshape(1, -1, 3), by,
-            step.loads[at : at + 1], limits, arrays, factors, workspace,
-        )  # fmt: skip
-        made += corrections
+        given = left
+        status, left = iterate(
+            given, stages.u[i], bases_u, bases_v, by, step.loads[at], limits, arrays, factors, workspace
+        )
+        made += given - left
         if status != CONVERGED:
             return status, i, left, made
         for row in range(len(u)):

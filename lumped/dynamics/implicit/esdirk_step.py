@@ -20,6 +20,8 @@ from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMM
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of
+from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.time.method import StepFailed
 
 
 class EsdirkStep:
@@ -69,7 +71,7 @@ class EsdirkStep:
         self, times: np.ndarray, end: State, newton: Newton, tolerance: float | None, enough: float
     ) -> LatticeSamples:
         """Return the states at times (k,) [s] within the step, which may take its end; energies since it
-        began. tolerance: as of `Newton.solve_equations`; enough: up to which energy [J] too much
+        began. tolerance: as of `Newton.solve_equation`; enough: up to which energy [J] too much
         (`Newton.excess`) of the state nearest to the step's middle the polynomials serve."""
         stages, h = self.stages, self.h
         theta = (times - stages.time[0]) / h
@@ -89,10 +91,13 @@ class EsdirkStep:
 
         middle = int(np.abs(theta - 0.5).argmin())
         if newton.excess(equation(middle), u[middle]) > enough:
-            between = u[:within].copy()
-            newton.solve_equations([equation(i) for i in range(within)], between, tolerance)
-            a[:within] += c1**2 * (between - u[:within])
-            u[:within] = between
+            for i in range(within):
+                try:
+                    found = newton.solve_equation(equation(i), u[i], tolerance)
+                except (StepFailed, SingularMatrixError):
+                    continue  # the polynomial's stays
+                a[i] += c1**2 * (found - u[i])
+                u[i] = found
         if end.time == times[-1]:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
         for i, maxwell in enumerate(one.maxwell for one in inside if start is not None):

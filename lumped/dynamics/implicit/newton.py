@@ -9,17 +9,23 @@ multipliers' rows of û and v̂ apart, and does it compiled where it can.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from lumped.dynamics.implicit import compiled_newton
-from lumped.dynamics.implicit.compiled_newton import CONVERGED, CompiledNewton, NewtonLimits, iterate
+from lumped.dynamics.implicit.compiled_newton import (
+    CONVERGED,
+    CompiledNewton,
+    NewtonLimits,
+    correct,
+    iterate,
+)
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import System
-from sheetbench.numerics.reduced import Factor, SingularMatrixError
+from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.time.method import StepFailed
 
 CORRECTIONS = 20
@@ -108,36 +114,22 @@ class Newton:
     ) -> np.ndarray:
         """u of the equation. tolerance [m]: of the last correction, else the iteration's own.
         Raises StepFailed, or SingularMatrixError."""
-        u = np.array(guess[None])
-        if failures := self.solve_equations([equation], u, tolerance):
-            raise failures[0]
-        found: np.ndarray = u[0]
-        return found
-
-    def solve_equations(
-        self, equations: Sequence[StepEquation], u: np.ndarray, tolerance: float | None = None
-    ) -> dict[int, Exception]:
-        """Put the solutions of equations with the same coefficients in place of guesses u (k, n, 3); return
-        why some have none, whose guesses stay, by number. tolerance: as in `solve_equation`."""
         small = self.tolerance if tolerance is None else tolerance
-        failures: dict[int, Exception] = {}
-        done = 0
-        if self._compiled is not None:
-            done = self._solve_compiled(self._compiled, equations, u, small, failures)
-        for i, equation in enumerate(equations[done:], start=done):
-            try:
-                u[i] = self._solve_general(equation, u[i], small)
-            except (StepFailed, SingularMatrixError) as failure:
-                failures[i] = failure
-        return failures
+        found = (
+            None if self._compiled is None else self._solve_compiled(self._compiled, equation, guess, small)
+        )
+        return self._solve_general(equation, guess, small) if found is None else found
 
     def excess(self, equation: StepEquation, u: np.ndarray) -> float:
         """Return the energy [J] that u (n, 3) has too much by the equation, along stiff directions most: half
         the work of what it leaves along the correction of that; infinite where no factors kept serve."""
+        by, compiled = (equation.mass_coefficient, equation.damping_coefficient), self._compiled
+        if compiled is not None and self.near(by[0]):
+            given = equation.base_u, equation.base_v, by, self._system.loads([equation.time])[0]
+            corrected, workspace = u.copy(), compiled.workspace
+            correct(corrected, *given, compiled.arrays, compiled.factors, workspace)
+            return 0.5 * float(np.vdot(workspace.force, u - corrected))
         left = self._system.problem.reduce(self._residual(equation, u))
-        by = equation.mass_coefficient, equation.damping_coefficient
-        if self._compiled is not None and self.near(by[0]):
-            return 0.5 * float(left @ self._compiled.solve(left))
         return 0.5 * float(left @ self._factor.solve(left)) if self._factor and self._key == by else np.inf
 
     def _solve_general(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray:
@@ -217,31 +209,20 @@ class Newton:
         )
 
     def _solve_compiled(
-        self,
-        compiled: CompiledNewton,
-        equations: Sequence[StepEquation],
-        u: np.ndarray,
-        small: float,
-        failures: dict[int, Exception],
-    ) -> int:
-        """Solve equations as `solve_equations` does up to the first whose tangent is not positive definite;
-        how many."""
-        guesses, i, left = u.copy(), 0, CORRECTIONS
-        base = np.array([one.base_u for one in equations]), np.array([one.base_v for one in equations])
-        by = equations[0].mass_coefficient, equations[0].damping_coefficient
-        external = self._system.loads([one.time for one in equations])
-        while i < len(u):
-            if not self.near(by[0]) and not self._factorise(compiled, equations[i], u[i]):
-                u[i] = guesses[i]
-                return i
-            status, i, left, _ = iterate(
-                i, left, u, *base, by, external, self._limits(small), compiled.arrays, compiled.factors,
-                compiled.workspace,
+        self, compiled: CompiledNewton, equation: StepEquation, guess: np.ndarray, small: float
+    ) -> np.ndarray | None:
+        """u of the equation, None where its tangent is not positive definite. Raises StepFailed."""
+        u, left = guess.copy(), CORRECTIONS
+        by = equation.mass_coefficient, equation.damping_coefficient
+        external = self._system.loads([equation.time])[0]
+        while self.near(by[0]) or self._factorise(compiled, equation, u):
+            status, left = iterate(
+                left, u, equation.base_u, equation.base_v, by, external, self._limits(small), compiled.arrays,
+                compiled.factors, compiled.workspace,
             )  # fmt: skip
             if status == CONVERGED:
-                break
+                return u
             self._factored = None
             if status != compiled_newton.STALE or left == 0:
-                failures[i], u[i] = StepFailed(UNSOLVED), guesses[i]
-                i, left = i + 1, CORRECTIONS
-        return len(u)
+                raise StepFailed(UNSOLVED)
+        return None

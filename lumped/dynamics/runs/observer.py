@@ -24,6 +24,7 @@ from lumped.statics.structure import STRETCH
 from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
+from sheetbench.numerics.typed import typed
 from sheetbench.runs.columns import Part, width
 from sheetbench.scenes import outside_model
 
@@ -72,7 +73,7 @@ class LatticeObserver:
         self._observed: Observed | None = None
         if system.packed and system.coupling is None and not system.items:
             masses = system.assembly.pattern.size
-            self._observed = Observed(
+            observed = Observed(
                 system.packing,
                 system.scratch,
                 csr_arrays(system.mass),
@@ -82,6 +83,7 @@ class LatticeObserver:
                 csr_arrays(self._probes.matrix(masses)),
                 system.problem.constraints.summed,
             )
+            self._observed = typed(observed)
 
     def broken(self, samples: LatticeSamples, count: int) -> tuple[int, Fault | None]:
         """Return how many of the first samples mean something: `lumped.statics.faults`."""
@@ -124,7 +126,7 @@ class LatticeObserver:
             for i, row in enumerate(rows):
                 self._fill(row, samples, i)
             return rows
-        loads = self._observed.dead[None]
+        loads = system.problem.loads.dead[None]
         if system.working:
             loads = np.array([system.external(*at) for at in zip(samples.u, samples.time, strict=True)])
         observe(samples.u, samples.v, samples.a, loads, self._observed, rows)

@@ -2,11 +2,14 @@
 
 Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
 method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. With soft
-ones the usual path leads to the full load, where they are raised, each stage Newton's method from the last
-shape: 30 factorisations in place of 292 on a strip of 41 masses laid on a plane. Only the last stage is
-brought to the tolerance; one that fails takes the square root of its factor. What is said of the end is that
-of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins again from rest
-with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its radius in one.
+ones the usual path leads to the full load, where they are raised in stages of equal factors, each Newton's
+method from the last shape with the stresses that it extrapolated: 30 factorisations in place of 292 on a
+strip of 41 masses laid on a plane. Only the last stage is brought to the tolerance; one before ends at a
+small residual, of a correction that has left the same points in contact: while points come and go residuals
+are small now and then, and lead nowhere. One that fails takes the square root of its factor. What is said of
+the end is that of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins
+again from rest with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its
+radius in one.
 """
 
 from __future__ import annotations
@@ -23,11 +26,10 @@ from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Settle
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
-FIRST_FACTOR, SMALLEST_FACTOR = 1e3, 1.05  # of the penalties, from stage to stage
-EASIER = 10.0  # by which a stage's factor grows after one that went well
-CLOSE = 1e-6  # residual at which a stage ends, but for the last: looser ones may lead nowhere
+LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
+LOOSE = 0.1  # residual at which soft load steps end, and stages but the last
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
-DEPTH = 0.015  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
+DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
 class Penalty(Protocol):
@@ -88,7 +90,7 @@ def stiffened(
     share, ended = 1.0 if thin else softest(structure), None
     while not (thin and down is not None):  # what leads nowhere is too soft, where nothing else is left
         soften(contacts, share)
-        path.begin(replace(limits.direct, tolerance=limits.careful_tolerance))
+        path.begin(replace(limits.direct, tolerance=LOOSE))
         last = path.state, 0.0
         ended = trace(path, kept_out)
         path.limits = limits
@@ -128,22 +130,21 @@ def _settled(
 
 def _raised(path: Path[State, Forces], share: float, inspect: Inspect[State, Forces]) -> Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
-    factor, done = FIRST_FACTOR, False
+    structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
-    while not done:
-        target = min(1.0, share * factor)
-        soften(path.structure.contacts, target)
-        close = 0.0 if target == 1.0 else CLOSE
+
+    while True:
+        target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
+        soften(structure.contacts, target)
+        close = LOOSE if target < 1.0 else 0.0
         try:
-            state, size = path.structure.restarted(path.state)
+            state, size = structure.restarted(path.state)
             path.state, path.factor = newton(path, Start(state, 1.0, 1.0, size), close)
         except LoadStepFailed as failure:
-            factor **= 0.5
+            factor = (target / share) ** 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return Fault(failure.status, f"contact could not be stiffened: {failure}")
             continue
-        done = target == 1.0
-        share, factor = target, EASIER * factor
-        if (fault := inspect(path)) is not None:
+        if (fault := inspect(path)) is not None or target == 1.0:
             return fault
-    return None
+        share = target

@@ -52,6 +52,10 @@ class Structure(Protocol[State, Forces]):
         """Whether a straight way between two states at two load factors leads through an obstacle."""
         return False
 
+    def touching(self, state: State) -> np.ndarray:
+        """Which points touch obstacles at full load."""
+        return np.empty(0, bool)
+
     def restarted(self, state: State) -> tuple[State, float]:
         """A state at full load without forces that are of other penalties, and the size of its energy [J]."""
         return state, 0.0

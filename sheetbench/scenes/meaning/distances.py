@@ -79,11 +79,6 @@ def near(obstacle: AnyObstacle, x: np.ndarray, load_factor: float = 1.0, time: f
     return Near(obstacle, y, length - obstacle.radius, y / length[..., None])
 
 
-def obstacles_by_name(scene: SceneFields) -> dict[str, AnyObstacle]:
-    """Return the obstacles by the names that answers give them: "obstacle 1" by their number."""
-    return {f"obstacle {n}": obstacle for n, obstacle in enumerate(scene.obstacles, start=1)}
-
-
 def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
     """Return an obstacle at so many times its distance from the flat sheet; one that it touches stays."""
     gap, away = nearest(scene, obstacle)
@@ -99,7 +94,7 @@ def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarra
     from scipy.optimize import lsq_linear
 
     sides, across = scene.sheet.lengths, projector(obstacle)
-    at = obstacle.position + obstacle.displacement(0.0, 0.0)
+    at = obstacle.position + obstacle.displacement(time=0.0)
     foot = lsq_linear(across[:, :2], across @ at, ([0.0, 0.0], sides)).x  # |y|² is convex in the plan
     plan = shapely.get_coordinates(shapely.segmentize(scene.region, max(sides) / GRID))
     return _gap(scene, obstacle, [*plan, foot] if shapely.intersects_xy(scene.region, *foot) else plan, 0.0)
@@ -116,7 +111,7 @@ def _gap(
 def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
     """Yield what does not go together, key and reason, no reason where it does."""
     edges = [one for one in scene.supports if isinstance(one, Clamped | Hinged) and one.where is None]
-    for name, obstacle in obstacles_by_name(scene).items():
+    for name, obstacle in scene.named_obstacles().items():
         gaps = {"position: the flat sheet begins": nearest(scene, obstacle)[0]}
         for edge in (one.edge for one in edges if one.motion is None):
             along = np.linspace(*scene.sheet.edge_ends(edge), GRID)
@@ -135,7 +130,7 @@ def require_no_obstacles(scene: SceneFields, who: str) -> None:
 
 def require_frictionless(scene: SceneFields) -> None:
     """Raise SceneError where an obstacle has friction, for a sheet at rest."""
-    for name, obstacle in obstacles_by_name(scene).items():
+    for name, obstacle in scene.named_obstacles().items():
         if obstacle.friction > 0.0:
             raise SceneError(
                 f"scene '{scene.name}': {name}.friction = {obstacle.friction:g}: at rest the answer would "

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import degrees, hypot
 
 from sheetbench.scenes.meaning.composition import mass_of
-from sheetbench.scenes.meaning.distances import nearest, obstacles_by_name
+from sheetbench.scenes.meaning.distances import nearest
 from sheetbench.scenes.meaning.natural_words import natural_in_words
 from sheetbench.scenes.meaning.payloads import carried
 from sheetbench.scenes.meaning.region import area_in, resultant
@@ -67,9 +67,8 @@ def in_words(scene: SceneFields) -> list[tuple[str, str]]:
         where = name if shape is not None else f"edge {name}"
         sentences.append((where, f"{_support(support, sheet)}{inside}"))
     sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
-    sentences += [
-        (name, _obstacle(one, nearest(scene, one)[0])) for name, one in obstacles_by_name(scene).items()
-    ]
+    for name, one in scene.named_obstacles().items():
+        sentences.append((name, _obstacle(one, nearest(scene, one)[0])))
     sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
     if scene.initial is not None:
         gone = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
@@ -93,16 +92,13 @@ def in_words(scene: SceneFields) -> list[tuple[str, str]]:
 
 def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
     """Return what the sheet may touch, where it is and how far from the flat sheet."""
-    x, y, z = (_mm(coordinate) for coordinate in obstacle.position)
-    round_ = "" if isinstance(obstacle, Plane) else f" of radius {_mm(obstacle.radius)} mm"
-    along = getattr(obstacle, "normal", None) or getattr(obstacle, "axis", None)
-    turned = "" if along is None else f" {'facing' if isinstance(obstacle, Plane) else 'along'} "
-    turned += "" if along is None else f"({', '.join(f'{part:.3g}' for part in along)})"
+    plane, along = isinstance(obstacle, Plane), getattr(obstacle, "normal", getattr(obstacle, "axis", ()))
+    round_ = "" if plane else f" of radius {_mm(obstacle.radius)} mm"
+    turned = f" {'facing' if plane else 'along'} ({', '.join(f'{part:.3g}' for part in along)})" * bool(along)
     more = ", moving" if obstacle.motion is not None else ""
     more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
-    return (
-        f"{obstacle.kind}{round_} at ({x}, {y}, {z}) mm{turned}{more}; {1e3 * gap:.4g} mm from the flat sheet"
-    )
+    at = ", ".join(map(_mm, obstacle.position))
+    return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {1e3 * gap:.4g} mm from the flat sheet"
 
 
 def _outline(scene: SceneFields) -> str:

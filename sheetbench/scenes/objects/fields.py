@@ -18,7 +18,7 @@ from sheetbench.scenes.objects.loads import AreaLoad, Load
 from sheetbench.scenes.objects.masses import Mass
 from sheetbench.scenes.objects.material import Material
 from sheetbench.scenes.objects.natural import Natural, Temperature
-from sheetbench.scenes.objects.obstacles import Obstacle
+from sheetbench.scenes.objects.obstacles import AnyObstacle, Obstacle
 from sheetbench.scenes.objects.orthotropy import FIBRES
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
@@ -102,6 +102,10 @@ class SceneFields(Frozen):
         if len(set(names)) < len(names):
             names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
         return dict(zip(names, self.actuators, strict=True))
+
+    def named_obstacles(self) -> dict[str, AnyObstacle]:
+        """The obstacles by the names that answers give them: "obstacle 1" by their number."""
+        return {f"obstacle {n}": obstacle for n, obstacle in enumerate(self.obstacles, start=1)}
 
     def motions(self) -> dict[str, EdgeMotion]:
         """The edge motions by their names."""

@@ -7,7 +7,7 @@ sheet touches where φ = h/2. A plane that the flat sheet lies on is at z = −h
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -16,6 +16,7 @@ from sheetbench.scenes.objects.quantities import Frozen, Length, NonNegative, Un
 from sheetbench.scenes.objects.supports import Motion
 
 SLIP_SPEED = 1e-3  # m/s, v₀ of the friction −μ p v/√(v² + v₀²)
+CREEPS = f"friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
 TOUCH = 1e-9  # δ₀, of the thickness: how far off a sheet touches, or an obstacle would not hold one that lies
 
 
@@ -43,17 +44,13 @@ class _Obstacle(Frozen):
     def direction(self) -> np.ndarray:
         """A plane's normal or a cylinder's axis as a unit vector (3,), 0 of a sphere."""
         along = np.array(getattr(self, "normal", getattr(self, "axis", (0.0, 0.0, 0.0))))
-        unit: np.ndarray = along / (np.linalg.norm(along) or 1.0)
-        return unit
+        return np.asarray(along / (np.linalg.norm(along) or 1.0))
 
-    def displacement(self, load_factor: float, time: float | None = None) -> np.ndarray:
-        """Return how far the obstacle has moved, (3,) [m]: at a time [s] or, without one, a share of its last
-        displacement."""
+    def displacement(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
+        """Return a share of how far the obstacle has moved, (3,) [m]: at a time [s], or at last."""
         if self.motion is None:
             return np.zeros(3)
-        last = self.motion.time[-1]
-        moved: np.ndarray = self.motion.course.at(last if time is None else time)
-        return load_factor * moved if time is None else moved
+        return np.asarray(load_factor * self.motion.course.at(self.motion.time[-1] if time is None else time))
 
     def velocity(self, time: float | None) -> np.ndarray:
         """Return its velocity (3,) [m/s] at a time [s], 0 without one."""
@@ -69,10 +66,7 @@ class Plane(_Obstacle):
     normal: Direction = (0.0, 0.0, 1.0)
     """Out of the obstacle, towards the sheet, of any length."""
 
-    @property
-    def radius(self) -> float:
-        """Infinite."""
-        return math.inf
+    radius: ClassVar[float] = math.inf
 
 
 class Sphere(_Obstacle):

@@ -138,6 +138,9 @@ class SpringSet(Frozen):
     γ the angle between mean chord and mean director."""
     face_diagonal_shear: Annotated[Links, Unit("N/m")] = 0.0
     """The same of the upright faces over a cell's two diagonals."""
+    face_coupling: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same over one diagonal alone, which couples shears along x and y: that along x and y where it is
+    > 0, the other where it is < 0."""
     edge_shear: EdgeStiffness = 0.0
     """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
     strip_shear: EdgeStiffness = 0.0

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from commands import run
 from scene_files import written
+from terminals import Terminal
 
 from comparisons.cli import interruption
 from comparisons.sweep import here as table
@@ -34,16 +35,18 @@ COMPARE = """
 import sys
 from comparisons.cli import main
 try:
-    main(["compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json"])
+    main(["compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"])
 finally:
-    print([name for name in sys.argv[1:] if name in sys.modules], file=sys.stderr)
+    print([name for name in sys.argv[1:] if name in sys.modules])
 """
 
 
-def test_a_comparison_imports_nothing_that_it_does_not_use():
-    arguments = [sys.executable, "-c", COMPARE, *UNUSED]
-    done = subprocess.run(arguments, capture_output=True, text=True, check=True)
-    assert done.stderr.splitlines()[-1] == "[]"
+def test_a_comparison_imports_nothing_that_it_does_not_use_and_is_without_colours_where_none_are_wanted():
+    """On a real terminal."""
+    terminal = Terminal(f"import os; os.environ['NO_COLOR'] = '1'; {COMPARE}", *UNUSED)
+    assert terminal.end() == 0
+    assert terminal.shown.splitlines()[-1] == "[]"
+    assert "converged" in terminal.shown and "\x1b[3" not in terminal.raw
 
 
 def test_without_arguments_it_prints_its_help(capsys):
@@ -149,7 +152,7 @@ def test_a_long_version_says_what_is_installed(capsys):
 
 
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("line", ["score", "score --json", "compare --help"])
+@pytest.mark.parametrize("line", ["check --schema", "score --json", "compare --help"])
 def test_an_output_that_nobody_reads_on_is_no_fault(line):
     """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends, for what is longer than a
     pipe holds and for what is not."""

@@ -112,6 +112,7 @@ def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys)
     assert one_line(capsys) == "sheetbench: a request to be quiet\n"
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("width", [50, 80, 160])
 @pytest.mark.parametrize("verb", VERBS)
 def test_a_help_page_cuts_nothing_off(monkeypatch, capsys, verb, width):
@@ -160,6 +161,7 @@ def numbers(text):
     return re.findall(r"(?<!\^)-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", plain)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", ANSWERED)
 def test_no_number_is_cut(kept, name, way):

@@ -1,4 +1,4 @@
-"""What people see on a terminal: characters that it lacks, a campaign's bar, no colours where not wanted.
+"""What people see on a terminal: characters that it lacks, a campaign's bar.
 
 What every verb shows there: test_every_verb.py.
 """
@@ -7,7 +7,6 @@ import io
 
 import pytest
 from rich.console import Console
-from terminals import COMMAND, Terminal
 
 from comparisons.cli import characters, console
 from comparisons.sweep.campaign import Progress
@@ -39,15 +38,3 @@ def test_a_campaign_says_how_far_it_is(monkeypatch, width):
         progress(Progress(1, 3, "shell [2]", "converged", None))
         progress(Progress(3, 3, "shell [4]", "converged", 0.0))
     assert "3/3" in screen.getvalue() and "shell [4]" in screen.getvalue()
-
-
-COLOURLESS = f"import os; os.environ['NO_COLOR'] = '1'; {COMMAND}"
-
-
-def test_a_comparison_on_a_real_terminal_has_no_colours_where_none_are_wanted():
-    terminal = Terminal(
-        COLOURLESS, "compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"
-    )
-    assert terminal.end() == 0
-    assert "converged" in terminal.shown and "Traceback" not in terminal.shown
-    assert "\x1b[3" not in terminal.raw

@@ -31,6 +31,8 @@ def test_options_take_units(capsys):
         ("0.12x80 mm", (0.12e-3, 0.08)),  # refused or warned of as a sheet, not guessed
         ("0.12x0.08", (0.12, 0.08)),
         ("80 mm", (0.08, 0.08)),
+        (0.12, (0.12, 0.12)),
+        ([0.12, "80 mm"], (0.12, 0.08)),
     ],
 )
 def test_a_unit_at_the_end_is_that_of_both_sides(text, lengths):

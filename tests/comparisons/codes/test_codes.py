@@ -168,6 +168,7 @@ def test_masses_and_loads_of_every_code_are_the_sheets(code):
     assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_a_payload_is_in_the_masses_of_codes_that_have_them(code):
@@ -222,6 +223,16 @@ def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(sq
     """Two layers of springs in a thin sheet: with 8 squares shear turns over 39 % of those between them."""
     notes = setup(references("statics")["thin"].scene, "pybullet", squares, best=False).notes()
     assert [f"--grid {grid} or more" in note for note in notes if "too coarse" in note] == [True] * bool(grid)
+
+
+@pytest.mark.usefixtures("coarse_limits")
+def test_a_sheet_that_cannot_stand_has_no_best_coefficients():
+    """Upright under four times the weight: q L³/D = 10.7, which buckles at 7.84 (Greenhill)."""
+    scene = scenes.load("one-edge-clamped")
+    made = setup(scene.replace(gravity={"acceleration": (-4 * 9.81, 0.0, 0.0)}), "newton", 4)
+    assert made.limit_error is None and not made.succeeded and not made.best
+    assert made.complaints()[0].startswith("no error in one-edge-clamped is known")
+    assert not any("infinitely fine" in note for note in made.notes())
 
 
 DAMPED = SCENE.replace(material=SCENE.material.replace(damping_time=0.01))

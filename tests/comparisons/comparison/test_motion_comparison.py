@@ -106,6 +106,7 @@ def test_lattice_and_shell_move_alike():
     assert np.array_equal(*(history.time for history in both.histories.values()))
 
 
+@pytest.mark.nightly  # by day: tests/fem_reference/motion/test_moving_rods.py, of the chain's pull too
 def test_lattice_and_shell_move_alike_with_a_driven_chain():
     """Its segments are rigid, the shell's rod is not: 0.1 to 0.2 % of the peak are the rod's."""
     both = sb.compare("actuated-edge", duration=0.06, grid=9, elements=2, uncertainty=False)
@@ -193,6 +194,7 @@ def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
 
 
+@pytest.mark.nightly
 def test_both_sheets_move_side_by_side(tmp_path):
     """A GIF with both in every frame, the lattice's half and the shell's each changing over time."""
     from PIL import Image

@@ -119,7 +119,7 @@ def test_measured_error_is_relative_to_the_largest_measured_component():
 @pytest.mark.usefixtures("undrawn")
 def test_chains_are_in_the_files_of_a_run(tmp_path):
     """Their axes are lines after the lattice's points; they move with the edge that they hold."""
-    arguments = ["simulate", "actuated-edge", "--lumped", "3", "--duration", "0.05", "--every", "0.01"]
+    arguments = ["simulate", "actuated-edge", "--lumped", "3", "--duration", "0.02", "--every", "0.01"]
     assert run(*arguments, "--out", str(tmp_path)) == 0
     history = json.loads((tmp_path / "history.json").read_text())
     mesh = meshio.read(sorted((tmp_path / "frames").glob("*.vtu"))[-1])

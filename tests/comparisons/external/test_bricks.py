@@ -190,3 +190,10 @@ def test_a_deck_has_a_line_for_all_that_is_asked(bricks):
     assert max(map(len, text.splitlines())) < 132
     assert "NLGEOM" not in deck(scene, bricks, linear=True)
     assert "*TRANSFORM" in deck(load("curved-edge"), bricks, linear=False)
+
+
+def test_triangles_fill_the_sheet_and_face_up():
+    found = Triangles.of(Sheet(0.2, 0.1, 1e-3), 3)
+    a, b, c = found.positions[found.elements].swapaxes(0, 1)
+    assert np.cross(b - a, c - a) == pytest.approx(np.tile([0.0, 0.0, 0.02 / 18], (36, 1)))
+    assert found.label == "6 × 3 × 2 triangles"

@@ -41,7 +41,7 @@ DRAWINGS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep(4)
 @pytest.mark.parametrize("drawing", DRAWINGS)
 def test_the_shell_is_the_bricks_of_calculix_on_drawn_sheets(drawing):
     """Bricks of 6, 8 and 10 across are 0.56, 0.18, 0.14 % (fin) and 0.36, 0.55, 0.26 % (pouch) off a shell of

@@ -181,6 +181,7 @@ WORDS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("word", WORDS)
 def test_a_scenes_words_mean_the_same_to_every_judge(word):
     """Within what coarse meshes leave: 4 × 4 bricks, 8 × 8 × 2 Kirchhoff triangles, whose error is O(h²).

@@ -92,7 +92,7 @@ def test_a_motion_that_another_code_is_not_given_says_why(code):
 
 def test_a_program_that_ends_in_the_midst_is_a_status(tmp_path, monkeypatch):
     file = tmp_path / "ccx"
-    file.write_text("#!/bin/sh\nexit 201\n", encoding="utf-8")
+    file.write_text("#!/bin/sh\ngrep -q NLGEOM *.inp && exit 201\n", encoding="utf-8")
     file.chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
     history = CALCULIX.simulate(SWING, {**CALCULIX.settings, "elements": 2}, 0.1, every=0.01)

@@ -48,6 +48,7 @@ def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
     assert min(held.values()) >= 0.9 * len(seeds), held
 
 
+@pytest.mark.nightly
 def test_the_drag_of_the_air_from_a_decay():
     truth = load("one-edge-clamped").replace(air=Air(drag=30.0))
     measured = decay(lattice_run(truth, 0.4), 0.4, 0.01, 0, 40)

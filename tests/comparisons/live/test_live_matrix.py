@@ -20,6 +20,7 @@ ENDS = [
 ROWS = pairwise([*ENDS, tuple(("calibration", name) for name in PANEL.calibrations)])
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: " ".join(f"{name}={value}"[:24] for name, value in row))
 def test_every_pair_of_ends_has_an_answer_or_a_reason(row):
     values = dict(row)

@@ -125,6 +125,15 @@ def test_a_load_that_is_next_to_none_makes_no_layer():
     assert not [layer for layer in layers(scene) if not layer.bent_edge]
 
 
+@pytest.mark.parametrize("command", [None, -4.0, (0.0, 1.0, -4.0, 2.0, 0.0, 0.0, 0.0)])
+def test_a_chain_makes_a_layer_by_the_largest_curvature_it_ends_at(command):
+    """The catalogue's is a table that ends at 4 1/m."""
+    scene = load("actuated-edge")
+    if command is not None:
+        scene = scene.replace(actuators=[scene.actuators[0].replace(curvature=command)])
+    assert f"bent by {4 if command is None else -4} 1/m" in layers(scene)[0].cause
+
+
 def _expected(scene):
     lattice = resolve(scene, Lattice(9))
     found = expected_error(scene, lattice.spec, solve(lattice), lambda other: solve(resolve(scene, other)))
@@ -147,6 +156,7 @@ def test_loads_in_its_plane_bend_no_flat_sheet():
     assert layers(both) == layers(both.replace(loads=()))
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", ["two-edges-clamped", "curved-edge"])
 def test_frequencies_about_the_deformed_sheet_have_theirs(name):
     """By mode: within a factor of two and 0.2 % of what the shell says."""

@@ -159,6 +159,7 @@ def test_restored_vectors_mirror():
     assert above == pytest.approx(below * [1.0, -1.0, 1.0], abs=1e-12)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("name", ["hinged all around", "a rod", "clamps tilted alike"])
 def test_a_plane_of_symmetry_means_the_same_in_the_solid(name):
     case, axes = PARTS[name]

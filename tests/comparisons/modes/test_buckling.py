@@ -62,6 +62,7 @@ def found(scene, model, count=1):
     return fem_reference.buckling(scene, model, elements, count)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 @pytest.mark.parametrize(("case", "within"), [(square, 0.02), (column, 0.02), (on_edge, 0.02 + 0.5 * WIDTH)])
 def test_closed_forms(case, within, model):

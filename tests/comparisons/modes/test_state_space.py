@@ -147,6 +147,7 @@ def test_what_has_no_linear_form_is_refused():
         lumped.linearise(scene, springs_of(scene), "flat")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
     arguments = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
     assert run("modes", *arguments) == 0
@@ -156,7 +157,7 @@ def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
     assert other["K"].shape == (72, 72) and other["ss_A"].shape == (10, 10)
     assert [str(cell[0]) for cell in other["inputs"].ravel()] == document["inputs"]
     np.testing.assert_array_equal(arrays["ss_D"], other["ss_D"])
-    assert (tmp_path / "responses.png").stat().st_size > 10_000
+    assert (tmp_path / "responses.png").exists()
 
 
 def test_a_lattice_without_an_equilibrium_ends_with_3(capsys):

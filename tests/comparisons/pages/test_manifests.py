@@ -36,6 +36,7 @@ def test_a_manifest_of_another_shape_costs_a_sentence(tmp_path, capsys, damaged)
     assert "odd/manifest.json: damaged, cannot be read: " in said.err and "Traceback" not in said.err
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("key", ["notes", "warnings", "findings", "solutions", "scene", "errors"])
 @pytest.mark.parametrize(
     "value", [5, "text", {"a": None}, [None], [[1]], 10**400], ids=lambda value: str(value)[:9]

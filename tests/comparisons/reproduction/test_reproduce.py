@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from commands import run
 
-from comparisons.reproduction import nearest
+from comparisons.reproduction import figure, nearest
 from comparisons.reproduction.answers import answer
 from comparisons.reproduction.printed_errors import Cell, cells, means
 from comparisons.reproduction.published import published, scene
@@ -126,3 +126,8 @@ def test_the_verb_writes_a_page_and_says_what_it_found(tmp_path, capsys):
     assert page.startswith("# The study of Habibi et al., reproduced") and "model \\*" in page
     assert json.loads((tmp_path / "reproduction.json").read_text())["parts"] == ["errors"]
     assert (tmp_path / "errors.csv").read_text().count("\n") == 25
+
+
+def test_every_source_has_a_mark_and_a_colour_of_its_own():
+    marks = [*figure.PUBLISHED.values(), *figure.OURS]
+    assert all(len(set(each)) == len(marks) for each in zip(*marks, strict=True))

@@ -268,6 +268,6 @@ def test_noise_is_no_stiffness(write):
 
 def test_the_sheet_and_the_picture(write, tmp_path):
     out = tmp_path / "out"
-    assert run("score", str(write(seconds=0.02)), "--out", str(out)) == 0
+    assert run("score", str(write(seconds=0.02)), "--case", "thick", "--out", str(out)) == 0
     assert (out / "score.png").stat().st_size > 10_000
     assert "Beside our own models and other programs" in (out / "score.md").read_text()

@@ -198,6 +198,7 @@ DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
 }
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(tmp_path, damage):
     path, runs = tmp_path / FILE, [task("square", x=float(x)) for x in range(40)]

@@ -176,7 +176,7 @@ def test_the_law_of_strain_is_weighed_where_the_probes_answer_comes_from(scene):
     """The largest stretch, in a corner, had said eight times as much. To second order two laws' shifts are
     known to a fifth, of which the bound has 1.3 times."""
     shell, *others = (
-        fem_reference.solve(scene, elements=6, law=law)
+        fem_reference.solve(scene, elements=4, law=law)
         for law in ("st-venant-kirchhoff", "biot", "neo-hookean")
     )
     assert all(found.status is Status.CONVERGED for found in (shell, *others))
@@ -186,7 +186,7 @@ def test_the_law_of_strain_is_weighed_where_the_probes_answer_comes_from(scene):
     assert bound is not None and off <= bound.strain_law < 1.3 * 1.2 * off
 
 
-@pytest.mark.sweep(6)
+@pytest.mark.sweep(8)
 @pytest.mark.parametrize("clamped", [("x0",), ("x0", "x1"), ("x0", "x1", "y0", "y1")], ids=len)
 @pytest.mark.parametrize("poisson", [-0.3, 0.0, 0.3, 0.45, 0.49])
 @pytest.mark.parametrize("slenderness", [0.15, pytest.param(0.06, marks=pytest.mark.nightly)])

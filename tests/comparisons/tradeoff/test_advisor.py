@@ -99,7 +99,7 @@ def test_a_busy_machine_and_all_digits_are_shown(monkeypatch):
     assert details == {"status"} and {one.status for one in advice.tried} == {"converged"}
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep(4)
 @pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])
 @pytest.mark.parametrize("tolerance", [0.05, 0.01, 0.003])
 def test_the_choice_meets_the_tolerance(name, tolerance):

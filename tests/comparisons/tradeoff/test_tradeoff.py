@@ -13,6 +13,7 @@ import pytest
 from campaigns import Here, rows_in
 from commands import run
 from matplotlib.figure import Figure
+from verbs import run_here
 
 import lumped
 from comparisons.models.spec import Elements, External, Lattice, LatticePair, lattices, parse, references
@@ -65,14 +66,15 @@ def scene():
 def finished(tmp_path_factory):
     """The folder of a small trade-off, killed once in the middle, resumed, and requested once more."""
     folder = tmp_path_factory.mktemp("tradeoff")
-    command = [sys.executable, "-c", "from comparisons.cli import main; main()"]
     arguments = [*SMALL, "--out", str(folder)]
     killing = KILLED.format(here=str(Path(campaigns.__file__).parent))
-    killed = subprocess.run([*command[:2], killing, *arguments], stderr=subprocess.DEVNULL)
+    killed = subprocess.run([sys.executable, "-c", killing, *arguments], stderr=subprocess.DEVNULL)
     assert killed.returncode == -signal.SIGKILL
     kept = rows_in(folder / FILE)
     assert len(kept) == 4
-    subprocess.run([*command, *arguments], check=True, capture_output=True)
+    with pytest.MonkeyPatch.context() as patch:
+        run_here(patch)
+        assert run(*arguments) == 0
     after = rows_in(folder / FILE)
     assert len(after) == 9
     assert {key: after[key] for key in kept} == kept  # time stamps and all

@@ -60,7 +60,9 @@ def test_shell_that_lies_down_against_the_heavy_elastica(drop):
     assert solution.status is Status.CONVERGED
     assert solution.reactions["x0"][2] / WEIGHT == pytest.approx(carried, rel=1e-3)
     assert sum(f[2] for f in solution.reactions.values()) == pytest.approx(WEIGHT, rel=1e-7)
-    assert solution.iterations <= 2 * free.iterations  # soft first; with stiff contact there are hundreds
+    finer = fem_reference.solve(scenes[0], "shell", elements=(40, 1), graded=False)
+    most = 2 * free.iterations  # soft first; with stiff contact there are hundreds
+    assert max(solution.iterations, finer.iterations) <= most
     assert solution.contacts["obstacle 1"].penetration < 1e-4
     # the clamp's moment is what weight and plane leave of moments about it, by Simpson's rule
     rule = np.array([1.0, *[4.0, 2.0] * 19, 4.0, 1.0]) / 120.0

@@ -42,7 +42,7 @@ def test_a_hundred_periods_leave_the_energy_as_it_was(model, elements):
     assert drift(model, 0.0, elements, duration=32.1, step=1e-2) < 1e-8
 
 
-@pytest.mark.parametrize("kind", ["shell", "solid"])
+@pytest.mark.parametrize("kind", ["shell", pytest.param("solid", marks=pytest.mark.nightly)])
 def test_a_sheet_thrown_and_spinning_keeps_both_momenta_and_its_energy(kind):
     """To what corrections leave, 1e-10 of the displacement at most; the plate, linear, does not turn."""
     model = SHEETS[kind](STRIP.replace(supports=(), gravity=None, damping_time=0.0), (1, 1), moving=True)

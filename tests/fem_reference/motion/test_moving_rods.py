@@ -85,9 +85,8 @@ def test_samples_of_a_chain_keep_the_energy():
     assert np.abs(motion.balance - motion.balance[0]).max() < 1e-3 * motion.energies["kinetic"].max()
 
 
-@pytest.mark.parametrize(
-    ("every", "within"), [(0.01, 2e-2), pytest.param(0.02, 6e-3, marks=pytest.mark.nightly)]
-)
+@pytest.mark.nightly
+@pytest.mark.parametrize(("every", "within"), [(0.01, 2e-2), (0.02, 6e-3)])
 def test_the_solid_with_a_chain_moves_as_the_shell_does(every, within):
     """Within what two elements along the side leave uncertain."""
     scene = driven(curvature=RAMP)

@@ -12,7 +12,7 @@ BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
 RAMP, PULL = 0.01, 1e-9
 
 
-@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+@pytest.mark.parametrize("model", ["plate", "shell", pytest.param("solid", marks=pytest.mark.nightly)])
 def test_a_held_strain_relaxes_as_its_prony_series(model):
     """A strip of next to no mass, pulled in 10 ms and held: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the ramp.
     The update is exact for it; what is left is inertia, damped by the integrator."""
@@ -33,6 +33,7 @@ def test_a_held_strain_relaxes_as_its_prony_series(model):
     assert np.abs(found)[held] == pytest.approx(at_rest * series[held], rel=1e-6)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["plate", "shell"])
 def test_energy_is_kept_in_books_with_branches(model):
     """Within the step's error, as without branches; branches dissipate."""

@@ -12,6 +12,7 @@ from sheetbench.scenes import load
 PER_PERIOD = 40  # the integrator's error in a period is (2π/40)²/12, or 0.2 %
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("damped", [{"frequency": 6.0}, {"band": (1.0, 60.0)}])
 def test_modes_ring_down_at_their_poles(damped):
     """The first three, within 1 % of ζ; with branches ζ itself is within 10 % of half the loss factor over

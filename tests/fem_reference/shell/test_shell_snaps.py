@@ -172,6 +172,13 @@ def test_a_compressed_strip_leaves_the_saddle_for_the_buckled_state():
     assert 0 < path.factorisations < 100
 
 
+def test_a_saddle_that_no_push_leaves_is_told(monkeypatch):
+    monkeypatch.setattr(pseudo_transient._Creep, "_pushed", lambda creep, state, step: state)
+    flat = strip(shorter=1.5 * np.pi**2 * THICKNESS**2 / (12.0 * SIDE))
+    with pytest.raises(LoadStepFailed, match="does not leave it"):
+        relax(Path(flat, DirectSolver(), flat.start), 0.0)
+
+
 def test_a_buckled_strip_snaps_at_its_limit_load_to_the_mirrored_state(arch):
     """Pushed in the middle it stays symmetric past the branching, as the path does, up to the limit load."""
     _, stopped = pushed(arch, settles=False)

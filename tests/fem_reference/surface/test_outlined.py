@@ -9,7 +9,7 @@ from skfem import Basis, ElementQuad2
 
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians, shape
 from fem_reference.surface.location import locate
-from fem_reference.surface.mesh import mesh_of, nodes_of
+from fem_reference.surface.mesh import _through, mesh_of, nodes_of
 from fem_reference.surface.mesh_points import SizeField, _quadtree
 from fem_reference.surface.outlined import quadrilaterals
 from sheetbench.scenes import load
@@ -42,11 +42,18 @@ PLANS = {
 }
 
 
+@pytest.mark.parametrize(("elements", "even"), [(4, 4), (5, 6)])
+def test_lines_through_a_middle_are_of_an_even_number_of_elements(elements, even):
+    found = _through(np.linspace(0.0, 1.0, elements + 1), np.array([0.5]))
+    assert found == pytest.approx(np.linspace(0.0, 1.0, even + 1))
+
+
 def test_a_quadtree_has_each_corner_once():
     found = _quadtree((0.0, 0.0, 3.0, 1.0), SizeField(np.zeros((1, 2)), np.ones(1)))
     assert found.tolist() == [[x, y] for x in range(4) for y in range(2)]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("graded", [False, True])
 @pytest.mark.parametrize("count", [6, 16])
 @pytest.mark.parametrize("plan", PLANS)

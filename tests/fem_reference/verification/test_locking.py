@@ -13,7 +13,8 @@ from sheetbench import scenes
 from sheetbench.scenes import Material
 
 
-@pytest.mark.parametrize("model", ["plate", "shell"])
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize("model", ["shell", "plate"])
 def test_thin_to_thick_within_2_percent(model):
     """h/a from 1e-5 to 0.2."""
     rows = list(run([f"locking-{model}"]))

@@ -95,10 +95,11 @@ UNEQUAL = SpringSet(
 )
 
 
-@pytest.mark.parametrize("grid", [(9, 9, 2), (7, 11, 2)])
-def test_homogenisation_agrees_with_imposed_strains(grid):
+@pytest.mark.parametrize("grid, coupling", [((9, 9, 2), 70.0), ((7, 11, 2), -70.0)])
+def test_homogenisation_agrees_with_imposed_strains(grid, coupling):
     springs = UNEQUAL.model_copy(
         update={"shear": 120.0, "mid_shear": 90.0, "mid_stretch": PerDirection(x=50.0, y=80.0)}
+        | {"face_coupling": coupling}
     )
     assembly = small_assembly(
         report("test", each_cell(SEED.sheet, SEED.material, grid), Springs.read(springs))
@@ -111,10 +112,20 @@ def test_homogenisation_agrees_with_imposed_strains(grid):
         assert membrane == pytest.approx(0.5 * np.array(strain) @ got.membrane @ strain, rel=1e-4)
         bending = imposed_energy(assembly, zero, strain, (0.0, 0.0))
         assert bending == pytest.approx(0.5 * np.array(strain) @ got.bending @ strain, rel=1e-4)
-    for shear, expected in (((1.0, 0.0), got.shear[0]), ((0.0, 1.0), got.shear[1])):
+    assert np.sign(got.coupling) == np.sign(coupling)
+    both = got.shear.sum() - 2.0 * got.coupling
+    for shear, expected in (((1.0, 0.0), got.shear[0]), ((0.0, 1.0), got.shear[1]), ((1.0, -1.0), both)):
         assert imposed_energy(assembly, zero, zero, shear) == pytest.approx(0.5 * expected, rel=1e-4)
 
 
+def test_a_law_of_components_has_the_moduli_of_their_mean():
+    """Habibi et al.'s, which has no energy."""
+    parts = UNEQUAL.model_copy(update={"diagonal": PerDirection(x=150.0, y=300.0, z=450.0)})
+    got, expected = (moduli.of_springs(springs, (0.02, 0.03, 0.004), 2) for springs in (parts, UNEQUAL))
+    assert got.membrane == pytest.approx(expected.membrane) and got.bending == pytest.approx(expected.bending)
+
+
+@pytest.mark.sweep
 @pytest.mark.parametrize("method", ["consistent", "moduli"])
 @pytest.mark.parametrize("grid", [(5, 5), (33, 33), (9, 13), (9, 25), (25, 9)])
 def test_every_modulus_is_met(method, grid):
@@ -164,6 +175,10 @@ def test_textbook_constructions_on_squares():
     assert (lloyd.axial, lloyd.diagonal) == pytest.approx((2 * 5 / 16 * strip, 7 / 16 * strip))
     bars = lumped.calibrate(SEED.sheet, SEED.material, (9, 9), "axial").springs
     assert (bars.axial, bars.diagonal) == pytest.approx((strip, strip / 2))
+    square, upright = (0.188 / 8) ** 2, 0.003**2 / 3  # cross links and their diagonals bear the shear 2 : 1
+    assert gelder.cross / gelder.cross_diagonal == pytest.approx(
+        4 * (square + upright) / (2 * square + upright)
+    )
 
 
 def test_textbook_constructions_on_oblong_cells():
@@ -205,7 +220,7 @@ def test_area_springs_of_nothing_need_no_note():
 
 
 def test_a_bend_that_costs_nothing_is_refused():
-    costless = moduli.Moduli(np.eye(3)[None], np.diag([1.0, 1.0, 0.0])[None], np.ones((1, 2)))
+    costless = moduli.Moduli(np.eye(3)[None], np.diag([1.0, 1.0, 0.0])[None], np.ones((1, 2)), np.zeros(1))
     with pytest.raises(BadInput, match="the cell's energy is not positive"):
         _require_positive(Springs.made(1e-3, area=-1.0), costless)
 

@@ -82,6 +82,14 @@ def test_a_strip_that_only_rounding_holds_has_no_factor():
     assert np.array_equal(np.isnan(found), [False, True, False]) and found[0] == found[2]
 
 
+def test_cells_that_let_go_of_too_little_keep_none_of_their_twist():
+    """The lattice's own layer is half as wide as the plate's: fine cells cannot lose the rest."""
+    twisting, shear = 0.02, 600.0
+    layer = np.sqrt(twisting / shear)
+    factors = [edge_factor(40, b * layer, twisting, shear, 0.3, 2 * layer, False) for b in (4, 2, 1, 0.2)]
+    assert factors[0] > factors[1] > factors[2] == factors[3] == 0.0
+
+
 def error(masses, linear, method="consistent"):
     """Worst of the probes' components, of the largest displacement there."""
     springs = lumped.calibrate(SEED.sheet, SEED.material, masses, method)

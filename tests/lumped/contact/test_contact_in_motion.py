@@ -7,7 +7,7 @@ from contact_cases import FALLING as STRIP
 from scipy.optimize import brentq
 
 import lumped
-from lumped.contact.contact import MOVING
+from lumped.contact import MOVING
 from lumped.dynamics.explicit.step_limit import SAFETY, TOUCHING
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Gravity, Held, Material, Motion, Plane, Scene, Sheet
@@ -84,11 +84,16 @@ def test_restitution_of_the_dashpot():
     assert restitution == pytest.approx(1 - 2 * tau * speed / 3, abs=0.05)
     # of a block that springs back as one; what its own vibration takes is a few per cent
     assert np.sqrt(peak / drop) == pytest.approx(restitution, rel=0.05)
-    assert drift(history) * FALLEN < 5e-3 * 1e3 * 0.002 * 4e-4 * GRAVITY * drop
+    fallen = 1e3 * 0.002 * 4e-4 * GRAVITY * drop
+    assert drift(history) * FALLEN < 5e-3 * fallen
+    # after it has left again the balance is off in h⁴ only, ω² = 0.065 ω_max² of contact, h = 1.6/ω_max
+    parts = history.energies
+    whole = parts["kinetic"] + parts["elastic"] + parts["potential"] + parts["dissipated"]
+    assert abs(whole[-1] - whole[0]) < (MOVING * 1.6**2) ** 2 / 12 * fallen
 
 
 def test_friction_slows_a_slide():
-    slope, friction, duration = 0.5, 0.3, 0.1
+    slope, friction, duration = 0.5, 0.3, 0.05
     slide = block(Plane(position=(0.0, 0.0, -0.001), friction=friction), slope)
     history = run(slide, duration, grid=(3, 3, 2))
     gone = 0.5 * GRAVITY * (np.sin(slope) - friction * np.cos(slope)) * duration**2

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from drawn_obstacles import judged
 
-from lumped.contact import contact
+from lumped import contact
 from sheetbench.numerics.continuation import stiffening
 
 

@@ -23,6 +23,7 @@ def damper_force(assembly, u, v):
     return add_forces(u, v, False, True, packing, scratch(packing), force)[1], force
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("grid", GRIDS)
 def test_damper_force_and_tangents_are_derivatives(grid):
     assembly = assembly_of(grid, **ALL)

@@ -10,6 +10,7 @@ import lumped
 from lumped.dynamics.implicit import esdirk
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.implicit.newton import Newton, StepEquation
+from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GUESSES, STAGES, WEIGHTS
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
@@ -167,3 +168,10 @@ def test_chains_are_refused(name):
     scene = make_scene("one-edge-clamped", actuators=[ROD])
     with pytest.raises(BadInput, match=f"'{name}': does not take chains"):
         lumped.simulate(scene, springs(scene, 4), 0.01, integrator=name)
+
+
+def test_a_steps_polynomial_has_the_states_of_both_ends():
+    """Compiled, and as Python, which checks indices."""
+    ends = np.random.default_rng(0).standard_normal((3, 2, 4, 3))
+    for way in (polynomials, getattr(polynomials, "py_func", polynomials)):
+        np.testing.assert_allclose(way(*ends, 0.1, np.array([0.0, 1.0])), ends, rtol=1e-11, atol=1e-11)

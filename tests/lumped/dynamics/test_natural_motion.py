@@ -22,7 +22,7 @@ def cantilever(natural=None, **more):
 
 
 def springs(scene):
-    return lumped.calibrate(scene.sheet, scene.material, grid=(9, 5, 2))
+    return lumped.calibrate(scene.sheet, scene.material, grid=(5, 3, 2))
 
 
 def run(scene, integrator, duration=0.2, **options):

@@ -228,6 +228,7 @@ def test_a_full_disk_is_said_and_the_run_goes_on_when_there_is_room(tmp_path, ru
     assert np.array_equal(start().probes["P4"], history.probes["P4"])
 
 
+@pytest.mark.nightly
 def test_memory_does_not_grow_with_the_duration(tmp_path):
     scene = make_scene(damping_time=1e-3)
 

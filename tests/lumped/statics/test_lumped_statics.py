@@ -291,3 +291,11 @@ def test_small_displacements_under_a_pressure_are_held_by_forces_across_the_flat
     solution = lumped.solve(scene, springs, linear=True)
     whole = 5.0 * scene.sheet.length_x * scene.sheet.length_y
     np.testing.assert_allclose(sum(solution.reactions.values()), [0.0, 0.0, -whole], atol=1e-9 * whole)
+
+
+@pytest.mark.parametrize(("thickness", "told"), [(3e-3, False), (1e-4, True)])
+def test_rounding_is_told_where_it_may_move_masses_by_a_hundredth_of_the_displacement(thickness, told):
+    """It goes like 1/h²: 0.002 at 3 mm in single precision."""
+    scene = LOADED["one-edge-clamped"]
+    thin = scene.replace(sheet=scene.sheet.replace(thickness=thickness))
+    assert ("rounding may move" in solve(thin, (5, 5), precision="single").message) == told

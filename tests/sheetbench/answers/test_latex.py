@@ -3,7 +3,7 @@
 import unicodedata
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from pylatexenc.latexwalker import (
     LatexCharsNode,
@@ -64,6 +64,7 @@ def _known(node):
         _known(inner)
 
 
+@settings(max_examples=30)
 @given(st.lists(st.tuples(st.text(max_size=20), st.text(max_size=20)), min_size=1, max_size=4), st.text())
 def test_whatever_stands_in_cells_the_table_reads(cells, caption):
     table = Table(caption, (Column("a_b", "m", "mm"), Column("100 %")), tuple(cells))

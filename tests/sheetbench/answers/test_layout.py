@@ -91,12 +91,11 @@ def test_rows_of_a_group_stand_under_its_name():
 
 def test_blocks_of_groups_name_group_and_row():
     columns = (Column("code"), Column("key"), Column("value", form="d"), Column("meaning", prose=True))
-    rows = tuple(
-        ("a code with a long name", key, 1, "a meaning in a few words") for key in ("first", "second")
-    )
+    name = ["a code with a name of many words", "which takes two lines"]
+    rows = tuple((" ".join(name), key, 1, "a meaning in a few words") for key in ("first", "second"))
     for block in blocks(Table("", columns, rows, "", True), 36):
-        assert block.rows[0] == "a code with a long name"
-        assert [row.split()[0] for row in block.rows[1:] if row[0] != " "] == ["first", "second"]
+        assert list(block.rows[:2]) == name
+        assert [row.split()[0] for row in block.rows[2:] if row[0] != " "] == ["first", "second"]
 
 
 @pytest.mark.parametrize(("value", "shown"), [(0.0, "0"), (-0.5, "−0.500000"), (2e7, "2.00000e+07")])

@@ -1,12 +1,14 @@
 """Scenes: what is refused and how it is said, defaults, rigid motions, and the published figures."""
 
+from inspect import signature
+
 import numpy as np
 import pytest
 from scene_files import BAD, GOOD, LOOSE, written
 
 from sheetbench import scenes
 from sheetbench.answers.habibi import KNOWN_FAULTS, published_displacements, published_errors
-from sheetbench.scenes import Held, Hinged
+from sheetbench.scenes import Held, Hinged, Scene
 
 pytestmark = pytest.mark.smoke
 
@@ -54,6 +56,12 @@ def test_only_motions_that_are_free_are_named(supports, free):
     """As many names as independent motions: the vibration solvers count them."""
     scene = scenes.load("one-edge-clamped").replace(supports=supports)
     assert scenes.free_rigid_motions(scene) == free
+
+
+def test_what_a_scene_takes_without_a_name_and_in_which_order():
+    taken = [name for name, one in signature(Scene).parameters.items() if one.kind is not one.KEYWORD_ONLY]
+    assert taken[:7] == ["name", "sheet", "material", "gravity", "supports", "loads", "actuators"]
+    assert taken[7:] == ["springs", "dampers", "probes"]
 
 
 def test_catalogue_scenes_load_and_stand_still():

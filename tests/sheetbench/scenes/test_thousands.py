@@ -60,7 +60,7 @@ MANY = {
 }  # fmt: skip
 
 
-@pytest.mark.sweep
+@pytest.mark.sweep(6)
 @pytest.mark.parametrize("parts", MANY)
 def test_a_thousand_parts_take_seconds(parts):
     began = process_time()

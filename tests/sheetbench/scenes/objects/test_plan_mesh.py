@@ -45,6 +45,7 @@ def written(folder, points, cells, file="own.msh", width=0.3):
     return folder / "own.toml"
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("file", ["own.msh", "own.vtu", "own.inp"])
 def test_the_boundary_of_a_mesh_is_the_outline_with_its_holes(tmp_path, file):
     points, cells = frame()

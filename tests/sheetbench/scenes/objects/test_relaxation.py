@@ -40,7 +40,7 @@ def test_what_no_material_does_is_refused_by_key_and_value(tmp_path, fault):
 
 
 @pytest.mark.parametrize("loss_factor", [0.02, 0.12, 0.5])
-@pytest.mark.parametrize("band", [(4.0, 6.0), (1.0, 20.0), (0.01, 1000.0)])
+@pytest.mark.parametrize("band", [(4.0, 6.0), (1.0, 20.0), (0.001, 1000.0)])
 def test_branches_keep_a_loss_factor_over_a_band(loss_factor, band):
     """Two a decade: within 10 % where the branches are not the ones that were fitted at."""
     branches = Material(1e6, 0.48, 1100.0, loss_factor=loss_factor, band=band).branches

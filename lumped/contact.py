@@ -1,13 +1,9 @@
 """Contact of the sheet with one rigid obstacle: a penalty on the mid-surface, offset by half the thickness.
 
-With its distance φ from the obstacle (`sheetbench.scenes.meaning.distances`) and depth d = ⟨h/2 + δ₀ − φ⟩,
-δ₀ = 1e-9 h so that a sheet that lies on a plane is held by it, a point of area A has
+With its distance φ from the obstacle (`sheetbench.scenes.meaning.distances`) and depth d = ⟨h/2 + δ₀ − φ⟩ a
+point of area A has
 
-    energy A ψ(d),   force A p n,  p = ψ',   tangent A (p' n nᵀ − p ∇n);   ψ = ½ k d² at rest.
-
-k = E/h is the sheet's own give through its thickness, which neither model resolves: bending contact has p/E
-of 1e-6 to 1e-4, so that the depth p h/E is far below 1e-3 h. `share` scales k: statics begin with a soft one
-(`sheetbench.numerics.continuation.stiffening`).
+    energy A ψ(d),   force A p n,  p = ψ',   tangent A (p' n nᵀ − p ∇n);   ψ = ½ k d² at rest,  k = E/h.
 
 Points are the columns of masses, with their tributary areas, on a plane. On a sphere or cylinder the masses
 alone sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with
@@ -16,19 +12,15 @@ them, of a sheet that rests on the obstacle, or nothing would hold it at the sta
 as its position is made up, by the layers equally.
 
 In motion k is 0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond
-k (d²/2 − δ d/2 + δ²/6). Velocity Verlet keeps H + h² (v·V''v/12 − F·M⁻¹F/24), so that its energy is off by
-up to h² k/(6 ρ h) of the kinetic energy of what touches, for a moment. Conserving midpoint steps have the
-mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996), whose derivative by the end has half of ∇n there. A dashpot
-p (1 + τ ḋ) ≥ 0 takes ∮ p τ ḋ² dt (Hunt and Crossley, 1975): m v dv = −p (1 + τ v) dd leads from a speed v to
-e v with, whatever the law p(d),
-
-    v/τ − ln(1 + τ v)/τ² = −e v/τ − ln(1 − τ e v)/τ²,   e = 1 − 2 τ v/3 + O(τ²v²).
-
-Friction is regularised Coulomb, −μ p A v_t/√(v_t² + v₀²), v₀ = 1 mm/s: it creeps where it should stick.
+k (d²/2 − δ d/2 + δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996), whose
+derivative by the end has half of ∇n there. A dashpot makes the pressure p (1 + τ ḋ) ≥ 0 (Hunt and Crossley,
+1975), friction is −μ p A v_t/√(v_t² + v₀²). `docs/contact.md` has the reasons, and what energy they take.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -41,15 +33,15 @@ from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Plane, Scene, free_rigid_motions
 from sheetbench.scenes.meaning.composition import constants_at
-from sheetbench.scenes.meaning.distances import Near, dyad, near, obstacles_by_name, projector
+from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
 from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
 
 FINEST = 32  # points a side of a cell
-MOVING = (
-    0.065  # of ω_max², that contact in motion adds at most: 0.05 in the interior, where A ρ h is the mass
-)
+MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where the mass is A ρ h, not at edges
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
+KINDS = ("plane", "sphere", "cylinder")
+POINT = ("obstacle", "corners", "weights", "area", "offset", "stiffness")
 
 
 class _Touching(NamedTuple):
@@ -72,14 +64,12 @@ def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.nd
     parts of its sides (2,) [m] or at their ends."""
     rules = []
     for parts in np.maximum(2, np.ceil(2.0 * sides / radius)).astype(int):
-        at = np.arange(parts + 1) / parts if ends else (np.arange(parts) + 0.5) / parts
+        at = (np.arange(parts + ends) + 0.5 * (not ends)) / parts
         shares = np.full(len(at), 1.0 / parts)
-        if ends:
-            shares[[0, -1]] *= 0.5
+        shares[[0, -1]] /= 1 + ends
         rules.append((np.stack([1.0 - at, at], axis=1), shares))
     (along_x, width), (along_y, height) = rules
-    weights = np.einsum("ja,ib->jiab", along_y, along_x).reshape(-1, 4)
-    return weights, np.outer(height, width).ravel()
+    return np.kron(along_y, along_x), np.kron(height, width)
 
 
 class Contact(LatticeItem):
@@ -90,7 +80,8 @@ class Contact(LatticeItem):
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.radius = name, obstacle, obstacle.radius
         self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
-        self.moves = obstacle.motion is not None
+        self.moves, self.velocity = obstacle.motion is not None, obstacle.velocity
+        self.displacement = partial(obstacle.displacement, 1.0)
         self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas
@@ -114,21 +105,11 @@ class Contact(LatticeItem):
         there = area[:, 0] > 0.0
         self.nodes = np.ascontiguousarray(nodes.reshape(len(area), -1)[there])
         self.area, self._rest = area[there], lattice.positions[self.nodes]
-        constants = constants_at(scene, (self.weights @ self._rest)[..., :2].reshape(-1, 2))
-        self.thickness, stretching = (
-            np.broadcast_to(part, self.area.size).reshape(self.area.shape)
-            for part in (constants.thickness, constants.stretching)
-        )
-        self.full = stretching / self.thickness**2
+        constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
+        self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots = assembly.pattern.among(self.nodes)
         self._eps = assembly.rounding
-
-    def displacement(self, time: float) -> np.ndarray:
-        return self.obstacle.displacement(1.0, time)
-
-    def velocity(self, time: float) -> np.ndarray:
-        return self.obstacle.velocity(time)
 
     def _law(self, depth: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return A ψ [J], A p [N] and A p' [N/m] of patches `of` at depths (m, p) [m]."""
@@ -264,7 +245,26 @@ class Contact(LatticeItem):
         return way
 
 
-def contacts(scene: Scene, assembly: Assembly) -> tuple[Contact, ...]:
-    """Return the contact of a lattice with each of the scene's obstacles. Raises BadInput for one too
-    thin."""
-    return tuple(Contact(scene, assembly, name, each) for name, each in obstacles_by_name(scene).items())
+def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:
+    """Return obstacles and points of contacts of a lattice of so many layers, named as in `lattice.npz`
+    (`comparisons.codes.arrays`): with φ the distance of a point from its obstacle each has the energy
+    ½ stiffness area ⟨offset − φ⟩²."""
+    shapes = [one.obstacle for one in contacts]
+    parts = [(np.empty(0, int), np.empty((0, 4, layers), int), np.empty((0, 4)), *[np.empty(0)] * 3)]
+    for number, one in enumerate(contacts):
+        (patches, points), corners = one.area.shape, one.nodes.reshape(len(one.nodes), -1, layers)
+        weights = one.weights.reshape(points, -1, layers).sum(axis=2)
+        corners = np.repeat(corners, 4 // corners.shape[1], axis=1)  # of a column of masses on a plane
+        weights = np.pad(weights, ((0, 0), (0, 4 - weights.shape[1])))
+        place = np.full(one.area.size, number), np.repeat(corners, points, axis=0)
+        measures = one.area, (0.5 + TOUCH) * one.thickness, one.full
+        parts.append((*place, np.tile(weights, (patches, 1)), *(each.ravel() for each in measures)))
+    at = [shape.position + shape.displacement(1.0) for shape in shapes]  # where each is at last
+    columns = map(np.concatenate, zip(*parts, strict=True))
+    return {
+        "obstacle_kind": np.array([KINDS.index(shape.kind) for shape in shapes], dtype=int),
+        "obstacle_position": np.array(at).reshape(-1, 3),
+        "obstacle_direction": np.array([shape.direction for shape in shapes]).reshape(-1, 3),
+        "obstacle_radius": np.array([0.0 if isinstance(one, Plane) else one.radius for one in shapes]),
+        **{f"contact_{name}": column for name, column in zip(POINT, columns, strict=True)},
+    }

@@ -1,0 +1,47 @@
+"""Named tuples of arrays that compiled functions take quickly.
+
+numba finds the type of an argument at every call: of an array in a tenth of a microsecond, of every named
+tuple in one and more. A tuple that carries its type is taken at once.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar, cast
+
+import numpy as np
+from numba import typeof
+from numba.core import config
+from numba.extending import typeof_impl
+
+T = TypeVar("T", bound=tuple[Any, ...])
+_TYPES: dict[Any, Any] = {}
+
+
+class TypedTuple(tuple[Any, ...]):
+    """What compiled functions see as the named tuple that it was made of; Python sees no names."""
+
+    _numba_type_: Any
+
+
+@typeof_impl.register(TypedTuple)
+def _typeof(value: TypedTuple, context: Any) -> Any:
+    return value._numba_type_
+
+
+def typed(value: T) -> T:
+    """Return a named tuple of arrays, numbers and such tuples with its type, for compiled functions alone."""
+    if config.DISABLE_JIT:  # type: ignore[attr-defined]  # made from the environment
+        return value
+    if (key := _key(value)) not in _TYPES:
+        _TYPES[key] = typeof(value)
+    found = TypedTuple(value)
+    found._numba_type_ = _TYPES[key]
+    return cast(T, found)
+
+
+def _key(value: Any) -> Any:
+    if isinstance(value, TypedTuple):
+        return value._numba_type_
+    if isinstance(value, tuple):
+        return type(value), *map(_key, value)
+    return (value.dtype, value.ndim, value.flags.num) if isinstance(value, np.ndarray) else type(value)

@@ -250,7 +250,7 @@ def test_a_mesh_that_is_not_there_and_a_foreign_coefficient_are_refused():
     with pytest.raises(BadInput, match="one of one-diagonal"):
         sb.cell("hexagons", 0.01, 0.001)
     with pytest.raises(BadInput, match="coefficient bend"):
-        sb.calibrate(SCENE, cell="equilateral", coefficient=["bend=1.0"])
+        sb.calibrate(SCENE, cell="equilateral", coefficient={"bend": 1.0})
 
 
 def test_bending_of_codes_that_are_not_run_is_that_of_their_source():

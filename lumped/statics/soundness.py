@@ -10,27 +10,10 @@ import numpy as np
 from numba import njit
 
 from lumped.springs.links import measure
+from sheetbench.numerics.maps import Rows, transposed_product
 
 TINY = float(np.finfo(float).tiny)
 TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named
-
-
-@njit(cache=True)
-def first_collapsed(
-    states: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, limit: float
-) -> tuple[int, int]:
-    """Return the first of the displacements (k, n, 3) [m] with a link shorter than this share of its rest
-    length, k if none, and its shortest link; arrays as in `lumped.springs.links`."""
-    for k in range(len(states)):
-        least, which = np.inf, 0
-        for m in range(len(nodes)):
-            _, square, length, _ = measure(states[k], nodes, offset, rest_length, m)
-            rest = length * length
-            if square < least * rest:
-                least, which = square / rest, m
-        if least < limit * limit:
-            return k, which
-    return len(states), 0
 
 
 @njit(cache=True)
@@ -59,17 +42,38 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
 
 
 @njit(cache=True)
-def first_inverted(
-    columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, states: np.ndarray
+def first_broken(
+    states: np.ndarray,
+    nodes: np.ndarray,
+    offset: np.ndarray,
+    rest_length: np.ndarray,
+    limit: float,
+    columns: np.ndarray,
+    positions: np.ndarray,
+    areas: np.ndarray,
 ) -> tuple[int, int, int]:
-    """Return the first of the displacements (k, n, 3) [m] with a cell of the mid-surface whose normal points
-    away from the mean director of its corners, k if none, and the cell (j, i) that does so most, for its area
-    when flat; areas (ny − 1, nx − 1) [m²], 0 of absent ones, the rest as in `surface`."""
+    """Return the first of the displacements (k, n, 3) [m] that means nothing, k if all do, why and the mass
+    where: 0, a number that is not finite; 1, the shortest link, shorter than this share of its rest length
+    (arrays as in `lumped.springs.links`); 2, the cell of the mid-surface whose normal points away from the
+    mean director of its corners most, for its area when flat; areas (ny − 1, nx − 1) [m²], 0 of absent ones,
+    the rest as in `surface`."""
     ny, nx, _ = columns.shape
     first, second, mean = np.empty(3), np.empty(3), np.empty(3)
     for k in range(len(states)):
+        for i in range(len(positions)):
+            for q in range(3):
+                if not math.isfinite(states[k, i, q]):
+                    return k, 0, i
+        least, mass = np.inf, 0
+        for m in range(len(nodes)):
+            _, square, length, _ = measure(states[k], nodes, offset, rest_length, m)
+            rest = length * length
+            if square < least * rest:
+                least, mass = square / rest, nodes[m, 0]
+        if least < limit * limit:
+            return k, 1, mass
         middle, director = surface(columns, positions, states[k])
-        least, row, column = np.inf, 0, 0
+        least = np.inf
         for j in range(ny - 1):
             for i in range(nx - 1):
                 for q in range(3):
@@ -82,9 +86,9 @@ def first_inverted(
                     r, s = (q + 1) % 3, (q + 2) % 3
                     facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
                 if areas[j, i] > 0.0 and facing < least * areas[j, i]:
-                    least, row, column = facing / areas[j, i], j, i
+                    least, mass = facing / areas[j, i], columns[j, i, 0]
         if least <= 0.0:
-            return k, row, column
+            return k, 2, mass
     return len(states), 0, 0
 
 
@@ -119,15 +123,17 @@ def sharpest_bend(
 
 
 @njit(cache=True)
-def carried_by_links(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
-    """Return k |Δu| of the links at every mass, summed, (n,) [N]."""
-    out = np.zeros(len(u))
+def rounded_forces(
+    u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray, sample: np.ndarray, free: Rows, n: int
+) -> np.ndarray:
+    """Return Tᵀ f (n,) [N] of a sample (k, 3) times k |Δu| of the links at every mass, summed; free: T."""
+    carried = np.zeros(len(u))
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
         square = 0.0
         for q in range(3):
             square += (u[b, q] - u[a, q]) ** 2
         pull = stiffness[m] * math.sqrt(square)
-        out[a] += pull
-        out[b] += pull
-    return out
+        carried[a] += pull
+        carried[b] += pull
+    return transposed_product(free, (carried.reshape(-1, 1) * sample).ravel(), n)

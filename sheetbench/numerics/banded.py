@@ -198,6 +198,13 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
     return True
 
 
+@njit(cache=True, nogil=True)
+def factored(blocks: np.ndarray, band: Band) -> tuple[np.ndarray, bool]:
+    """Cholesky factors of the matrix of blocks (b, 3, 3), and whether there are such."""
+    factors = stored(blocks, band)
+    return factors, factor(factors, len(band.order), band.width)
+
+
 @njit(cache=True, nogil=True, fastmath=REORDERED)
 def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
     """Solve with the factors in place, x in the band's order in a `padded_vector`."""

@@ -1,0 +1,52 @@
+"""What an equilibrium's springs store, and how far they are strained, as one compiled loop."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+
+from lumped.springs import cells, links
+from lumped.springs.cells import CellArrays
+from lumped.springs.links import LinkArrays
+
+Springs = tuple[LinkArrays, CellArrays, CellArrays, CellArrays]  # cells of layers, the mid-surface and faces
+
+
+class Survey(NamedTuple):
+    """energies: of the springs under each name in the spring set [J]; strain: the largest relative change of
+    length of the links in a layer; stretch: of their energy that of the layers' mean stretch [J]."""
+
+    energies: dict[str, float]
+    strain: float
+    stretch: float
+
+
+@njit(cache=True, nogil=True)
+def survey(
+    u: np.ndarray, springs: Springs, areas: tuple[Any, ...], kind: np.ndarray, kinds: int, layers: int
+) -> tuple[np.ndarray, float, float]:
+    """Return the energies of the links by kind (m,) and of both kinds of springs on cells, (kinds + 6,) [J],
+    and the rest of a `Survey`; areas: the three tags of area springs alone."""
+    along, in_layers, middle, faces = springs
+    elongation = links.elongations(u, along)
+    energies, stretch, summed, met = np.zeros(kinds + 6), 0.0, 0.0, 0
+    for m in range(len(elongation)):
+        half, e = 0.5 * along.constants[m], elongation[m]
+        energies[kind[m]] += half * (e * e)
+        if along.offset[m, 2] == 0.0:
+            # links between the same columns follow each other, layer by layer, and are as stiff as each other
+            summed, met = summed + e, met + 1
+            if met % layers == 0:
+                stretch, summed = stretch + half * (summed * summed) / layers, 0.0
+    parts = (
+        cells.energies(u, in_layers, areas[0]),
+        cells.energies(u, middle, areas[1]),
+        cells.energies(u, faces, areas[2]),
+    )
+    for f, part in enumerate(parts):
+        for c in range(len(part)):
+            energies[kinds + 2 * f] += part[c, 0]
+            energies[kinds + 2 * f + 1] += part[c, 1]
+    return energies, links.largest_strains(u.reshape((1, *u.shape)), along)[0], stretch

@@ -134,9 +134,3 @@ def test_command_writes_maps_and_tables_and_resumes(tmp_path, capsys, monkeypatc
     before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
     assert json_of(capsys, *words) == document
     assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
-
-
-def test_an_unknown_part_is_refused_in_one_line(capsys):
-    assert run("study", "stability", "--part", "weather") == 2
-    message = one_line(capsys)
-    assert "weather" in message and "published" in message

@@ -66,14 +66,6 @@ def test_a_model_that_refuses_is_left_out_before_anything_moves(tmp_path):
         compare_motion(SWING, 0.002, models=[model])
 
 
-@pytest.mark.parametrize(
-    "arguments", [("one-edge-clamped", "two-edges-clamped"), ("one-edge-clamped", "--shell", "")]
-)
-def test_a_crosscheck_of_motions_is_of_one_scene_and_with_a_shell(arguments, capsys):
-    assert run("crosscheck", "one-edge-clamped", *arguments, "--duration", "0.1") == 2
-    assert "--duration: one scene, a lattice, and a shell" in one_line(capsys)
-
-
 @pytest.mark.parametrize("code", [CALCULIX, KRATOS])
 def test_a_motion_that_another_code_is_not_given_says_why(code):
     grown = FactorTable(time=(0.0, 1.0), factor=(0.0, 1.0))

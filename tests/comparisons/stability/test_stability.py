@@ -148,8 +148,3 @@ def test_grids_are_held_against_the_finest_mesh(store, monkeypatch):
     }
     assert rows["shell", 6]["error"] is None and rows["shell", 4]["error"] < rows["shell", 2]["error"]
     assert rows["lumped", 8]["error"] < rows["lumped", 2]["error"]
-
-
-def test_what_cannot_be_varied_is_refused(store, capsys):
-    with pytest.raises(BadInput, match="cuboid"):
-        stability(SEED, store, reference="cuboid")

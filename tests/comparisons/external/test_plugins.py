@@ -1,6 +1,5 @@
 """Models from outside: the example of the docs in our tables, and what is said of faulty ones."""
 
-import json
 import sys
 import tomllib
 from pathlib import Path
@@ -19,7 +18,7 @@ from sheetbench import face as models
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad
+from sheetbench.scenes import Clamped, EdgeLoad, Hinged, PointLoad
 
 DOCS = Path(__file__).parents[3] / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
@@ -49,27 +48,6 @@ def test_the_example_of_the_docs_answers_like_a_beam(installed):
     tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
     assert solution.displacement(scene.probe_points())[3, 2] == pytest.approx(tip)
     assert models.solve(scene, "strip").settings == {"plane_strain": False}
-
-
-def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed):
-    scene = scenes.load("one-edge-clamped")
-    (clamp,), gravity = scene.supports, scene.gravity
-    assert gravity is not None
-    waning = gravity.model_copy(update={"history": FactorTable(time=(0.0, 1.0), factor=(1.0, 0.5))})
-    whole = models.solve(scene, "strip").displacement(scene.probe_points())
-    half = models.solve(scene.model_copy(update={"gravity": waning}), "strip")
-    np.testing.assert_allclose(half.displacement(scene.probe_points()), 0.5 * whole, rtol=1e-12)
-    chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
-    for update in (
-        {"loads": (PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 1.0)),)},
-        {"supports": (clamp, Hinged(edge="x1"))},
-        {"supports": (Clamped(edge="x0", tilt=0.1),)},
-        {"actuators": (chain,)},
-        {"gravity": None},
-        {"gravity": gravity.model_copy(update={"acceleration": (1.0, 0.0, -9.81)})},
-    ):
-        with pytest.raises(ValueError, match="strip: knows"):
-            models.solve(scene.model_copy(update=update), "strip")
 
 
 @pytest.mark.usefixtures("in_process")
@@ -240,12 +218,3 @@ def test_mujoco_refuses_what_it_does_not_have(shipped):
 def test_settings_of_our_own_models_are_looked_at_before_solving(model, settings, said):
     with pytest.raises(BadInput, match=said):
         models.solve(scenes.load("one-edge-clamped"), model, **settings)
-
-
-def test_compare_takes_a_plug_in_from_its_file(capsys):
-    arguments = ("one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
-    assert run("compare", *arguments, "--model", f"{DOCS / 'plugin.py'}:Strip") == 0
-    document = json.loads(capsys.readouterr().out)
-    models_shown = [solution["model"] for solution in document["solutions"]]
-    assert models_shown[-1] == "strip" and {"lumped", "shell"} < set(models_shown)
-    assert {"strip"} == {d["of"] for d in document["differences"]} - {"lumped", "lumped-uniform"}

@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import run
 
 import lumped  # noqa: F401  (rslab is to be imported by the thread that lives longest)
 from comparisons.sweep.campaign import campaign

@@ -26,7 +26,7 @@ from comparisons.sweep.store import FILE
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.answer import Tradeoff, folded
 from comparisons.tradeoff.figure import compose, logarithmic
-from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff
+from comparisons.tradeoff.motion import dynamic_tradeoff
 from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, parse_figure
@@ -160,17 +160,6 @@ def test_killed_and_resumed_tradeoff_has_all_its_rows(finished):
     assert json.loads((finished / "manifest.json").read_text(encoding="utf-8"))["machine"]
 
 
-def test_asked_again_nothing_is_run_and_the_document_is_the_same(finished, capsys):
-    before = rows_in(finished / FILE)
-    written = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
-    assert run(*SMALL, "--json", "--out", str(finished)) == 0
-    printed = capsys.readouterr()
-    assert json.loads(printed.out) == written
-    drawing = {"drawing tradeoff.svg …"}  # said where it lasts, as on a busy machine
-    assert set(printed.err.splitlines()) <= drawing
-    assert rows_in(finished / FILE) == before
-
-
 @pytest.mark.nightly
 def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path):
     scene = scenes.load("two-edges-settling")
@@ -219,26 +208,6 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene):
         names = [text.get_text() for text in drawn.legends[0].get_texts()]
         assert any(name.startswith("lumped consistent  (order ") for name in names)
         assert drawn.axes[1].get_title(loc="left") == "Observed convergence"
-
-
-@pytest.mark.nightly
-def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path):
-    """The scene's own springs, four times as stiff: limit, period and runs are all of them."""
-    scene = scenes.load("two-edges-settling")
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=3)
-    stiff = {name: 4.0 * k for name, k in springs.document()["springs"].items() if isinstance(k, float)}
-    table = {**stiff, "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
-    own = scene.replace(springs=table)
-    names = ("verlet",)
-    options = {"integrators": names, "fine": 400, "pool": Here, "reference": Elements("shell", 2)}
-    with campaign(tmp_path) as store:
-        found = dynamic_tradeoff(own, 0.02, store, **options)
-        k_given = dynamic_tradeoff(scene, 0.02, store, lattices=[Lattice(3, k=800.0)], **options)
-    limit = lumped.explicit_limit(names[0], own, lumped.given(own))
-    assert limit < 0.7 * lumped.explicit_limit(names[0], own, springs)
-    assert [row.step for row in found.rows] == [pytest.approx(share * limit) for share in SHARES]
-    assert all(row.status == "converged" for row in (*found.rows, *k_given.rows))
-    assert k_given.lattices == ("lumped 3×3×2 uniform",)
 
 
 @pytest.mark.nightly

@@ -201,15 +201,6 @@ def test_springs_alike_in_all_cells_are_shared_out_where_a_sheet_is_cut(tmp_path
     assert len(masses) < 17 * 11 * 2
 
 
-def test_springs_of_a_uniform_sheet_are_refused():
-    scene, _ = STRIPS["tapered"]
-    springs = lumped.calibrate(scene.sheet, scene.material, (9, 3))
-    with pytest.raises(
-        ValueError, match=r"sheet.taper_x: the calibration consistent .* cells=lumped.sections_of"
-    ):
-        lumped.solve(scene, springs)
-
-
 def test_cells_of_a_lattice_know_their_share_of_the_sheet():
     scene = load("one-edge-clamped").replace(cutouts=[{"shape": CUT[1]["shape"]}])
     mesh = solve(resolve(scene, Lattice(6))).mesh

@@ -143,12 +143,6 @@ def test_damaged_files_are_refused_in_a_line_with_the_remedy_and_left_alone(kept
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
 
 
-def test_the_remedy_is_one(kept):
-    folder, history, again = kept
-    shutil.rmtree(folder)
-    assert np.array_equal(again().probes["P4"], history.probes["P4"])
-
-
 @pytest.mark.parametrize("key", ["version", "source"])
 def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
     folder, _, again = kept

@@ -218,25 +218,6 @@ def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(sq
 DAMPED = SCENE.replace(material=SCENE.material.replace(damping_time=0.01))
 
 
-def test_mujocos_dampers_are_the_time_times_its_stiffness(tmp_path):
-    """At velocities so small that both are linear; without damping there is none."""
-    mujoco = pytest.importorskip("mujoco")
-    forces = []
-    for scene in (DAMPED, SCENE):
-        text = setup(scene, "mujoco", 4, best=False).files()
-        text["mujoco.xml"](tmp_path / "mujoco.xml")
-        model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
-        moving, displaced = mujoco.MjData(model), mujoco.MjData(model)
-        moving.qvel[:] = 1e-6 * np.random.default_rng(2).standard_normal(model.nv)
-        displaced.qpos[:] = 0.01 * moving.qvel
-        for data in (moving, displaced):
-            mujoco.mj_forward(model, data)
-        forces.append((moving.qfrc_damper.copy(), displaced.qfrc_spring.copy()))
-    (damper, spring), (none, _) = forces
-    assert damper == pytest.approx(spring, rel=1e-4, abs=1e-4 * np.abs(spring).max())
-    assert np.abs(spring).max() > 0.0 and not none.any()
-
-
 @pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):

@@ -186,32 +186,6 @@ def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
 
 
-@pytest.mark.nightly
-def test_both_sheets_move_side_by_side(tmp_path):
-    """A GIF with both in every frame, the lattice's half and the shell's each changing over time."""
-    from PIL import Image
-
-    from comparisons.pictures import offscreen
-
-    if impossible := offscreen.why_not():
-        pytest.skip(impossible)
-    both = compare_motion(
-        "two-edges-settling", 0.05, Lattice(3), elements=2, uncertainty=False, every=0.01, frames=3
-    )
-    film = replace(both, animate=True).figures()[-1]
-    assert film.write(tmp_path) is None
-    with Image.open(tmp_path / "both.gif") as image:
-        assert image.n_frames == 3
-        pages = []
-        for number in (0, 2):
-            image.seek(number)
-            pages.append(np.asarray(image.convert("RGB"), dtype=int))
-    changed = np.abs(pages[1] - pages[0]).sum(axis=2) > 60
-    middle = changed.shape[1] // 2
-    below = slice(changed.shape[0] // 5, None)  # the title and the time
-    assert changed[below, :middle].sum() > 50 and changed[below, middle:].sum() > 50
-
-
 def test_an_obstacle_that_comes_up_is_seen_where_it_is(tmp_path):
     """A ball below a sheet, pale brown on white: its lower end is higher in the last frame."""
     from PIL import Image

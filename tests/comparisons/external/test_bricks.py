@@ -2,15 +2,13 @@
 
 import numpy as np
 import pytest
-import sheetbench_felupe as felupe
-from scipy.sparse import csr_matrix
 
-from comparisons.external.bricks import Bricks, Held, forces, held, materials
+from comparisons.external.bricks import Bricks, forces, held, materials
 from comparisons.external.calculix.deck import deck
 from comparisons.external.kratos.problem import Triangles, problem
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import nodes_of
-from sheetbench.scenes import Clamped, EdgeLoad, Hinged, PointLoad, Pressure, Sheet, load
+from sheetbench.scenes import Clamped, EdgeLoad, Hinged, PointLoad, Sheet, load
 from sheetbench.scenes.meaning.composition import mass_of
 
 SEED = load("two-edges-clamped")
@@ -116,25 +114,3 @@ def test_a_deck_of_a_drawn_sheet_has_its_parts(drawn):
     inside = len(drawn.inside(DRAWN.loads[1].where))
     assert text.count(", P1, 12.0\n") == text.count(", P2, -12.0\n") == inside > 5
     assert text.count(", P1, 2.0\n") == drawn.plan.nelements - inside
-
-
-@pytest.mark.parametrize(("longest", "reached"), [(1.0, 1.0), (0.3, 1.0), (1 / 64, 1.0), (1 / 128, 0.0)])
-def test_load_steps_for_felupe_are_halved_down_to_a_64th(longest, reached):
-    def spring(u, load_factor):
-        """Of stiffness one; without an answer to a step that is too long."""
-        miss = u.ravel() - load_factor
-        return np.where(-miss > longest, np.nan, miss), csr_matrix(np.eye(3))
-
-    loose = Held(np.eye(3)[None], np.zeros((1, 3), dtype=bool), np.zeros((1, 3)), ())
-    path = felupe._traced(spring, loose)
-    assert path.load_factor == reached and path.displacement == pytest.approx(reached)
-
-
-def test_a_deck_has_a_line_for_all_that_is_asked(bricks):
-    scene = changed(loads=(Pressure(value=20.0), PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 1.0))))
-    text = deck(scene, bricks, linear=False)
-    assert "*STEP, NLGEOM" in text and "GRAV, 9.81, 0.0" in text and "*TRANSFORM" not in text
-    assert text.count(", P1, 10.0\n") == text.count(", P2, -10.0\n") == 16
-    assert max(map(len, text.splitlines())) < 132
-    assert "NLGEOM" not in deck(scene, bricks, linear=True)
-    assert "*TRANSFORM" in deck(load("curved-edge"), bricks, linear=False)

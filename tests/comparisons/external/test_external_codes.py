@@ -212,14 +212,6 @@ def test_two_programs_answer_alike_on_the_same_bricks():
     assert off is not None and off < 2e-6
 
 
-def test_without_nlgeom_calculix_is_the_linear_plate():
-    needed(CALCULIX)
-    points = SEED.probe_points()
-    bricks = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 6, "linear": True}).displacement(points)
-    off = error(bricks, fem_reference.solve(SEED, model="plate", elements=16).displacement(points))
-    assert off is not None and off < 0.003
-
-
 def pulled_rubber(rubber):
     """A clamped strip pulled by some 60 %."""
     sheet = Sheet(length_x=0.1, length_y=0.05, thickness=0.004)

@@ -206,6 +206,10 @@ def test_what_the_data_do_not_determine_is_no_result():
     assert [*found.unknowns] == ["young", "density"]
     assert all(row[2:6] == (None,) * 4 for row in found.report().tables[0].rows)
     assert "changed together" in repr(found)
+    assert any("do not see a combination of young, density" in said for said in found.warnings)
+    young, density = (one.value for one in found.unknowns.values())
+    assert young / density == pytest.approx(SEED.material.young / SEED.material.density, rel=0.01)
+    assert 0.1 < density / SEED.material.density < 10.0  # it does not wander along what nothing holds
     assert not any(u["determined"] for u in found.document()["unknowns"].values())
 
 

@@ -43,13 +43,6 @@ def test_both_models_agree_and_files_are_left(tmp_path, capsys):
     assert np.abs(np.abs(first) - np.abs(second)).max() < 0.02 * np.abs(second).max()
 
 
-def test_table_has_ten_modes_and_several_references(capsys):
-    arguments = ("--lumped", "5", "--reference", "plate", "--reference", "shell", "--elements", "4")
-    assert run("modes", "two-edges-clamped", *arguments) == 0
-    printed = capsys.readouterr().out
-    assert all(word in printed for word in ("lumped", "plate", "shell", "10", "Hz"))
-
-
 def test_a_free_sheet_has_its_rigid_motions_left_out():
     scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
     found = spectra(scene, Lattice((7, 7, 2)), count=3, elements=4)

@@ -12,7 +12,7 @@ from scipy.io import loadmat
 import lumped
 from comparisons.models.spec import Lattice
 from comparisons.modes import state_figure as figure
-from comparisons.modes.state_space import linearise, unit_of
+from comparisons.modes.state_space import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
@@ -200,11 +200,3 @@ def test_few_modes_need_no_dense_matrices(flat, monkeypatch):
     np.testing.assert_allclose(*at_rest, atol=1e-8 * np.abs(flat.jacobian).max())
     with pytest.raises(BadInput, match="not stable"):
         replace(flat, stiffness=-flat.stiffness).state_space(6)
-
-
-def test_inputs_of_natural_curvature_are_in_1_over_m():
-    assert [unit_of(name) for name in ("patch1.natural.kxx", "natural.kxy", "load 1")] == [
-        "1/m",
-        "1/m",
-        "factor",
-    ]

@@ -170,8 +170,3 @@ def test_the_option(tmp_path, capsys):
     assert f'width="{72.0 * WIDTHS["single"]:f}pt"' in (out / "modes.svg").read_text(encoding="utf-8")
     assert f"/MediaBox [ 0 0 {72.0 * WIDTHS['double']:.8f}".encode() in (out / "modes.pdf").read_bytes()
     capsys.readouterr()
-    bare = tmp_path / "bare"
-    assert run(*arguments, "--no-pictures", "--out", str(bare)) == 0
-    assert "drawing" not in capsys.readouterr().err
-    left = {path.suffix for path in bare.iterdir()}
-    assert not left & {".png", ".pdf", ".svg"} and {".json", ".csv", ".vtu"} <= left

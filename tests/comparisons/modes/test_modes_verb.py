@@ -5,6 +5,7 @@ import json
 import meshio
 import numpy as np
 import pytest
+from cases import sheet
 from commands import run
 
 from comparisons.models.spec import Lattice
@@ -12,14 +13,9 @@ from comparisons.modes.kinds import kinds
 from comparisons.modes.pairing import CELLS, assurance, cell_centres, matched
 from comparisons.modes.spectra import spectra
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Material, Scene, Sheet
+from sheetbench.scenes import Clamped
 
-STRIP = Scene(
-    name="strip",
-    sheet=Sheet(length_x=0.12, length_y=0.04, thickness=0.002),
-    material=Material(young=0.6e6, poisson=0.48, density=1070.0),
-    support=(Clamped(edge="x0"),),
-)
+STRIP = sheet(0.12, 0.04, 0.002, 0.6e6, 0.48, 1070.0)
 
 
 @pytest.mark.usefixtures("undrawn")

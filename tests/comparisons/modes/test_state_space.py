@@ -55,13 +55,8 @@ def test_a_step_answers_as_the_simulation_does_in_the_small(flat):
 def test_a_moved_edge_answers_as_the_simulation_does(flat):
     """A ramp of 1e-6 m of the edge, as steps of its rate: the dampers of the edge's cells take part."""
     rise = Motion(time=(0.0, 0.02), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-6)))
-    scene = Scene(
-        name="shaken",
-        sheet=SHEET,
-        material=DAMPED.material,
-        support=(Clamped(edge="x0", motion=rise),),
-        probes={"P": (0.188, 0.188)},
-    )
+    held, probes = (Clamped(edge="x0", motion=rise),), {"P": (0.188, 0.188)}
+    scene = Scene(name="shaken", sheet=SHEET, material=DAMPED.material, support=held, probes=probes)
     springs = springs_of(scene, 3)
     history = lumped.simulate(scene, springs, 0.1, every=0.001, step=1e-4, integrator="midpoint")
     linear = lumped.linearise(scene, springs, "flat")

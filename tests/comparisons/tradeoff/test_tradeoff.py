@@ -11,6 +11,7 @@ import campaigns
 import numpy as np
 import pytest
 from campaigns import Here, rows_in
+from cases import sheet
 from commands import run
 from matplotlib.figure import Figure
 from verbs import run_here
@@ -32,7 +33,6 @@ from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, parse_figure
 from sheetbench.answers.files import to_json
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 
 SMALL = [
     *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),
@@ -213,16 +213,8 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene):
 @pytest.mark.nightly
 def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(tmp_path):
     """A soft strip of 120 by 40 mm swings in 1.8 s while it is flat, in a quarter of that where it hangs."""
-    sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
-    material = Material(young=0.6e6, poisson=0.45, density=1100.0)
-    strip = Scene(
-        name="strip",
-        sheet=sheet,
-        material=material,
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-        support=(Clamped(edge="x0"),),
-    )
-    springs = lumped.calibrate(sheet, material, grid=3)
+    strip = sheet(0.12, 0.04, 0.002, 0.6e6, 0.45, 1100.0, weight=9.81)
+    springs = lumped.calibrate(strip.sheet, strip.material, grid=3)
     flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
     options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 800, "pool": Here}
     with campaign(tmp_path) as store:
@@ -235,13 +227,7 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
 @pytest.mark.nightly
 def test_motions_with_strains_beyond_the_model_are_measured_and_say_so(tmp_path):
     """A sheet too heavy for its law: its rows had neither error nor cost."""
-    heavy = Scene(
-        name="heavy",
-        sheet=Sheet(length_x=0.2, length_y=0.1, thickness=0.003),
-        material=Material(young=2e4, poisson=0.3, density=1000.0),
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-        support=(Clamped(edge="x0"),),
-    )
+    heavy = sheet(0.2, 0.1, 0.003, 2e4, weight=9.81)
     options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 400, "pool": Here}
     shell = Elements("shell", 2)
     with campaign(tmp_path) as store:

@@ -1,4 +1,4 @@
-"""Narrow strips of oblique fibres, clamped at an end, under a small weight: lattice against shell. (docs/theory.md, 4)."""
+"""Narrow strips of oblique fibres, clamped at an end, under a small weight: lattice against shell."""
 
 import numpy as np
 import pytest

@@ -40,8 +40,10 @@ def sheet(
     weight: float = 0.0,
     **more: Any,
 ) -> Scene:
-    """A sheet [m] of an isotropic material [Pa, –, kg/m³], clamped along edges, under gravity [m/s²] down; more:
-    keys of a scene, in place of these or besides."""
+    """A sheet [m] of an isotropic material [Pa, –, kg/m³], clamped along edges, under gravity [m/s²] down.
+
+    more: keys of a scene, in place of these or besides.
+    """
     given: dict[str, Any] = {"name": "sheet", "material": Material(young, poisson, density)}
     given["supports"] = tuple(Clamped(edge=edge) for edge in held.split())
     if weight:

@@ -210,10 +210,8 @@ def test_a_sheet_blown_up_so_far_that_it_turns_within_a_thickness_is_within_it(n
     held = ("x0", "y0")[: 1 if strip else 2]
     width, planes = (0.02, ("x1", "y0", "y1")) if strip else (0.05, ("x1", "y1"))
     supports = (*(Clamped(edge=edge) for edge in held), *(Symmetric(edge=edge) for edge in planes))
-    loads, top = (Pressure(value=pressure),), (0.05, width)
-    scene = sheet(
-        0.05, width, thickness, material=material, supports=supports, loads=loads, probes={"top": top}
-    )
+    given = {"supports": supports, "loads": (Pressure(value=pressure),), "probes": {"top": (0.05, width)}}
+    scene = sheet(0.05, width, thickness, material=material, **given)
     points = scene.probe_points()
     shell = fem_reference.solve(scene, "shell", elements=(8, 1) if strip else 6)
     solid = fem_reference.solve(scene, "solid", elements=(8, 1) if strip else 5, clamp="mean")

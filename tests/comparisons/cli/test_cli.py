@@ -1,5 +1,6 @@
 """The command line: exit statuses, one line for bad input, one JSON document, and quick help."""
 
+import gc
 import json
 import subprocess
 import sys
@@ -13,7 +14,7 @@ from commands import run
 from scene_files import written
 from terminals import Terminal
 
-from comparisons.cli import interruption
+from comparisons.cli import interruption, startup
 from comparisons.sweep import here as table
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
@@ -144,3 +145,10 @@ def test_an_output_that_nobody_reads_on_is_no_fault(line):
         process.stdout.close()
         said = process.stderr.read()
     assert (process.returncode, said) == (141, b"")
+
+
+def test_collections_are_as_usual_once_a_verb_works():
+    startup.begin()
+    assert gc.get_threshold()[0] == startup.ALLOCATIONS > startup.USUAL[0]
+    assert run("check", "two-edges-clamped") == 0
+    assert gc.get_threshold() == startup.USUAL

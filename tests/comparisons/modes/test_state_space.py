@@ -49,7 +49,7 @@ def test_a_moved_edge_answers_as_the_simulation_does(flat):
     held, probes = (Clamped(edge="x0", motion=rise),), {"P": (0.188, 0.188)}
     scene = Scene(name="shaken", sheet=SHEET, material=DAMPED.material, support=held, probes=probes)
     springs = springs_of(scene, 3)
-    history = lumped.simulate(scene, springs, 0.1, every=0.001, step=1e-4, integrator="midpoint")
+    history = lumped.simulate(scene, springs, 0.05, every=0.001, step=1e-4, integrator="midpoint")
     linear = lumped.linearise(scene, springs, "flat")
     steps = linear.state_space(None).after_step(history.time, linear.inputs.index("x0 z"))[:, 2]
     # the ramp is the mean of steps at all moments of it

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from comparisons.cli.options import Export, Large, LatticeOptions, Law, Models, Scene, Symmetry, option
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
+from sheetbench.answers.solution import Solution
 from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
 
 FRAMES = 100  # of a motion
@@ -100,7 +101,7 @@ def command(
     models |= {"--calibration": "open" if spec.calibration is None and spec.k is None else "named"}
     with output.open(scene=loaded, variant=models) as out:
 
-        def keep(solution: scenes.Solution) -> None:
+        def keep(solution: Solution) -> None:
             out.keep(f"{solution.model}.vtu", lambda path: write_mesh(path, solution.mesh))
 
         with running(solved=keep):

@@ -6,8 +6,8 @@ import pytest
 import fem_reference
 from fem_reference.shell import coarse_start, statics
 from fem_reference.shell.coarse_start import at_nodes, sampled
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import MEMBRANE
-from fem_reference.shell.statics import discretise
 from fem_reference.surface.mesh import mesh_of
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
@@ -80,7 +80,7 @@ def test_a_membrane_strain_is_the_same_on_another_mesh():
     sheared = np.array([[0.02, 0.01], [-0.03, 0.04]])
 
     def shell(elements):
-        sheet = discretise(mesh_of(scene, elements, True), scene)
+        sheet = DiscreteShell(mesh_of(scene, elements, True), scene)
         q = np.zeros(sheet.size)
         sheet.displacement(q)[:, :2] = sheet.plan.nodes @ sheared
         strain = sheet.element.strain(sheet.gather(q))[:, MEMBRANE]

@@ -17,8 +17,7 @@ from scipy.optimize import least_squares
 
 from comparisons.identification import surface
 from comparisons.identification.measurements import MOVED, Displacements, Measured, Surface
-from comparisons.identification.model import Model
-from comparisons.identification.prediction import NotReached, Prediction
+from comparisons.identification.model import Model, NotReached, Prediction
 from comparisons.identification.unknowns import Unknown
 from comparisons.models.context import context
 from sheetbench.answers.table import number
@@ -80,9 +79,9 @@ class Fit:
     def predict(self, x: np.ndarray) -> Prediction:
         """Return what the model has where it was measured. Raises NotReached where it has no answer."""
         measured = self.measured
-        everywhere = isinstance(measured, Surface)
-        points = surface.plan_points(self.model.axes) if everywhere else measured.points
-        return self.model.predictor(measured)(self.unknowns, x, points)
+        if isinstance(measured, Surface):
+            return self.model.predict(self.unknowns, x, surface.plan_points(self.model.axes), None)
+        return self.model.predict(self.unknowns, x, measured.points, measured.time)
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Residuals and slopes at x. Raises NotReached where the model has no answer."""

@@ -19,7 +19,7 @@ from scipy.stats.qmc import Halton
 
 from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.measurements import Displacements
-from comparisons.identification.prediction import NotReached, Prediction
+from comparisons.identification.model import NotReached, Prediction
 from comparisons.models.context import context
 
 STARTS = 6

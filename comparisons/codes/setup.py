@@ -17,11 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import cell_of
-from comparisons.codes.coefficients import best_hinge, limit_error, nearest
+from comparisons.codes.cell import Cell, cell_of
+from comparisons.codes.coefficients import best_hinge, limit_error, moduli_of, nearest
 from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
-from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.parameters import Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
 from comparisons.codes.springs import layered_springs, tetrahedral_cell, triangular_cell

@@ -1,14 +1,18 @@
-"""An external finite-element code as cross-checks use it, and the base of those that are given a mesh here."""
+"""An external finite-element code as cross-checks use it, and the base of those that are given a mesh here;
+those among the plug-ins, and which of them are installed.
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from time import perf_counter
 from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
+from comparisons.external import plugins
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.kratos.problem import Triangles
 from comparisons.external.plugins import Model
@@ -238,3 +242,45 @@ class MovingCode(Code):
             solve_seconds=found.seconds,
             extra={"unknowns": self.unknowns * len(mesh.positions) - found.held},
         )
+
+
+@dataclass(frozen=True)
+class InstalledCode:
+    """An external code: the name or `FILE.py:OBJECT` that selects it, and its version, None where absent."""
+
+    model: str
+    code: ExternalCode
+    version: str | None
+
+
+def find_codes(names: Sequence[str] | None = None) -> list[InstalledCode]:
+    """Return the external codes of these names, or `FILE.py:OBJECT`; of all plug-ins unless given.
+
+    Raises BadInput for a name that is no external code's, and for a named code that is not installed.
+    """
+    if names is None:
+        return [InstalledCode(name, code, code.version()) for name, code in known_codes().items()]
+    codes = []
+    for name in names:
+        if plugins.from_file(name) is None:
+            require_choice("--judges", name, known_codes())
+        code = plugins.plugin(name)
+        if not isinstance(code, ExternalCode):
+            raise BadInput(f"--judges = '{name}': no external code, it has no meshes or no version()")
+        if (version := code.version()) is None:
+            raise BadInput(f"--judges = '{name}': needs {code.needs}")
+        codes.append(InstalledCode(name, code, version))
+    return codes
+
+
+def known_codes() -> dict[str, ExternalCode]:
+    """Return the external codes among the plug-ins by name, without those that cannot be loaded."""
+    codes = {}
+    for name in plugins.names():
+        try:
+            model = plugins.plugin(name)
+        except BadInput:
+            continue
+        if isinstance(model, ExternalCode):
+            codes[name] = model
+    return codes

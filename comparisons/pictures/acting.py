@@ -1,7 +1,7 @@
 """What acts on a sheet, on the stage of its picture: chains and moved edges in red, loads as blue arrows,
 payloads at points as dark balls, obstacles pale.
 
-An arrow starts where its force acts and points along it (`comparisons.pictures.arrows`). A turned arrow is an
+An arrow starts where its force acts and points along it (`comparisons.pictures.plan`). A turned arrow is an
 edge's moment.
 """
 
@@ -12,8 +12,7 @@ from functools import partial
 import numpy as np
 import pyvista
 
-from comparisons.pictures.arrows import ALONG, edge_plan, load_arrows
-from comparisons.pictures.plan import on_sheet
+from comparisons.pictures.plan import ALONG, edge_plan, load_arrows, on_sheet
 from comparisons.pictures.stage import Stage
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import EDGES, Chain, EdgeLoad

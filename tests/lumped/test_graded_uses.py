@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import lumped
-from comparisons.pictures.vtk import write_mesh
+from comparisons.pictures.array_files import write_mesh
 from lumped.fitting.fits import StaticTarget
 from lumped.grid_lines import grid_lines
 from sheetbench.answers.solution import Status

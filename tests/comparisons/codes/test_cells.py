@@ -9,10 +9,8 @@ import pytest
 from commands import json_of, one_line, run
 
 import sheetbench as sb
-from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import MESHES, cell_of
-from comparisons.codes.coefficients import limit_error, nearest
-from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.cell import MESHES, Cell, cell_of
+from comparisons.codes.coefficients import limit_error, moduli_of, nearest
 from comparisons.codes.parameters import parameters_of
 from comparisons.codes.table import CODES
 from lumped import moduli

@@ -9,9 +9,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
 import fem_reference
-from comparisons.codes.cell_meshes import cell_of
-from comparisons.codes.coefficients import STIFF, nearest
-from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.cell import cell_of
+from comparisons.codes.coefficients import STIFF, moduli_of, nearest
 from fem_reference.surface.materials import Section, section_of
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, Gravity, Sheet

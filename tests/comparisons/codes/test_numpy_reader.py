@@ -11,8 +11,8 @@ from cases import CLAMP, GRAVITY
 from exported import BLOWN, READERS, SCENES, spring_set
 
 import lumped
-from comparisons.codes.arrays import arrays
 from comparisons.codes.lattice import export
+from comparisons.codes.tables import arrays
 from sheetbench.scenes import Material, Scene, Sheet
 
 NUMPY = runpy.run_path(str(READERS / "read_lattice.py"))

@@ -10,10 +10,9 @@ from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from commands import run
 
 import lumped
-from comparisons.codes.arrays import arrays
+from comparisons.codes.files import to_sofa
 from comparisons.codes.lattice import CODES, READERS
-from comparisons.codes.sofa import to_sofa
-from comparisons.codes.tables import tables
+from comparisons.codes.tables import arrays, tables
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene

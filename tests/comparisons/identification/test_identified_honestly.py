@@ -11,14 +11,12 @@ from cases import POINTS, with_material
 import fem_reference
 import lumped
 from comparisons.external.calculix.model import CalculiX
-from comparisons.identification import starts
-from comparisons.identification.fit import Fit
+from comparisons.identification import fit as search
+from comparisons.identification.fit import Fit, nearest
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface
 from comparisons.identification.model import Model, Prediction, lattice_model
-from comparisons.identification.outliers import outliers
-from comparisons.identification.residual_test import UNLIKELY, explained, runs
-from comparisons.identification.starts import nearest
+from comparisons.identification.residual_test import UNLIKELY, explained, outliers, runs
 from comparisons.identification.unknowns import Unknown, unknown
 from comparisons.models.grading import lines_on_shapes
 from comparisons.models.spec import Lattice
@@ -119,7 +117,7 @@ def test_a_model_that_lacks_something_is_said_not_to_explain_the_data():
     cantilever = scenes.load("one-edge-clamped")
     data = Displacements(POINTS, noisy(solved(put(cantilever, "tilt_x0", 0.05)), 4, 0.001))
     found = identify(cantilever, data, lattice=Lattice(3), refine=False)
-    assert not found.explained and found.starts == starts.STARTS + 1
+    assert not found.explained and found.starts == search.STARTS + 1
     (said,) = found.warnings
     assert said.startswith("not explained: the best of 7 starts") and "neighbouring points" in said
     assert said[:80] in repr(found).replace("\n" + " " * 11, " ")

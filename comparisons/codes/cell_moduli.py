@@ -8,12 +8,11 @@ from typing import Any
 
 from comparisons.codes.cell import Cell, cell_of
 from comparisons.codes.coefficients import Moduli, best_hinge, limit_error, moduli_of, nearest
-from comparisons.codes.parameters import Parameter, parameters
+from comparisons.codes.parameters import CellInScene, Parameter, parameters
 from fem_reference.surface.materials import section_of
-from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import NUMBER, PERCENT, Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
-from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
+from sheetbench.scenes import AnyScene, require_plain, scene_of
 from sheetbench.scenes.meaning.words import sheet_in_words
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
@@ -26,28 +25,17 @@ MODULI = (
 
 
 @dataclass(frozen=True, repr=False)
-class CellModuli(Answer):
+class CellModuli(CellInScene):
     """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
-    nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it
-    is unknown; missing: why.
+    nearest to the sheet's, and the error that they leave, where that is another.
     """
 
-    cell: Cell
-    scene: Scene
-    coefficients: dict[str, float]
     moduli: Moduli
-    limit_error: float | None
     nearest: tuple[dict[str, float], float] | None = None
-    missing: str = ""
 
     file_name = "cell"
-
-    @property
-    def succeeded(self) -> bool:
-        """Whether the error in the scene is known."""
-        return not self.missing
 
     @property
     def rows(self) -> list[tuple[str, float, float, float]]:
@@ -109,9 +97,6 @@ class CellModuli(Answer):
             )
         return notes
 
-    def complaints(self) -> list[str]:
-        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
-
     def document(self) -> dict[str, Any]:
         nearest = self.nearest and dict(zip(("coefficients", "limit_error"), self.nearest, strict=True))
         return {
@@ -154,14 +139,15 @@ def homogenise(
     if unknown := set(given) - set(cell.units()):
         raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
     chosen = nearest(cell, scene.material, scene.sheet.thickness) | given
+    off, others, missing = None, None, ""
     try:
-        off, others = limit_error(scene, moduli_of(cell, chosen)), None
+        off = limit_error(scene, moduli_of(cell, chosen))
         if not given and (best := best_hinge(scene, cell, chosen)):
             others, chosen = (chosen, off), chosen | {"hinge": best[0]}
             off = limit_error(scene, moduli_of(cell, chosen))
     except NoEquilibrium as error:
-        return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), None, missing=str(error))
-    return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), off, others)
+        off, others, missing = None, None, str(error)
+    return CellModuli(scene, cell, chosen, off, missing, moduli_of(cell, chosen), others)
 
 
 def given_coefficients(entries: Sequence[Mapping[str, float] | str]) -> dict[str, float]:

@@ -164,9 +164,13 @@ class Code(ABC):
         self.require_installed()
         return Bricks.of(scene, elements, layers, grading)
 
+    def installed(self) -> bool:
+        """Return whether it can be run."""
+        return self.version() is not None
+
     def require_installed(self) -> None:
         """Raise BadInput where it is not installed."""
-        if self.version() is None:
+        if not self.installed():
             raise BadInput(f"model = '{self.name}': needs {self.needs}")
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:

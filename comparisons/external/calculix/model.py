@@ -56,6 +56,9 @@ class CalculiX(MovingCode):
         """Return the program's, None where it is not there."""
         return _version(shutil.which(PROGRAM))
 
+    def installed(self) -> bool:
+        return shutil.which(PROGRAM) is not None
+
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
         text = deck(scene, mesh, settings["linear"])
         began = perf_counter()

@@ -151,7 +151,7 @@ def test_the_script_gets_the_numbers_that_are_shown(code, tmp_path):
     """With the membrane's C11, which bounds its steps, and the factor of hinges on a clamp."""
     made = written(code, tmp_path)
     read = json.loads((tmp_path / "sheet.json").read_text())
-    assert read["parameters"] == {key.parameter: key.value for key in made.keys}
+    assert read["parameters"] == {key.name: key.value for key in made.keys}
     assert read["stretching"] == pytest.approx(54.5e6 * 0.003 / (1.0 - 0.48**2))
     assert read["hinges"] == made.mesh.hinges.tolist() and read["clamp"] == 1.0
     scripts = [path.name for path in tmp_path.glob("run_*.py")]
@@ -261,7 +261,7 @@ def test_mujocos_dampers_are_the_time_times_its_stiffness(tmp_path):
 @pytest.mark.parametrize("code", WRITERS)
 def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
     made = setup(DAMPED, code, 4, best=False)
-    keys = {key.parameter: key.value for key in made.keys}
+    keys = {key.name: key.value for key in made.keys}
     times = {"damping": 0.01}
     if code == "pybullet":
         times = {"springDampingStiffness": 0.01 * keys["springElasticStiffness"]}

@@ -15,7 +15,7 @@ from comparisons.pictures.plan import plan_mesh
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, load
 
-SOURCE = Path(viewer.__file__).parent / "source"
+SOURCE = Path(sheets.__file__).parent / "source"
 
 
 def test_bundle_is_of_the_source_that_is_here():

@@ -77,15 +77,6 @@ class Touching(SheetItem):
     def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
 
-    def mean_force(self, start: SheetShape, end: SheetShape, middle: SheetShape) -> np.ndarray:
-        """Return the force whose work in a step is the energy stored: of the mean pressure Δψ/Δdepth along
-        the mean normal, whose product with Δx is −Δdepth exactly."""
-        (then, before, (had, _, _)), (now, after, (has, _, _)) = self._sunk(start), self._sunk(end)
-        far = np.abs(after - before) > 1e-7 * self.thickness
-        secant = (has - had) / np.where(far, after - before, 1.0)
-        load = np.where(far, secant, self._pressed(0.5 * (before + after))[1])
-        return self._onto(middle, load[..., None] * now.mean_normal(then) + self._rubbed(middle)[0])
-
     def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, m, 9, 3)."""
         both = pull.sum(axis=0), (self.levers[..., None] * pull).sum(axis=0)

@@ -29,10 +29,6 @@ class SheetItem(Protocol):
     def force(self, shape: SheetShape) -> np.ndarray:
         """On the coordinates (N,)."""
 
-    def mean_force(self, start: SheetShape, end: SheetShape, middle: SheetShape) -> np.ndarray:
-        """On the coordinates (N,) in a step of a conserving rule."""
-        return self.force(middle)
-
     def tangent(self, shape: SheetShape) -> Tangent | None:
         """Derivative of the force by the surface's vectors, None of one that does not depend on them."""
         return None

@@ -47,17 +47,16 @@ Binding = Callable[[Scene], BoundRods]
 class Discrete(Output):
     """N coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
 
-    norm: order of the norm that residuals are measured in. conservative: whether the law of strain is
-    linear in Green's strain; any_strain: whether it is meant for large strains. lever: the flat
-    sheet's longer side [m]; scale: 1 of positions (N,), of directors the lever. own: whether the mesh has an
-    outline of its own, in place of the scene's sheet. bodies: the rods, if there are any.
+    norm: order of the norm that residuals are measured in. any_strain: whether the law of strain is meant for
+    large strains. lever: the flat sheet's longer side [m]; scale: 1 of positions (N,), of directors the
+    lever. own: whether the mesh has an outline of its own, in place of the scene's sheet. bodies: the rods,
+    if there are any.
     """
 
     model: ClassVar[str]
     norm: ClassVar[int]
     label: str
     settings: dict[str, Any]
-    conservative: bool
     any_strain: bool = False
     own: bool = False
     natural: NaturalState | None = None
@@ -191,10 +190,6 @@ class Discrete(Output):
     def elements_internal(self, shape: SheetShape) -> np.ndarray:
         """Elastic and viscous forces (N,) of the sheet."""
 
-    @abstractmethod
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        """Those (N,) of the mean strains of a step and their mean rate, natural ones as at a time [s]."""
-
     def shape(
         self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
     ) -> SheetShape:
@@ -229,22 +224,9 @@ class Discrete(Output):
 
     def forces(self, shape: SheetShape) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
-        return self._damped(self.internal(shape) - self.external(shape), shape.v)
-
-    def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
-        q, v = 0.5 * (start + end), (end - start) / h
-        out = self.elements_mean_internal(start, end, h, time)
-        for body in self.bodies:
-            out = out + body.scatter(body.pull(q, body.mean_stress(start, end, h, time)))
-        shapes = self.shape(start, time - 0.5 * h), self.shape(end, time + 0.5 * h), self.shape(q, time, v)
-        for item in self.items:
-            out = out - item.mean_force(*shapes)
-        return self._damped(out, v)
-
-    def _damped(self, forces: np.ndarray, v: np.ndarray | None) -> np.ndarray:
-        damped = self.alpha and v is not None
-        return forces + self.alpha * (self.sheet_mass @ v) if damped else forces
+        forces = self.internal(shape) - self.external(shape)
+        damped = self.alpha and shape.v is not None
+        return forces + self.alpha * (self.sheet_mass @ shape.v) if damped else forces
 
     @abstractmethod
     def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:

@@ -48,7 +48,6 @@ class DiscretePlate(Discrete):
 
     model = "plate"
     norm: ClassVar[int] = 2
-    conservative = True
 
     def __init__(
         self,
@@ -155,9 +154,6 @@ class DiscretePlate(Discrete):
         out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
         return np.asarray(out + viscous - self.at_rest(shape.at).force)
-
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        return self.elements_internal(SheetShape(self, 0.5 * (start + end), time, (end - start) / h))
 
     def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]

@@ -51,9 +51,9 @@ class DiscreteShell(DiscreteElements):
     norm: ClassVar[int] = 1
     element: Element
 
-    def __init__(self, plan: Plan, scene: Scene, element: Element, conservative: bool, moving: bool = False):
+    def __init__(self, plan: Plan, scene: Scene, element: Element, moving: bool = False):
         super().__init__(scene, moving)
-        self.plan, self.element, self.conservative = plan, element, conservative
+        self.plan, self.element = plan, element
         self.natural = natural_strains(scene, plan.corners)
         self.any_strain = element.stands_any_strain
         n = self.nodes

@@ -193,7 +193,7 @@ def discretise(
 ) -> DiscreteShell:
     """The discrete shell of a scene, at rest unless it is moving, on a mesh."""
     plan = plan_of(mesh)
-    return DiscreteShell(plan, scene, _elements_of(plan, scene, section, law), law == STRAIN_LAW, moving)
+    return DiscreteShell(plan, scene, _elements_of(plan, scene, section, law), moving)
 
 
 def _elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:

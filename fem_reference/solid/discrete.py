@@ -32,7 +32,6 @@ from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.answers.solution import FieldMesh
-from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import Constants, Material, Scene
 
@@ -55,7 +54,7 @@ class DiscreteSolid(DiscreteElements):
     ):
         super().__init__(scene, moving)
         self.columns, self.plan = columns, columns.plan
-        self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
+        self.any_strain = LAWS[law].stands_any_strain
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
         self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)

@@ -70,7 +70,7 @@ class CodeSetup(CellInScene):
     @property
     def problem(self) -> Problem:
         """Mesh and parameters, for the files. Raises BadInput for what codes of triangles do not have."""
-        keys = {key.name: key.value for key in self.keys} | self.given
+        keys = {**{key.name: key.value for key in self.keys}, **self.given}
         material, tetrahedra = self.scene.material, None
         near = NEAR if self.best and self.code.hinge == "height" else 1.0
         flat = sheet_mesh(self.scene, self.squares, self.cell.name, near)

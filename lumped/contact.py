@@ -27,14 +27,14 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.items import LatticeItem, Since
+from lumped.items import LatticeItem, Placed, Since
 from lumped.mid_surface import around
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Plane, Scene, free_rigid_motions
 from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
-from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
+from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle
 
 FINEST = 32  # points a side of a cell
 MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where the mass is A ρ h, not at edges
@@ -46,8 +46,7 @@ POINT = ("obstacle", "corners", "weights", "area", "offset", "stiffness")
 
 class _Touching(NamedTuple):
     """Where some patches of points are: which, beside the obstacle, their depth [m], < 0 of one that is
-    clear, A ψ [J], A p [N] and A p' [N/m] (m, p); of a step's mean force its own, along `normal` (m, p, 3),
-    with the part `bent` of ∇n in its derivative."""
+    clear, A ψ [J], A p [N] and A p' [N/m] (m, p), of a step's mean force its own."""
 
     patches: np.ndarray
     near: Near
@@ -55,8 +54,6 @@ class _Touching(NamedTuple):
     energy: np.ndarray
     load: np.ndarray
     slope: np.ndarray
-    normal: np.ndarray
-    bent: float = 1.0
 
 
 def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -93,7 +90,6 @@ class Contact(LatticeItem):
                 f"{name}.radius = {self.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
                 f"which would step over it; {1e3 * thinnest:.3g} mm or more, or a finer grid"
             )
-        self.thin = self.radius < sides.max()
         if isinstance(obstacle, Plane):
             nodes, weights, area = columns, np.ones((1, 1)), around(areas).reshape(-1, 1)
         else:
@@ -134,7 +130,7 @@ class Contact(LatticeItem):
             which = np.flatnonzero(self._near(middle[:, 0], drive).distance < reach)
         found = self._near(self.weights @ places[which], drive)
         depth = (0.5 + TOUCH) * self.thickness[which] - found.distance
-        now = _Touching(which, found, depth, *self._law(depth, which), found.normal)
+        now = _Touching(which, found, depth, *self._law(depth, which))
         if since is None:
             return now
         then = self._touching(*since, everywhere=True)
@@ -143,7 +139,7 @@ class Contact(LatticeItem):
         _, load, slope = self._law(0.5 * (then.depth + depth), which)
         load = np.where(far, (now.energy - then.energy) / sunk, load)
         slope = np.where(far, (now.load - load) / sunk, 0.5 * slope)
-        return now._replace(load=load, slope=slope, normal=found.mean_normal(then.near), bent=0.5)
+        return now._replace(near=found.mean(then.near), load=load, slope=slope)
 
     def _spread(self, patches: np.ndarray, load: np.ndarray, out: np.ndarray) -> None:
         """Add forces of points (m, p, 3) [N] to those of the masses."""
@@ -159,7 +155,7 @@ class Contact(LatticeItem):
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
         found = self._touching(u, drive, since)
-        self._spread(found.patches, -found.load[..., None] * found.normal, force)
+        self._spread(found.patches, -found.load[..., None] * found.near.normal, force)
         return float(found.energy.sum())
 
     def add_tangent(
@@ -172,48 +168,37 @@ class Contact(LatticeItem):
         since: Since | None = None,
     ) -> None:
         found = self._touching(u, drive, since)
-        points = (scale * found.slope)[..., None, None] * dyad(found.normal)
+        points = (scale * found.slope)[..., None, None] * dyad(found.near.normal)
         if not definite:
-            points -= (scale * found.bent * found.load)[..., None, None] * found.near.curvature
+            points -= (scale * found.load)[..., None, None] * found.near.curvature
         self._spread_blocks(found.patches, points, blocks)
 
-    def _sliding(
+    def _resisted(
         self, u: np.ndarray, v: np.ndarray, drive: Drive
-    ) -> tuple[_Touching, np.ndarray, np.ndarray, np.ndarray]:
-        """Where points are, how fast they leave the obstacle (m, p), slide (m, p, 3), and √(v_t² + v₀²)
-        [m/s]."""
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return patches that may touch, how points move past the obstacle (m, p, 3) [m/s], forces (m, p, 3)
+        [N] of dashpot and friction and their derivatives by that (m, p, 3, 3)."""
         found = self._touching(u, drive)
         speed = self.weights @ (v[self.nodes[found.patches]] - self.obstacle.velocity(drive.time))
-        leaving = (speed * found.normal).sum(axis=-1)
-        sliding = speed - leaving[..., None] * found.normal
-        return found, leaving, sliding, np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
+        return found.patches, speed, *found.near.resistance(found.load, speed)
 
     def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         if not self.resists:
             return 0.0
-        found, leaving, sliding, size = self._sliding(u, v, drive)
-        damped = found.load * np.minimum(self.obstacle.contact_damping * leaving, 1.0)
-        rubbed = self.obstacle.friction * found.load / size
-        self._spread(found.patches, damped[..., None] * found.normal + rubbed[..., None] * sliding, force)
-        return float((damped * leaving).sum() + (rubbed * (size**2 - SLIP_SPEED**2)).sum())
+        patches, speed, pull, _ = self._resisted(u, v, drive)
+        self._spread(patches, -pull, force)
+        return -float((pull * speed).sum())
 
     def add_resistance_tangent(
         self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
     ) -> None:
-        if not self.resists:
-            return
-        found, leaving, sliding, size = self._sliding(u, v, drive)
-        tau, load, across = self.obstacle.contact_damping, scale * found.load, dyad(found.normal)
-        damped, rubbed = tau * load * (tau * leaving < 1.0), self.obstacle.friction * load / size
-        plane = np.eye(3) - across - dyad(sliding / size[..., None])
-        points = damped[..., None, None] * across + rubbed[..., None, None] * plane
-        self._spread_blocks(found.patches, points, blocks)
+        if self.resists:
+            patches, _, _, by_speed = self._resisted(u, v, drive)
+            self._spread_blocks(patches, -scale * by_speed, blocks)
 
-    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
-        """Return the share of a move that takes no point deeper than half a radius, nor through."""
-        start = self._touching(u, since or drive, everywhere=True)
-        end = self._touching(u + move, drive, everywhere=True)
-        return end.near.share_of_way(start.near, 0.5 * self.thickness)
+    def step_share(self, start: Placed, end: Placed) -> float:
+        then, now = (self._touching(*at, everywhere=True).near for at in (start, end))
+        return now.share_of_way(then, 0.5 * self.thickness)
 
     def _of_masses(self, load: np.ndarray) -> np.ndarray:
         """Return sums (n,) of what points (m, p) share among the masses."""
@@ -231,8 +216,8 @@ class Contact(LatticeItem):
         largest = float(np.abs(self._rest).max())
         return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
 
-    def report(self, u: np.ndarray, drive: Drive) -> tuple[ContactState, np.ndarray]:
-        found, area = self._touching(u, drive, everywhere=True), self._of_masses(self.area)
+    def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
+        found, area = self._touching(*at, everywhere=True), self._of_masses(self.area)
         load = self._of_masses(found.load)
         pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
         return ContactState.of(found.depth / self.thickness, self.area), pressure
@@ -241,7 +226,7 @@ class Contact(LatticeItem):
         """Return the way (3,) [m] that takes the nearest point to a depth of a tenth of the thickness."""
         found = self._touching(u, Drive(), everywhere=True)
         least = np.unravel_index(found.depth.argmax(), found.depth.shape)
-        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.normal[least]
+        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.near.normal[least]
         return way
 
 

@@ -10,6 +10,9 @@ are small now and then, and lead nowhere. One that fails takes the square root o
 the end is that of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins
 again from rest with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its
 radius in one.
+
+A penalty has the `obstacle`, the `share` of its stiffness that acts, and of its points the whole, `full` (…)
+[Pa/m], `thickness` (…) [m] and `area` (…) [m²]; it says `step_share` and `report` of what is `placed`.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 
@@ -32,21 +35,7 @@ WAY = 0.25  # of the radius, by which obstacles and supports come in between des
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
-class Penalty(Protocol):
-    """The penalty of an obstacle. share: of its stiffness; full (…) [Pa/m], thickness (…) [m] and area (…)
-    [m²] of its points; radius [m], infinite of a plane; moved [m], how far the obstacle goes in all; thin:
-    whether it is thinner than a cell."""
-
-    share: float
-    full: np.ndarray
-    thickness: np.ndarray
-    area: np.ndarray
-    radius: float
-    moved: float
-    thin: bool
-
-
-def soften(penalties: Sequence[Penalty], share: float) -> None:
+def soften(penalties: Sequence[Any], share: float) -> None:
     """Give penalties a share of their stiffness, 1 for all of it."""
     for one in penalties:
         one.share = share
@@ -60,10 +49,15 @@ def softest(structure: Structure[State, Forces]) -> float:
     force, travel = structure.loading(), size * structure.gap(structure.rest(), 1.0)
     for one in structure.contacts:
         bending = float((one.full * one.thickness**4).max()) / 12.0
-        bent = 8.0 * bending * max(travel, one.moved) / size**4
-        deep = DEPTH * min(size, 0.2 * one.radius) * float(one.full.min())
+        bent = 8.0 * bending * max(travel, _moved(one)) / size**4
+        deep = DEPTH * min(size, 0.2 * one.obstacle.radius) * float(one.full.min())
         shares.append(max(force / float(one.area.sum()), bent) / deep)
     return min(share for share in shares if share > 0.0)
+
+
+def _moved(penalty: Any) -> float:
+    """Return how far an obstacle goes in all [m]."""
+    return float(np.linalg.norm(penalty.obstacle.displacement()))
 
 
 def stiffened(
@@ -81,14 +75,14 @@ def stiffened(
         nonlocal last
         start = last if last[1] <= path.load_factor else (structure.rest(), 0.0)
         last = path.state, path.load_factor
-        if structure.passes(*start, *last):
+        ends = structure.placed(*start), structure.placed(*last)
+        if any(one.step_share(*ends) < 1.0 for one in contacts):
             return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
         return inspect(path)
 
     down = settle if structure.symmetric else None
-    thin = any(one.thin for one in contacts)  # whether soft ones would be walked through
-    share, ended = 1.0 if thin else softest(structure), None
-    while not (thin and down is not None):  # what leads nowhere is too soft, where nothing else is left
+    share = softest(structure)
+    while True:  # what leads nowhere is too soft, where nothing else is left
         soften(contacts, share)
         path.begin(replace(limits.direct, tolerance=LOOSE))
         last = path.state, 0.0
@@ -101,7 +95,7 @@ def stiffened(
             break
         share = min(1.0, 30.0 * share)
     soften(contacts, 1.0)
-    if down is not None and (thin or ended is not None):
+    if down is not None and ended is not None:
         path.begin(limits)
         last = path.state, 0.0
         ended = _settled(path, kept_out, down)
@@ -114,7 +108,7 @@ def _settled(
     """Lead a path from rest by descents, load step by load step: what has ended it before, if anything."""
     structure = path.structure
     travel = structure.size * structure.gap(path.state, 1.0)
-    ways = ((one.moved + travel) / (WAY * one.radius) for one in structure.contacts)
+    ways = ((_moved(one) + travel) / (WAY * one.obstacle.radius) for one in structure.contacts)
     steps = max(1, *map(math.ceil, ways))
     for step in range(1, steps + 1):
         path.limit = path.factorisations + path.limits.factorisations

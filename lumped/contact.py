@@ -8,13 +8,10 @@ point of area A has
 Points are the columns of masses, with their tributary areas, on a plane. On a sphere or cylinder the masses
 alone sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with
 l as far as it is across a cylinder's axis, and points are at their middles; at their ends, masses among
-them, of a sheet that rests on the obstacle, or nothing would hold it at the start. A point's force is shared
-as its position is made up, by the layers equally.
-
-In motion k is 0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond
-k (d²/2 − δ d/2 + δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996), whose
-derivative by the end has half of ∇n there. A dashpot makes the pressure p (1 + τ ḋ) ≥ 0 (Hunt and Crossley,
-1975), friction is −μ p A v_t/√(v_t² + v₀²). `docs/contact.md` has the reasons, and what energy they take.
+them, of a sheet that rests on the obstacle, or nothing would hold it at the start. In motion k is
+0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 +
+δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). `docs/contact.md` has the
+reasons, and what energy they take.
 """
 
 from __future__ import annotations
@@ -71,23 +68,21 @@ def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.nd
 
 class Contact(LatticeItem):
     """Contact of a lattice with an obstacle. Points are in patches of the same masses, cells or columns:
-    nodes (m, q), weights (p, q) of each of the p points of a patch. thin: whether the obstacle is thinner
-    than a cell. Raises BadInput for one too thin."""
+    nodes (m, q), weights (p, q) of each of the p points of a patch. Raises BadInput for one too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
-        self.name, self.obstacle, self.radius = name, obstacle, obstacle.radius
-        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
-        self.moves, self.velocity = obstacle.motion is not None, obstacle.velocity
-        self.displacement = partial(obstacle.displacement, 1.0)
+        self.name, self.obstacle = name, obstacle
+        self.displacement, self.velocity = partial(obstacle.displacement, 1.0), obstacle.velocity
+        self.moves = obstacle.motion is not None
         self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas
         across = np.linalg.norm(projector(obstacle)[:2], axis=1)  # how much of a side is across its axis
         sides = across * [line.widths.max() for line in lattice.lines]
         thinnest = 2.0 * sides.max() / FINEST
-        if self.radius < thinnest:
+        if obstacle.radius < thinnest:
             raise BadInput(
-                f"{name}.radius = {self.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
+                f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
                 f"which would step over it; {1e3 * thinnest:.3g} mm or more, or a finer grid"
             )
         if isinstance(obstacle, Plane):
@@ -95,7 +90,7 @@ class Contact(LatticeItem):
         else:
             corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
             nodes = np.concatenate(corners, axis=2)
-            weights, shares = points_of_cells(sides, self.radius, bool(free_rigid_motions(scene)))
+            weights, shares = points_of_cells(sides, obstacle.radius, bool(free_rigid_motions(scene)))
             area = areas.reshape(-1, 1) * shares
         self.weights = np.repeat(weights, lattice.grid[2], axis=1) / lattice.grid[2]
         there = area[:, 0] > 0.0
@@ -104,8 +99,7 @@ class Contact(LatticeItem):
         constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
         self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
-        self.slots = assembly.pattern.among(self.nodes)
-        self._eps = assembly.rounding
+        self.slots, self._eps = assembly.pattern.among(self.nodes), assembly.rounding
 
     def _law(self, depth: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return A ψ [J], A p [N] and A p' [N/m] of patches `of` at depths (m, p) [m]."""

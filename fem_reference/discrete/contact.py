@@ -33,8 +33,7 @@ class Touching(SheetItem):
     """Contact with one obstacle. share: of its stiffness; levers: ζ (faces, m, 9) [m] of elements' nodes."""
 
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
-        self.name, self.obstacle, self.moving, self.radius = name, obstacle, moving, obstacle.radius
-        self.moved, self.on = float(np.linalg.norm(obstacle.displacement(1.0))), plan.elements
+        self.name, self.obstacle, self.moving, self.on = name, obstacle, moving, plan.elements
         constants, shape = constants_of(scene, plan.corners), areas(plan.corners)
         self.area = shape @ AT_GAUSS[0]
         self.thickness = (shape * constants.thickness) @ AT_GAUSS[0] / self.area

@@ -1,15 +1,12 @@
 """An equilibrium with penalties of obstacles, soft first and then stiff.
 
 Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
-method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. With soft
-ones the usual path leads to the full load, where they are raised in stages of equal factors, each Newton's
-method from the last shape with the stresses that it extrapolated: 30 factorisations in place of 292 on a
-strip of 41 masses laid on a plane. Only the last stage is brought to the tolerance; one before ends at a
-small residual, of a correction that has left the same points in contact: while points come and go residuals
-are small now and then, and lead nowhere. One that fails takes the square root of its factor. What is said of
-the end is that of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins
-again from rest with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its
-radius in one.
+method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. So soft
+ones are raised at the full load in stages of equal factors, each Newton's method from the last shape with the
+stresses that it extrapolated; all but the last end at a small residual of a correction that has left the same
+points in contact. One that fails takes the square root of its factor. What is said of the end is that of the
+last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins again from rest with
+stiff ones, in so many load steps that no obstacle moves by more than a quarter of its radius in one.
 
 A penalty has the `obstacle`, the `share` of its stiffness that acts, and of its points the whole, `full` (…)
 [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; it says `step_share` and `report` of what is `placed`.
@@ -49,15 +46,10 @@ def softest(structure: Structure[State, Forces]) -> float:
     force, travel = structure.loading(), size * structure.gap(structure.rest(), 1.0)
     for one in structure.contacts:
         bending = float((one.full * one.thickness**4).max()) / 12.0
-        bent = 8.0 * bending * max(travel, _moved(one)) / size**4
+        bent = 8.0 * bending * max(travel, float(np.linalg.norm(one.obstacle.displacement()))) / size**4
         deep = DEPTH * min(size, 0.2 * one.obstacle.radius) * float(one.full.min())
         shares.append(max(force / float(one.area.sum()), bent) / deep)
     return min(share for share in shares if share > 0.0)
-
-
-def _moved(penalty: Any) -> float:
-    """Return how far an obstacle goes in all [m]."""
-    return float(np.linalg.norm(penalty.obstacle.displacement()))
 
 
 def stiffened(
@@ -95,29 +87,20 @@ def stiffened(
             break
         share = min(1.0, 30.0 * share)
     soften(contacts, 1.0)
-    if down is not None and ended is not None:
-        path.begin(limits)
-        last = path.state, 0.0
-        ended = _settled(path, kept_out, down)
-    return ended
-
-
-def _settled(
-    path: Path[State, Forces], inspect: Inspect[State, Forces], settle: Settle[State, Forces]
-) -> Fault | None:
-    """Lead a path from rest by descents, load step by load step: what has ended it before, if anything."""
-    structure = path.structure
+    if ended is None or down is None:
+        return ended
+    path.begin(limits)
+    last = path.state, 0.0
     travel = structure.size * structure.gap(path.state, 1.0)
-    ways = ((_moved(one) + travel) / (WAY * one.obstacle.radius) for one in structure.contacts)
-    steps = max(1, *map(math.ceil, ways))
-    for step in range(1, steps + 1):
-        path.limit = path.factorisations + path.limits.factorisations
+    bodies = [one.obstacle for one in contacts]
+    ways = ((travel + np.linalg.norm(body.displacement())) / (WAY * body.radius) for body in bodies)
+    for load_factor in np.linspace(0.0, 1.0, max(1, *map(math.ceil, ways)) + 1)[1:].tolist():
+        path.limit = path.factorisations + limits.factorisations
         try:
-            path.state, path.load_factor = settle(path, step / steps), step / steps
+            path.state, path.load_factor, path.factor = down(path, load_factor), load_factor, None
         except LoadStepFailed as failure:
             return Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
-        path.factor = None
-        if (fault := inspect(path)) is not None:
+        if (fault := kept_out(path)) is not None:
             return fault
     return None
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from dynamic_cases import make_scene
-from lattice_cases import derivative
 
 import fem_reference
 import lumped
@@ -40,19 +39,6 @@ def bent(problem, seed=0):
     size = 0.2 * problem.assembly.lattice.spacing[0]
     unknowns = np.random.default_rng(seed).standard_normal(problem.system.unknowns)
     return problem.expand(size * unknowns) + problem.prescribed(1.0)
-
-
-@pytest.mark.parametrize("grid", [(3, 3, 2), (4, 3, 3)])
-def test_the_tangent_is_the_derivative_of_the_force(grid):
-    problem = problem_of(pressed(FREE), grid)
-    u, blocks = bent(problem), np.zeros((problem.assembly.pattern.blocks, 3, 3))
-    problem.loads.add_tangent(u, 1.0, blocks)
-    pattern = problem.assembly.pattern
-    whole = np.zeros((pattern.size, 3, pattern.size, 3))
-    whole[pattern.rows, :, pattern.indices] = -blocks
-    expected = derivative(problem.loads.followers, u)
-    # central differences of a quadratic force are exact to rounding over the step
-    np.testing.assert_allclose(whole.reshape(expected.shape), expected, atol=1e-7 * np.abs(expected).max())
 
 
 def test_the_force_is_that_of_the_areas_whatever_the_shape():

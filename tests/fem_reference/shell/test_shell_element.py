@@ -67,16 +67,6 @@ def residual(sheet, moved, turned=None):
     return Static(sheet).forces(state, 0.0).residual.reshape(2, -1, 3)
 
 
-def test_the_internal_force_is_the_derivative_of_the_energy():
-    sheet = discretise(distorted(), make_scene())
-    q = random_state(sheet).q
-    step = np.random.default_rng(3).uniform(-1, 1, q.shape)
-    t = 1e-6
-    energy = [sheet.elastic(sheet.shape(q + s * t * step, 1.0)) for s in (1, -1)]
-    force = Static(sheet).forces(StaticState(q), 0.0).residual
-    assert (energy[0] - energy[1]) / (2 * t) == pytest.approx(force @ step, rel=1e-7)
-
-
 LOADS = {
     "dead": (),
     "pressure": (Pressure(value=2e5),),

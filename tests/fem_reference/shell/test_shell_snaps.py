@@ -285,34 +285,3 @@ def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
     assert np.array_equal(with_it.state.q, without.state.q)
     assert with_it.factorisations == without.factorisations
     assert (with_it.status, with_it.snaps, with_it.notes) == (Status.CONVERGED, [], [])
-
-
-# Rod's turn, load number, load factors of the snaps: 12 elements a side.
-TAPES = [
-    (-0.25, 10.0, [0.589]),
-    (0.25, 30.0, [0.893]),
-    (0.5, 30.0, [0.205]),
-    (-0.5, 30.0, [0.597]),
-    (-0.1, 100.0, [0.754, 0.830]),
-    (-0.25, 100.0, [0.653]),
-]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("turn, load_number, snaps", TAPES)
-def test_tape_springs_snap_to_where_the_lattice_does(turn, load_number, snaps):
-    scene = rod_scene(turn, load_number)
-    truth = shell.solve(scene, elements=12)
-    assert truth.status is Status.CONVERGED and truth.load_factor == 1.0
-    assert list(truth.snaps) == pytest.approx(snaps, rel=0.05)
-    ours = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (33, 33)))
-    points = scene.probe_points()
-    assert error(ours.displacement(points), truth.displacement(points)) < 0.05
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("slenderness", [1e-4, 3e-4])
-def test_foils_reach_the_full_load_though_their_wrinkles_are_the_meshs(slenderness):
-    truth = shell.solve(stability_scenes.sheet(slenderness, 1e3, ("x0", "y0")), elements=12)
-    assert truth.load_factor == 1.0 and truth.status in (Status.CONVERGED, Status.UNSTABLE)
-    assert len(list(truth.snaps)) >= 1

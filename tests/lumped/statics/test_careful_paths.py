@@ -1,10 +1,7 @@
 """Paths that large load steps would leave: a column that is not quite straight, a fold jumped over."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
-import scipy.sparse as sp
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.sparse.linalg import splu
@@ -18,8 +15,7 @@ from sheetbench.numerics.continuation import trace as tracer
 from sheetbench.numerics.continuation.arc import limit_point
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.path import Path
-from sheetbench.numerics.continuation.structure import Structure
-from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.multifrontal import NoFactorsError
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, load
 
@@ -77,51 +73,6 @@ def test_a_fold_that_large_steps_jump_over_is_told_with_its_load():
     turning, _ = limit_point(path)
     assert found.status is Status.CONVERGED
     assert found.snaps == pytest.approx([turning], rel=0.01)
-
-
-@dataclass
-class Sizes:
-    residual: np.ndarray
-    size: float = 1.0
-
-
-@dataclass
-class Bistable(Structure[np.ndarray, Sizes]):
-    """Two springs, x + x³ = 2 λ and −y = 0: unstable at rest already, and nothing else happens."""
-
-    symmetric: bool = True
-
-    def rest(self):
-        return np.zeros(2)
-
-    def forces(self, state, load_factor):
-        x, y = state
-        return Sizes(np.array([x + x**3 - 2.0 * load_factor, -y]))
-
-    def imbalance(self, state, forces):
-        return float(np.abs(forces.residual).max())
-
-    def gap(self, state, load_factor):
-        return 0.0
-
-    def system(self, state, forces, load_factor, mixed=True):
-        return sp.csr_matrix(np.diag([1.0 + 3.0 * state[0] ** 2, -1.0])), -forces.residual
-
-    def advance(self, state, forces, load_factor, step):
-        return state + step
-
-    def length(self, start, end):
-        return float(np.abs(end - start).max())
-
-
-def test_what_is_unstable_at_rest_is_followed_in_long_steps():
-    """The careful path begins with the eigenvalues that are negative there, and loses no stability."""
-    path = tracer.trace_path(Bistable(), DirectSolver())
-    assert path.status is Status.UNSTABLE and path.load_factor == 1.0
-    np.testing.assert_allclose(path.state, [1.0, 0.0], atol=1e-8)
-    careful = [entry.load_factor for entry in path.history][6:]
-    assert min(careful) > Limits.branching
-    assert path.factorisations < 50
 
 
 def pulled(force, along=2):

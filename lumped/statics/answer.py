@@ -1,4 +1,4 @@
-"""What a static solve answers with: how it ended, and the `scenes.Solution` of that."""
+"""What a static solve answers with: how it ended, and the `Solution` of that."""
 
 from __future__ import annotations
 

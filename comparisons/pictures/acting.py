@@ -24,7 +24,7 @@ ASIDE = 0.012  # of the longer side: how far a chain on a face is drawn from the
 
 def draw(stage: Stage, solution: Solution) -> np.ndarray:
     """Put actuators, loads and payloads on the stage; places (n, 3) [m] that must be seen."""
-    seen = [np.empty((0, 3))]
+    seen = [stage.obstacles()]
     scene = stage.scene
     for actuator in scene.actuators:
         if isinstance(actuator, Chain):
@@ -38,7 +38,6 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
     if len(plan):
         seen.append(_arrows(stage, stage.deformed(solution, plan), arrows))
-    seen += map(stage.obstacle, scene.obstacles)
     bodies = np.array([payload.at for payload in scene.masses if payload.at is not None]).reshape(-1, 2)
     if len(bodies):
         stage.payloads(stage.deformed(solution, bodies))

@@ -6,9 +6,16 @@ import pytest
 from matplotlib.figure import Figure
 
 from comparisons.models.check import check
-from comparisons.pictures.arrows import load_arrows
 from comparisons.pictures.labels import place_labels
-from comparisons.pictures.plan import edge_ends, held_lines, on_sheet, plan_lines, plan_mesh, rims
+from comparisons.pictures.plan import (
+    edge_ends,
+    held_lines,
+    load_arrows,
+    on_sheet,
+    plan_lines,
+    plan_mesh,
+    rims,
+)
 from sheetbench.answers import history_figure as motion
 from sheetbench.answers.history import ENERGIES, History
 from sheetbench.answers.solution import Status

@@ -95,16 +95,6 @@ def test_what_does_not_swing_has_no_period():
     assert (measured.peak, measured.period, measured.decay) == (None, None, None)
 
 
-def test_lattice_and_shell_move_alike():
-    both = sb.compare("two-edges-settling", duration=0.1, grid=9, elements=4, uncertainty=False)
-    assert both.succeeded and both.reference == "shell"
-    assert list(both.histories) == ["lumped", "shell"]
-    (off,) = both.differences
-    assert 0.0 < off["rms"] < off["largest"] < 0.03
-    assert abs(off["peak"]) < 0.02
-    assert np.array_equal(*(history.time for history in both.histories.values()))
-
-
 @pytest.mark.nightly  # by day: tests/fem_reference/motion/test_moving_rods.py, of the chain's pull too
 def test_lattice_and_shell_move_alike_with_a_driven_chain():
     """Its segments are rigid, the shell's rod is not: 0.1 to 0.2 % of the peak are the rod's."""

@@ -2,19 +2,14 @@
 
 import csv
 import json
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
 from commands import json_of, one_line, run
 
 from comparisons.scoring.answers import HEADERS
-from comparisons.scoring.reference import Reference, references
+from comparisons.scoring.reference import references
 from comparisons.scoring.score import score
-
-Change = Callable[[Reference, np.ndarray], np.ndarray]
-Write = Callable[..., Path]
 
 
 @pytest.fixture

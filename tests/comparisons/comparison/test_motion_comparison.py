@@ -7,6 +7,7 @@ import meshio
 import numpy as np
 import pytest
 from commands import run
+from fake_solutions import history
 
 import sheetbench as sb
 from comparisons.comparison.measures import difference, extrema, measured_alike
@@ -15,8 +16,6 @@ from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.models.spec import Lattice
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
-from sheetbench.answers.history import ENERGIES, History
-from sheetbench.answers.solution import Status
 from sheetbench.scenes import Sphere, load
 from sheetbench.scenes.objects.supports import Motion
 
@@ -30,8 +29,7 @@ def swing(frequency, damping, size=1.0):
     own = turn / np.sqrt(1.0 - damping**2)
     height = -size * (1.0 - np.exp(-damping * own * time) * np.cos(turn * time))
     probes = {"P": np.column_stack([0.0 * time, 0.0 * time, height])}
-    energies = {name: np.ones(1001) for name in ENERGIES}
-    return History("", "", {}, Status.CONVERGED, "", time, probes, energies, {}, {}, 1, 0.0, 0.0)
+    return history(time, probes)
 
 
 def test_period_and_decay_of_a_damped_swing_are_its_own():
@@ -170,8 +168,8 @@ def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     first, second = (compare_motion(settling, 0.02, Lattice(5), **how) for _ in range(2))
     assert all(history.resumed_from > 0.0 for history in second.histories.values())
     assert any("went on from" in note for note in second.report().notes)
-    for name, history in first.histories.items():
-        for probe, u in history.probes.items():
+    for name, one in first.histories.items():
+        for probe, u in one.probes.items():
             assert np.array_equal(second.histories[name].probes[probe], u)
     assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
 

@@ -76,8 +76,7 @@ def command(
     from dataclasses import fields
 
     from comparisons.calibration import damping
-    from comparisons.calibration.answer import SheetCalibration, to_toml
-    from comparisons.calibration.calibrate import calibrate, expected, subject
+    from comparisons.calibration.calibrate import SheetCalibration, calibrate, expected, subject, to_toml
     from comparisons.codes.cell_moduli import given_coefficients, homogenise
     from comparisons.codes.files import WRITERS
     from comparisons.codes.lattice import CODES, lattice_files

@@ -18,11 +18,18 @@ from typing import Any
 import numpy as np
 
 from comparisons.codes.cell import cell_of
-from comparisons.codes.coefficients import best_hinge, limit_error, moduli_of, nearest
+from comparisons.codes.coefficients import (
+    best_hinge,
+    layered_springs,
+    limit_error,
+    moduli_of,
+    nearest,
+    tetrahedral_cell,
+    triangular_cell,
+)
 from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
 from comparisons.codes.parameters import CellInScene, Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
-from comparisons.codes.springs import layered_springs, tetrahedral_cell, triangular_cell
 from comparisons.codes.table import CODES, Code
 from comparisons.models.grids import GridLike
 from sheetbench.answers.files import write_text

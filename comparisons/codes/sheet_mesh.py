@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.codes.springs import five
+from comparisons.codes.coefficients import five
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene
 from sheetbench.scenes.objects.grid import near_square

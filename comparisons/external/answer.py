@@ -8,19 +8,21 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
 from comparisons.external import plugins
 from comparisons.external.bricks import GRADINGS, Bricks
-from comparisons.external.kratos.problem import Triangles
 from comparisons.external.plugins import Model
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, EdgeLoad, Scene
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted
+
+if TYPE_CHECKING:
+    from comparisons.external.kratos.model import Triangles
 
 SUBSTEPS = 8  # of a motion between two samples
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"

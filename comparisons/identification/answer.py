@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.identification.measurements import Displacements, Measured
-from comparisons.identification.residual_test import Outlier, Runs
+from comparisons.identification.residuals import Outlier, Runs
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture

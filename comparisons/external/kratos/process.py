@@ -1,7 +1,7 @@
 """The process in which Kratos solves: `python -m comparisons.external.kratos.process PROBLEM ANSWER`.
 
 Apart from ours, for Kratos prints as it is imported, and a fault in it takes its process down. Reads arrays
-of the file PROBLEM (`comparisons.external.kratos.problem`), and leaves in ANSWER displacement (n, 3) [m], the
+of the file PROBLEM (`comparisons.external.kratos.model`), and leaves in ANSWER displacement (n, 3) [m], the
 load factor of the last step that converged, and the number of iterations, each one factorisation; of a
 problem with `times` the displacement after every step, (steps, n, 3).
 

@@ -6,6 +6,7 @@ size of all that it is about to solve.
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Callable
 from math import prod
 
@@ -17,6 +18,8 @@ from comparisons.pictures import work
 from sheetbench.answers.size import Size
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
+
+MOST = 10**6  # masses or elements along a side
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
@@ -81,13 +84,4 @@ def _estimate(spec: Spec, counts: list[int]) -> Size:
 
 def _largest(least: int, fits: Callable[[int], bool]) -> int:
     """Return the largest number that fits, 0 if none does."""
-    if not fits(least):
-        return 0
-    above = 2 * least
-    while fits(above):
-        above *= 2
-    below = above // 2
-    while above - below > 1:
-        middle = (below + above) // 2
-        below, above = (middle, above) if fits(middle) else (below, middle)
-    return below
+    return bisect(range(MOST), False, least, key=lambda number: not fits(number)) - 1 if fits(least) else 0

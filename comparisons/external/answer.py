@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -20,9 +20,6 @@ from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, EdgeLoad, Scene
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted
-
-if TYPE_CHECKING:
-    from comparisons.external.kratos.model import Triangles
 
 SUBSTEPS = 8  # of a motion between two samples
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
@@ -156,8 +153,8 @@ class Code(ABC):
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Any) -> Reached:
         """Return what it finds of a scene that it does not refuse."""
 
-    def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Bricks | Triangles:
-        """Return the mesh, of bricks. Raises BadInput without the code or for settings it cannot use."""
+    def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Any:
+        """Return the mesh, `Bricks` or the like. Raises BadInput without the code or for settings it cannot use."""
         elements, layers, grading = (settings[name] for name in ("elements", "layers", "grading"))
         require_count(elements)
         if type(layers) is not int or layers < 2 or layers % 2:

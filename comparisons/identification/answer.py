@@ -9,6 +9,7 @@ import numpy as np
 
 from comparisons.identification.measurements import Displacements, Measured
 from comparisons.identification.residuals import Outlier, Runs
+from comparisons.identification.unknowns import Estimate
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture
@@ -20,24 +21,6 @@ UNKNOWNS = (
     *(NUMBER(".6g", "on finer cells"), NUMBER(".6g", "start")),
 )
 SHOWN = 20  # residuals on the terminal; all of them are in the files
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """An unknown's value, its 95 % interval, the value the search started from and the unit.
-
-    refined: about where a lattice with cells half as large would put it, None where that is not known;
-    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh;
-    determined: whether the data see it by itself.
-    """
-
-    value: float
-    interval: tuple[float, float]
-    start: float
-    unit: str
-    refined: float | None
-    noise_interval: tuple[float, float]
-    determined: bool
 
 
 @dataclass(frozen=True, repr=False)

@@ -38,12 +38,12 @@ from typing import Any
 import numpy as np
 
 from comparisons.identification import residuals as remarks
-from comparisons.identification.answer import Estimate, Identification
+from comparisons.identification.answer import Identification
 from comparisons.identification.fit import Fit, Nearest, nearest
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
 from comparisons.identification.model import NotReached, lattice_model, reference_model, set_in
 from comparisons.identification.residuals import Outlier, explained, outliers, runs
-from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown
+from comparisons.identification.unknowns import DAMPING, VISCOUS, Estimate, Unknown
 from comparisons.identification.unknowns import unknown as unknown_of
 from comparisons.models.context import context
 from comparisons.models.grids import Elements as Count

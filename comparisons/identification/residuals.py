@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -26,14 +25,12 @@ from scipy.special import bdtrc
 
 from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.measurements import MOVED, Displacements, Measured
+from comparisons.identification.unknowns import Estimate
 from fem_reference.pulled_strip import curving, laws_of
 from sheetbench.answers.table import quantity
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
-
-if TYPE_CHECKING:
-    from comparisons.identification.answer import Estimate
 
 UNLIKELY = 1e-3  # probability below which as many equal signs are not noise
 SMALL = 2e-3  # standard deviation of residuals, of the largest measurement, below which no test is made

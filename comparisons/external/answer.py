@@ -154,7 +154,7 @@ class Code(ABC):
         """Return what it finds of a scene that it does not refuse."""
 
     def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Any:
-        """Return the mesh, `Bricks` or the like. Raises BadInput without the code or for settings it cannot use."""
+        """Return the mesh, `Bricks` or alike. Raises BadInput without the code, or for bad settings."""
         elements, layers, grading = (settings[name] for name in ("elements", "layers", "grading"))
         require_count(elements)
         if type(layers) is not int or layers < 2 or layers % 2:

@@ -59,24 +59,14 @@ class Identification(Answer):
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
-        return {
+        own = {name: value for name, value in vars(self).items() if name not in ("measured", "without")}
+        return own | {
             "scene": self.scene.name,
-            "model": self.model,
-            "settings": self.settings,
             "unknowns": {name: asdict(u) for name, u in self.unknowns.items()},
-            "residuals": self.residuals,
             "points": self.measured.points,
-            "noise": self.noise,
-            "relative": self.relative,
-            "evaluations": self.evaluations,
-            "converged": self.converged,
-            "explained": self.explained,
             "runs": {**asdict(self.runs), "probability": self.runs.probability},
-            "starts": self.starts,
-            "grids": [list(grid) for grid in self.grids],
             "outliers": [asdict(one) for one in self.outliers],
             "without_outliers": {name: asdict(u) for name, u in self.without.items()},
-            "warnings": list(self.warnings),
         }
 
     def tables(self) -> tuple[Table, ...]:

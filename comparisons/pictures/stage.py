@@ -87,7 +87,7 @@ class Stage:
             if isinstance(one, Plane):
                 body = pyvista.Plane(center=middle - way, direction=along, i_size=side, j_size=side)
             elif isinstance(one, Cylinder):
-                size = {"radius": radius, "height": 1.2 * self.size}
+                size: dict[str, Any] = {"radius": radius, "height": 1.2 * self.size}
                 body = pyvista.Cylinder(center=at + way, direction=along, resolution=80, **size)
             else:
                 body = pyvista.Sphere(radius=radius, center=at, theta_resolution=60, phi_resolution=60)

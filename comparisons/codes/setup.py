@@ -218,7 +218,7 @@ def setup(
     spacing = float(min(scene.sheet.lengths)) / squares
     at_rest = named and _at_rest(scene)
     best, missing, given = best and at_rest and not coefficients, "", given or {}
-    name, off, fixed = mesh or row.mesh, None, coefficients or {}
+    name, off, fixed = mesh or row.mesh, None, dict(coefficients or {})
     if name == LAYERED:
         found = layered_springs(scene, spacing) | fixed
         cell = tetrahedral_cell(spacing, found["layers"])

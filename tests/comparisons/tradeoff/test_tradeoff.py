@@ -45,7 +45,7 @@ from campaigns import Here
 from comparisons.cli import main
 from comparisons.sweep import campaign, executors
 from comparisons.sweep.store import Store
-campaign.carry_out.__kwdefaults__["pool"] = executors.processes = Here
+campaign.carry_out.__kwdefaults__["pool"] = executors.Processes = Here
 kept, add = [], Store.add
 def add_and_die(store, task, arguments, outcome):
     add(store, task, arguments, outcome)

@@ -129,10 +129,9 @@ def answer(
     edges, wrenches, line = sheet.wrenches(shape, residual)
     reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(shape)
     held = sheet.holding(q, residual, share)
-    for item in sheet.items:
-        for name, (places, forces) in item.holds(shape).items():
-            reactions[name] = forces.reshape(-1, 3).sum(axis=0)
-            held.append((places.reshape(-1, 3), forces.reshape(-1, 3)))
+    by_items = sheet.held_by_items(shape)
+    reactions |= {name: forces.sum(axis=0) for name, (_, forces) in by_items.items()}
+    held += by_items.values()
     mesh = sheet.drawn(q, line if scene.actuators else None)
     contacts = {one.name: one.report(shape) for one in sheet.contacts}
     if contacts:

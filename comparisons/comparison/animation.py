@@ -78,8 +78,7 @@ def _view(
         stage.surface(held, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
     for rest, u in frame.axes:
         stage.chain(rest + u)
-    corners = [stage.obstacle(obstacle, time) for obstacle in scene.obstacles]
-    return stage.take(np.vstack([seen, *corners]), np.empty((0, 3)))[0]
+    return stage.take(np.vstack([seen, stage.obstacles(time)]), np.empty((0, 3)))[0]
 
 
 def _page(

@@ -12,6 +12,7 @@ from lumped.actuators.chain import BoundChain
 from lumped.actuators.corners import SharedEnd
 from lumped.lattice import build
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.scenes import Chain as ChainData
 from sheetbench.scenes import Sheet
 
@@ -90,7 +91,7 @@ def test_the_sheet_follows_a_slow_ramp_through_the_static_solutions():
         "one-edge-clamped", [{"curvature": ramp, "damping_time": 5e-3}], gravity=False, damping_time=1e-2
     )
     history = lumped.simulate(scene, springs(scene), 2.0, step=0.02, every=0.5)
-    assert history.status is scenes.Status.CONVERGED
+    assert history.status is Status.CONVERGED
     static = [
         lumped.solve(make_scene("one-edge-clamped", [{"curvature": 2.0 * t}], gravity=False), springs(scene))
         for t in history.time[1:]
@@ -116,7 +117,7 @@ def test_integrators_agree_on_a_sheet_with_a_chain(driven, name):
     scene, truth = driven
     step = 2.5e-4 if name == "midpoint" else None
     history = lumped.simulate(scene, springs(scene, 3), 0.005, integrator=name, step=step, every=0.001)
-    assert history.status is scenes.Status.CONVERGED
+    assert history.status is Status.CONVERGED
     scale = np.abs(truth.probes["P4"]).max()
     assert np.abs(history.probes["P4"] - truth.probes["P4"]).max() < 0.01 * scale
     drift = np.abs(history.balance - history.balance[0]).max() / np.abs(history.energies["work"]).max()
@@ -149,7 +150,7 @@ def test_a_held_base_carries_sheet_and_chain_in_statics_and_at_the_end_of_a_run(
     scene = make_scene("one-edge-clamped", [chain], supports=[], damping_rate=20.0)
     weight = 9.81 * (1678.0 * 0.188**2 * 0.003 + 0.05 * 0.188)
     solution = lumped.solve(scene, springs(scene, 3))
-    assert solution.status is scenes.Status.CONVERGED
+    assert solution.status is Status.CONVERGED
     assert_allclose(solution.reactions["x0 base"], [0.0, 0.0, weight], atol=1e-8 * weight)
     history = lumped.simulate(scene, springs(scene, 3), 0.8, step=1e-2, every=0.1, radius=0.5)
     assert history.reactions["x0 base"][-1] == pytest.approx([0.0, 0.0, weight], abs=0.01 * weight)

@@ -12,7 +12,6 @@ from comparisons.sweep.campaign import campaign
 from lumped.calibration.central_table import ROWS
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Clamped, EdgeLoad, Held
-from studies.transfer import study as studies
 from studies.transfer.drawn import Drawn, measure
 from studies.transfer.drawn_scenes import CATALOGUE, OBLIQUE, drawn_sheets
 from studies.transfer.scenes import TRAINING, transfer_scenes
@@ -87,13 +86,6 @@ def test_wrong_limits_are_measured_and_predicted(study):
         assert row["extrapolated"] == pytest.approx(row["predicted_limit"], rel=0.03)
         assert row["lattice_less_plate"] < 0.01
     assert rows["consistent"]["extrapolated"] < 0.004 and rows["consistent"]["predicted_limit"] < 0.001
-
-
-def test_long_cells(study, monkeypatch):
-    monkeypatch.setattr(studies, "LONG_EVERYWHERE", ((9, 25),))
-    found = study(methods=["moduli"], grids=[9], scenes=SEED, parts=["aspect"])
-    assert {row["aspect"] for row in found.aspect} == {1.0, 1.5, 2.0, 3.0}
-    assert max(row["error"] for row in found.aspect) < 0.02
 
 
 def test_leave_one_out(study):

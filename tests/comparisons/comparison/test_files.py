@@ -115,8 +115,3 @@ def test_what_is_not_finite_is_not_drawn(scene, tmp_path):
     pair = (fake_solutions.solution(scene, size=np.nan), fake_solutions.solution(scene, "shell"))
     said = draw(Comparison(scene, pair), tmp_path)
     assert said is not None and "finite" in said
-
-
-def test_a_child_process_that_dies_means_no_drawing(monkeypatch):
-    monkeypatch.setattr(rendering, "_TRIAL", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
-    assert not rendering._draws({})

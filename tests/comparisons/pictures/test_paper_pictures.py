@@ -105,6 +105,7 @@ def test_what_a_figure_may_be():
 NAMES = ("probes", "history", "tradeoff", "locking", "responses", "modes")
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", NAMES)
 def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name):
     with matplotlib.rc_context(STYLE):

@@ -54,13 +54,12 @@ class _Declared:
             for name, one in self.own.parameters.items()
             if isclass(one.annotation) and issubclass(one.annotation, Group)
         }
-        described = [of for kind in self.groups.values() for of in kind.documented()]
+        described = [of for kind in self.groups.values() for of in kind.__mro__[:-1]]
         self.words = words_of(command, *described, options)
         self.rules = dict(getattr(command, "no_effect", {}))
-        for kind in self.groups.values():
-            self.rules |= {
-                rule: f"{self.rules.get(rule, '')} {names}" for rule, names in kind.no_effect.items()
-            }
+        for kind in described:
+            for rule, names in vars(kind).get("no_effect", {}).items():
+                self.rules[rule] = f"{self.rules.get(rule, '')} {names}"
 
     @property
     def prose(self) -> str:

@@ -56,7 +56,7 @@ def compare_motion(
     scene = scene_of(scene)
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
-    beside = [parse(one) if isinstance(one, str) else one for one in models]
+    beside = [parse(one) for one in models]
     left_out = {one.model: why for one in beside if leave_out and (why := refusal(scene, one))}
     beside = [one for one in beside if one.model not in left_out]
     for one in (finest, *beside):

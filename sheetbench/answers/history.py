@@ -6,7 +6,7 @@ Part of the question's language, as `Solution` is for statics: it holds no mecha
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -96,23 +96,8 @@ class History(Answer):
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench simulate`: seconds, metres, joules, newtons."""
-        return {
-            "time": self.time,
-            "probes": self.probes,
-            "energy": self.balance,
-            "status": str(self.status),
-            "steps": self.steps,
-            "solve_seconds": self.solve_seconds,
-            "setup_seconds": self.setup_seconds,
-            "message": self.message,
-            "integrator": self.integrator,
-            "label": self.label,
-            "settings": self.settings,
-            "resumed_from": self.resumed_from,
-            "energies": self.accounts,
-            "reactions": self.reactions,
-            "actuators": self.actuators,
-        }
+        own = {one.name: getattr(self, one.name) for one in fields(self) if one.name != "extra"}
+        return {**own, "energy": self.balance, "status": str(self.status), "energies": self.accounts}
 
     def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
         """A row per probe: the displacement at the end, its largest excursion and, if measured, the error."""

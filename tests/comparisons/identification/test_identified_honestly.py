@@ -16,7 +16,7 @@ from comparisons.identification.fit import Fit, nearest
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface
 from comparisons.identification.model import Model, Prediction, lattice_model
-from comparisons.identification.residual_test import UNLIKELY, explained, outliers, runs
+from comparisons.identification.residuals import UNLIKELY, explained, outliers, runs
 from comparisons.identification.unknowns import Unknown, unknown
 from comparisons.models.grading import lines_on_shapes
 from comparisons.models.spec import Lattice

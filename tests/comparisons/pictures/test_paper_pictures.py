@@ -17,8 +17,8 @@ from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.spec import Lattice
+from comparisons.modes import figure as responding
 from comparisons.modes import figure as swinging
-from comparisons.modes import state_figure as responding
 from comparisons.modes.spectra import spectra
 from comparisons.modes.state_space import linearise
 from comparisons.sweep.solved import Ask
@@ -78,7 +78,7 @@ def composed(scene, comparison):
         "history": partial(moving.compose, history(time, moved), scene.title, {}),
         "tradeoff": partial(trading.compose, trade),
         "locking": partial(locking.compose, locked),
-        "responses": partial(responding.compose, linear),
+        "responses": partial(responding.responses, linear),
         "modes": partial(swinging.compose, swings),
     }
 

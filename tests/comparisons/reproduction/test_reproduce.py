@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from commands import run
 
-from comparisons.reproduction import nearest
+from comparisons.reproduction import findings
 from comparisons.reproduction.answers import answer, published, scene
 from comparisons.reproduction.printed_errors import cells, means
 from comparisons.reproduction.reproduction import Reproduction, reproduce
@@ -88,8 +88,8 @@ def test_every_printed_error_is_of_the_larger_value():
 
 
 def test_what_is_kept_of_the_nearest_sheets_says_where_it_comes_from():
-    stored = nearest.stored()
-    assert "at commit f525c8e5" in stored["made"] and stored["made"] in nearest.table().text
+    stored = findings.stored()
+    assert "at commit f525c8e5" in stored["made"] and stored["made"] in findings.nearest_table().text
     for fit in stored["fits"]:
         assert 0 <= fit["met"] < fit["entries"] and 0.0 < fit["rms"] < fit["error"]
     text = " ".join(one["finding"] for one in stored["findings"])

@@ -65,7 +65,7 @@ def compare(
     if companion and left_open and not scene.drawn_by:
         named[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
     for other in models:
-        beside = resolve(scene, parse(other) if isinstance(other, str) else other)
+        beside = resolve(scene, parse(other))
         named[unlike(shown_name(beside.spec.model), named)] = beside
     rows = []
     for name, model in named.items():

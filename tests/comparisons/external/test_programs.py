@@ -6,7 +6,6 @@ import os
 import shutil
 import signal
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,6 @@ from sheetbench.errors import BadInput
 STRIP = Path(__file__).parents[3] / "docs" / "strip.sh"
 SCENE = scenes.load("one-edge-clamped")
 ANSWER = {"status": "converged", "probes": {name: [0.0, 0.0, -0.04] for name in SCENE.probes}}
-Make = Callable[..., str]
 
 
 @pytest.fixture
@@ -163,14 +161,6 @@ def test_a_child_that_is_left_behind_holds_nothing_up(program, tmp_path, leaves)
     assert alive(child)  # nothing but its end could have ended a wait for it
     os.kill(child, signal.SIGKILL)
     assert solution.comparable
-
-
-def test_a_child_that_goes_on_to_talk_is_not_listened_to(program, tmp_path):
-    talking = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec yes >&2' 2>&2 &"
-    ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
-    solution = face.solve(SCENE, program("mine", talking, ready, says(ANSWER)), seconds=1e15)
-    assert solution.status is Status.CONVERGED
-    wait_for(lambda: not alive(int((tmp_path / "left").read_text())), 10.0)  # its pipe is closed
 
 
 @pytest.mark.parametrize("limits", ["seconds=1e20", "seconds=1" + 400 * "0", "memory_mb=1e999"])

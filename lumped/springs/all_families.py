@@ -13,7 +13,6 @@ from functools import cache, cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
@@ -29,7 +28,7 @@ from lumped.springs.survey import Survey, survey
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.typed import njit, typed
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
@@ -197,7 +196,7 @@ def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
     return energy, out
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")
 def advance(
     u: np.ndarray, step: np.ndarray, springs: SpringArrays
 ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.springs import cells, links
 from lumped.springs.cells import CellArrays
 from lumped.springs.links import LinkArrays
+from sheetbench.numerics.typed import njit
 
 Springs = tuple[LinkArrays, CellArrays, CellArrays, CellArrays]  # cells of layers, the mid-surface and faces
 
@@ -40,13 +40,15 @@ def survey(
             summed, met = summed + e, met + 1
             if met % layers == 0:
                 stretch, summed = stretch + half * (summed * summed) / layers, 0.0
-    parts = (
-        cells.energies(u, in_layers, areas[0]),
-        cells.energies(u, middle, areas[1]),
-        cells.energies(u, faces, areas[2]),
-    )
-    for f, part in enumerate(parts):
-        for c in range(len(part)):
-            energies[kinds + 2 * f] += part[c, 0]
-            energies[kinds + 2 * f + 1] += part[c, 1]
-    return energies, links.largest_strains(u.reshape((1, *u.shape)), along)[0], stretch
+    add_sums(cells.energies(u, in_layers, areas[0]), energies[kinds:])
+    add_sums(cells.energies(u, middle, areas[1]), energies[kinds + 2 :])
+    add_sums(cells.energies(u, faces, areas[2]), energies[kinds + 4 :])
+    return energies, links.largest_strains(np.expand_dims(u, 0), along)[0], stretch
+
+
+@njit(cache=True)
+def add_sums(each: np.ndarray, out: np.ndarray) -> None:
+    """Add (c, 2) over all c."""
+    for c in range(len(each)):
+        out[0] += each[c, 0]
+        out[1] += each[c, 1]

@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
@@ -23,6 +22,7 @@ from lumped.springs.survey import Survey
 from lumped.supports import Constraints
 from sheetbench.numerics.maps import Rows, product, transposed_product
 from sheetbench.numerics.reduced import ReducedSystem
+from sheetbench.numerics.typed import njit
 
 NOTHING = np.empty((0, 3))
 

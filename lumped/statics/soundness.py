@@ -7,10 +7,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from lumped.springs.links import measure
-from sheetbench.numerics.maps import Rows, transposed_product
+from sheetbench.numerics.maps import Rows
+from sheetbench.numerics.typed import njit
 
 TINY = float(np.finfo(float).tiny)
 TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named
@@ -136,4 +136,8 @@ def rounded_forces(
         pull = stiffness[m] * math.sqrt(square)
         carried[a] += pull
         carried[b] += pull
-    return transposed_product(free, (carried.reshape(-1, 1) * sample).ravel(), n)
+    out = np.zeros(n)
+    for row in range(len(free.pointers) - 1):
+        for e in range(free.pointers[row], free.pointers[row + 1]):
+            out[free.columns[e]] += free.values[e] * carried[row // 3] * sample[row // 3, row % 3]
+    return out

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from sheetbench.numerics.memory import load, store
+from sheetbench.numerics.typed import njit
 
 PANEL = 6  # the unknowns of a column of masses in two layers
 LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned

@@ -7,9 +7,6 @@ import fem_reference
 import lumped
 import lumped.plies
 import sheetbench as sb
-from comparisons.external.answer import refusal
-from comparisons.external.calculix.model import DRAWN
-from comparisons.external.calculix.model import MODEL as CALCULIX
 from fem_reference.surface import plies
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Material, SceneError, load
@@ -66,15 +63,6 @@ def test_a_quarter_turn_exchanges_the_constants(model):
     swapped |= dict(shear_13=2e6, shear_23=3e6, young_3=8e6, poisson_13=0.35, poisson_23=0.35)
     turned, found = both(with_fibres(**FIBRES, angle=np.pi / 2), with_fibres(**swapped), model)
     assert found == pytest.approx(turned, rel=1e-8, abs=1e-8 * np.abs(turned).max())
-
-
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_fibres_and_their_mirror_image_move_mirrored(model):
-    """About the diagonal of two clamped edges 30° is 60°."""
-    scene = with_fibres(**FIBRES, angle=np.pi / 6)
-    one, other = both(scene, with_fibres(**FIBRES, angle=np.pi / 3), model)
-    mirrored = other[[0, 2, 1, 3]][:, [1, 0, 2]]  # P2 and P3 change places, and x and y
-    assert mirrored == pytest.approx(one, abs=1e-7 * np.abs(one).max())
 
 
 def test_shell_and_solid_agree_on_oblique_fibres():
@@ -158,14 +146,6 @@ def test_lattice_and_shell_agree_on_laminates(layers):
     assert np.abs(found - shell).max() < 0.02 * np.abs(shell).max()
 
 
-def test_springs_of_the_material_alone_are_not_those_of_a_laminate():
-    scene = with_fibres(**FIBRES)
-    springs = lumped.calibrate(scene.sheet, scene.material, 5)
-    assert lumped.solve(scene, springs).status is Status.CONVERGED
-    with pytest.raises(ValueError, match=r"layer: the calibration consistent .* cells=lumped.sections_of"):
-        lumped.solve(scene.replace(layers=CROSS), springs)
-
-
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_identify_finds_moduli_and_the_angle_of_fibres(model, tmp_path):
@@ -217,17 +197,3 @@ def test_the_solid_has_a_brick_or_more_for_every_layer():
     uneven = [{"thickness": h, "angle": 0.1 * h} for h in (0.00095, 0.0011, 0.00095)]
     with pytest.raises(ValueError, match="layer: the solid has 12 bricks of one height at most"):
         fem_reference.solve(scene.replace(layers=uneven), "solid", elements=2)
-
-
-@pytest.mark.skipif(CALCULIX.version() is None, reason=f"needs {CALCULIX.needs}")
-def test_calculix_agrees_with_the_shell():
-    scene = with_fibres(**FIBRES, angle=np.pi / 6)
-    judged = CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 6})
-    assert judged.status is Status.CONVERGED
-    shell = fem_reference.solve(scene, "shell", elements=12).displacement(scene.probe_points())
-    assert np.abs(judged.displacement(scene.probe_points()) - shell).max() < 0.003 * np.abs(shell).max()
-
-
-def test_calculix_refuses_layers():
-    scene = with_fibres(**FIBRES).replace(layers=CROSS)
-    assert refusal(scene, "", "", drawn=DRAWN) == "layer: it is given sheets without"

@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from copy import copy
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -31,6 +31,7 @@ class DiscreteElements(Discrete):
     per_vector: 1 of an element's positions (a,), of its directors 1 over the lever."""
 
     element: Element | Bricks
+    creeps: ClassVar[bool] = False
     pattern: Pattern
     per_vector: np.ndarray
 
@@ -80,15 +81,6 @@ class DiscreteElements(Discrete):
 
     def elements_internal(self, shape: SheetShape) -> np.ndarray:
         return self.scatter(self.element.forces(shape.operator, self.stress(shape)))
-
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        before, after, element = self.gather(start), self.gather(end), self.element
-        first, last = (self.strain(change, time) for change in (before, after))
-        stress = element.stress(0.5 * (first + last))
-        if self.tau:
-            rate = (last - first) / h
-            stress = stress + self.tau * weighed(element.moduli(0.5 * (first + last)), rate)
-        return self.scatter(element.forces(element.operator(0.5 * (before + after)), stress))
 
     def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         moduli = (1.0 + by_v * self.tau + gain(shape.branches)) * shape.moduli

@@ -85,13 +85,8 @@ class Rods:
         """Elastic and viscous stresses (k, s)."""
         change = self.gather(shape.q)
         rate = 0.0 if shape.v is None else self._step(self._gradient(change), shape.v)
-        return self._stress(self._strain(change), rate, shape.at)
-
-    def mean_stress(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        """Those (k, s) of the mean strains of a step from q to q (N,), and of their mean rate; time: the
-        step's middle."""
-        strains = self._strain(self.gather(start)), self._strain(self.gather(end))
-        return self._stress(0.5 * (strains[0] + strains[1]), (strains[1] - strains[0]) / h, time)
+        off = self._strain(change) - self._intrinsic(shape.at)
+        return self.elements.stiffness * off + self._viscous * rate
 
     def pull(self, q: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Bᵀ s (k, a, 3) on the sides' vectors at q (N,)."""
@@ -177,9 +172,6 @@ class Rods:
         for shape, factor in self._commands:
             total += factor_at(factor, at) * shape
         return total
-
-    def _stress(self, strain: np.ndarray, rate: np.ndarray | float, at: float) -> np.ndarray:
-        return self.elements.stiffness * (strain - self._intrinsic(at)) + self._viscous * rate
 
     def _dampers(self, scene: Scene) -> np.ndarray:
         """τ S of what bends freely, (k, s); chains on one edge by their stiffness."""

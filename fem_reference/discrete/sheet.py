@@ -15,7 +15,7 @@ Internal forces are those of the elements and of the rods (`discrete.rods`), ext
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar
@@ -25,16 +25,18 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
-from fem_reference.discrete.drag import Drag
-from fem_reference.discrete.items import Dead, Following, SheetItem
-from fem_reference.discrete.output import Output
+from fem_reference.discrete.items import Dead, Drag, Following, SheetItem
 from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads
-from fem_reference.surface.actuator_forces import OnEdge, exerted
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted
+from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods
+from fem_reference.surface.location import interpolate
+from fem_reference.surface.mesh import Plan
 from fem_reference.surface.supports import Supports
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.motion import kinks
@@ -44,23 +46,24 @@ from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 Binding = Callable[[Scene], BoundRods]
 
 
-class Discrete(Output):
-    """N coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
+class Discrete(ABC):
+    """N = `size` coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
 
-    norm: order of the norm that residuals are measured in. conservative: whether the law of strain is
-    linear in Green's strain; any_strain: whether it is meant for large strains. lever: the flat
-    sheet's longer side [m]; scale: 1 of positions (N,), of directors the lever. own: whether the mesh has an
-    outline of its own, in place of the scene's sheet. bodies: the rods, if there are any.
+    norm: order of the norm that residuals are measured in. any_strain: whether the law of strain is meant for
+    large strains. lever: the flat sheet's longer side [m]; scale: 1 of positions (N,), of directors the
+    lever. own: whether the mesh has an outline of its own, in place of the scene's sheet. bodies: the rods,
+    if there are any.
     """
 
     model: ClassVar[str]
     norm: ClassVar[int]
     label: str
     settings: dict[str, Any]
-    conservative: bool
     any_strain: bool = False
     own: bool = False
     natural: NaturalState | None = None
+    plan: Plan
+    size: int
     supports: Supports
     rods: Rods
     unknowns: int
@@ -191,10 +194,6 @@ class Discrete(Output):
     def elements_internal(self, shape: SheetShape) -> np.ndarray:
         """Elastic and viscous forces (N,) of the sheet."""
 
-    @abstractmethod
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        """Those (N,) of the mean strains of a step and their mean rate, natural ones as at a time [s]."""
-
     def shape(
         self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
     ) -> SheetShape:
@@ -204,6 +203,11 @@ class Discrete(Output):
     def external(self, shape: SheetShape) -> np.ndarray:
         """Forces (N,) of all items."""
         return sum((item.force(shape) for item in self.items), np.zeros(self.size))
+
+    def held_by_items(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Where (k, 3) [m], and with which forces (k, 3) [N], items hold the sheet, by their names."""
+        held = {name: both for item in self.items for name, both in item.holds(shape).items()}
+        return {name: (at.reshape(-1, 3), force.reshape(-1, 3)) for name, (at, force) in held.items()}
 
     def internal(self, shape: SheetShape) -> np.ndarray:
         """Forces (N,) of the sheet's elements and of its rods."""
@@ -229,22 +233,9 @@ class Discrete(Output):
 
     def forces(self, shape: SheetShape) -> np.ndarray:
         """g (N,): internal and viscous less external forces."""
-        return self._damped(self.internal(shape) - self.external(shape), shape.v)
-
-    def mean_forces(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        """g (N,) of the means of a step from one q to another: their strains' mean, not that of the mean."""
-        q, v = 0.5 * (start + end), (end - start) / h
-        out = self.elements_mean_internal(start, end, h, time)
-        for body in self.bodies:
-            out = out + body.scatter(body.pull(q, body.mean_stress(start, end, h, time)))
-        shapes = self.shape(start, time - 0.5 * h), self.shape(end, time + 0.5 * h), self.shape(q, time, v)
-        for item in self.items:
-            out = out - item.mean_force(*shapes)
-        return self._damped(out, v)
-
-    def _damped(self, forces: np.ndarray, v: np.ndarray | None) -> np.ndarray:
-        damped = self.alpha and v is not None
-        return forces + self.alpha * (self.sheet_mass @ v) if damped else forces
+        forces = self.internal(shape) - self.external(shape)
+        damped = self.alpha and shape.v is not None
+        return forces + self.alpha * (self.sheet_mass @ shape.v) if damped else forces
 
     @abstractmethod
     def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
@@ -287,6 +278,50 @@ class Discrete(Output):
     @abstractmethod
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
+
+    # what is shown
+
+    @abstractmethod
+    def displacement(self, q: np.ndarray) -> np.ndarray:
+        """Displacements (k, 3) [m] of the nodes, a view."""
+
+    def middles(self, displacement: np.ndarray) -> np.ndarray:
+        """Those (n, 3) [m] of the plan's nodes on the mid-surface."""
+        return displacement
+
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], of nodal ones as `displacement`."""
+        return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
+
+    @abstractmethod
+    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
+        """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
+
+    @abstractmethod
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+        """The sheet for drawing, and the line force (n, 3) [N/m] of actuators on it."""
+
+    def mesh(self, displacement: np.ndarray) -> FieldMesh:
+        """The sheet for drawing, of nodal displacements as `displacement`."""
+        q = np.zeros(self.size)
+        self.displacement(q)[:] = displacement
+        return self.drawn(q)
+
+    @abstractmethod
+    def surface(self, q: np.ndarray) -> Surface:
+        """The sheet as it lies."""
+
+    @abstractmethod
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
+        """Force and couple on the nodes of g (N,)."""
+
+    @abstractmethod
+    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
+        """What the rods exert, which pull at their sides' vectors (k, a, 3)."""
+
+    @abstractmethod
+    def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Where, and with which forces of g (N,), the sheet is held, pairs (…, 3), its nodes first."""
 
     # when a state means nothing
 

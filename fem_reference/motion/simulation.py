@@ -1,4 +1,4 @@
-"""Motion of a reference from rest: a scene in, a `scenes.History` out.
+"""Motion of a reference from rest: a scene in, a `History` out.
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
 rest; with a curved support or a tilted clamp, in the shape that supports alone give it; with `[initial]` in
@@ -15,23 +15,19 @@ import numpy as np
 
 from fem_reference.defaults import with_defaults
 from fem_reference.discrete.energies import SheetMotion
-from fem_reference.motion.energy_momentum import EnergyMomentum
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.sheets import SHEETS
 from fem_reference.vibration import modes
 from sheetbench.answers.history import History
-from sheetbench.choices import REFERENCE, STRAIN_LAW, listed
+from sheetbench.choices import REFERENCE, listed
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, require_choice
+from sheetbench.errors import BadInput
 from sheetbench.runs.record import Recipe, parted, record
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
-from sheetbench.scenes import AnyScene, Scene, require_no_branches, scene_of
+from sheetbench.scenes import AnyScene, Scene, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.quantities import require_positive
-
-INTEGRATORS = {"generalised-alpha": ConstrainedAlpha, "energy-momentum": EnergyMomentum}
-STEPS_PER_PERIOD = 200
 
 
 def simulate(
@@ -39,7 +35,6 @@ def simulate(
     model: str = REFERENCE,
     duration: float = 1.0,
     *,
-    integrator: str = "generalised-alpha",
     step: float | None = None,
     error: float = ERROR,
     every: float | None = None,
@@ -47,11 +42,9 @@ def simulate(
 ) -> History:
     """Motion of a scene's sheet over `duration` [s] as a reference has it.
 
-    integrator: "generalised-alpha", or "energy-momentum", which keeps energy and momenta to rounding in fixed
-    steps, 1/200 of the lowest period unless given. step [s]: fixed; without it steps keep to an `error` each,
-    of the displacement relative to the largest so far. every [s]: distance of samples, 1/100 of the lowest
-    period unless given. options: the model's own, `elements` among them, and `store`, `frames` and `progress`
-    (`sheetbench.runs.record`).
+    step [s]: fixed; without it steps keep to an `error` each, of the displacement relative to the largest so
+    far. every [s]: distance of samples, 1/100 of the lowest period unless given. options: the model's own,
+    `elements` among them, and `store`, `frames` and `progress` (`sheetbench.runs.record`).
 
     Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for a model that
     does not move, what a model cannot move, an error not below 0.1, and for a folder that holds
@@ -72,35 +65,22 @@ def simulate(
     requested = scene_of(scene)
     if model == "plate":
         require_no_obstacles(requested, "the plate, which is linear,")
-    require_choice("integrator", integrator, INTEGRATORS)
     options = with_defaults(requested, signature(SHEETS[model]).parameters, options)
     moving = SHEETS[model](requested, **options, moving=True)
     spacing = every or _lowest_period(requested) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)
     schedule = Schedule(count, duration / count, count)
-    if integrator == "energy-momentum":
-        require_no_branches(requested.material, f"the integrator {integrator}")
-        if not moving.conservative:
-            raise BadInput(f"integrator = '{integrator}': the strain law '{STRAIN_LAW}' alone is conserved")
-        longest = step or _lowest_period(requested) / STEPS_PER_PERIOD
-        # energies are kept at the steps' ends
-        step = schedule.every / float(np.ceil(schedule.every / longest - 1e-9))
     settings = {**moving.settings, "step": step or "adaptive", "error": error}
     flat = moving.displacement(np.zeros(moving.mass.shape[0]))
-    key = {
-        "model": model,
-        "settings": settings,
-        "every": every,
-    }
     recipe: Recipe[SheetMotion] = Recipe(
         scene=requested,
         label=moving.label,
-        integrator=integrator,
+        integrator="generalised-alpha",
         settings=settings,
-        key=key,
+        key={"model": model, "settings": settings, "every": every},
         duration=duration,
         schedule=schedule,
-        method=lambda schedule: INTEGRATORS[integrator](moving, step, error, 0.1 * schedule.every),
+        method=lambda schedule: ConstrainedAlpha(moving, step, error, 0.1 * schedule.every),
         observer=ReferenceObserver(moving, requested),
         start=lambda method: method.start(),
         rows=len(flat),

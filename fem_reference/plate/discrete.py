@@ -10,7 +10,7 @@ displacements and ρh³/12 on the tilts.
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import ClassVar, cast
+from typing import ClassVar, NamedTuple, cast
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
@@ -20,7 +20,6 @@ from fem_reference.discrete.relaxation import Strained, gain, with_branches
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import TILT_X, PlateElements, W
-from fem_reference.plate.natural import OwnStrains, own_strains
 from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import carried, rod
 from fem_reference.surface import supports as surface_supports
@@ -38,6 +37,31 @@ from sheetbench.scenes.meaning.natural_state import natural_at
 PARTS = ("membrane", "bending", "shear")
 
 
+class OwnStrains(NamedTuple):
+    """Membrane and bending strains (m, 9, 3) without stress; f (N,) [N, N·m] on all unknowns."""
+
+    strains: tuple[np.ndarray | float, np.ndarray | float] = (0.0, 0.0)
+    force: np.ndarray | float = 0.0
+
+
+def own_strains(
+    elements: PlateElements, section: Section, size: int, strain: np.ndarray, curvature: np.ndarray
+) -> OwnStrains:
+    """Return those of e0 and k0 at the Gauss points (m, 9, 2, 2): e0 of the middle and −k0 in bending,
+
+    f = ∫ (Bᵀ A e0 − Bᵀ D k0) dA,
+    W = ½ ∫ (e − e0)·A (e − e0) + (κ + k0)·D (κ + k0) dA = ½ u·K u − f·u + W₀
+    """
+    xx_yy_2xy = np.array([1.0, 1.0, 2.0])
+    strains = [xx_yy_2xy * form[..., [0, 1, 0], [0, 1, 1]] for form in (strain, -curvature)]
+    force = np.zeros(size)
+    parts = (elements.membrane, section.membrane), (elements.curvature, section.bending)
+    for (operator, stiffness), own in zip(parts, strains, strict=True):
+        stress = elements.areas[..., None] * (stiffness @ own[..., None])[..., 0]
+        np.add.at(force, elements.unknowns, np.einsum("mqic,mqi->mc", operator, stress))
+    return OwnStrains((strains[0], strains[1]), force)
+
+
 class DiscretePlate(Discrete):
     """A scene's plate on any flat mesh of straight-sided quadrilaterals [m]; BadInput for folded ones.
 
@@ -48,7 +72,6 @@ class DiscretePlate(Discrete):
 
     model = "plate"
     norm: ClassVar[int] = 2
-    conservative = True
 
     def __init__(
         self,
@@ -155,9 +178,6 @@ class DiscretePlate(Discrete):
         out = with_branches(self.stiffness @ shape.q, shape.branches)
         viscous = 0.0 if shape.v is None else self.tau * (self.stiffness @ shape.v)
         return np.asarray(out + viscous - self.at_rest(shape.at).force)
-
-    def elements_mean_internal(self, start: np.ndarray, end: np.ndarray, h: float, time: float) -> np.ndarray:
-        return self.elements_internal(SheetShape(self, 0.5 * (start + end), time, (end - start) / h))
 
     def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
         return self.whole_tangent(shape, by_a, by_v)[self.free][:, self.free]

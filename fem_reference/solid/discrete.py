@@ -16,29 +16,30 @@ from typing import ClassVar
 
 import numpy as np
 from scipy.sparse import block_diag, bsr_matrix, csc_matrix, csr_matrix, identity
+from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
 from fem_reference.discrete.shape import SheetShape
-from fem_reference.solid.element import Bricks, tangent
+from fem_reference.solid.element import Bricks, at_rest, tangent
 from fem_reference.solid.materials import LAWS
-from fem_reference.solid.mesh import Columns
-from fem_reference.solid.natural import at_rest
+from fem_reference.solid.mesh import columns_of
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
 from fem_reference.surface import carried, rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
+from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
-from fem_reference.surface.stretch import largest_stretch
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import Constants, Material, Scene
+from sheetbench.scenes import Scene
 
 
 class DiscreteSolid(DiscreteElements):
-    """A scene's solid on columns of bricks, layer by layer over the plan's elements."""
+    """A scene's solid on columns of bricks, layer by layer over the elements of a plan mesh of straight-sided
+    quadrilaterals, at rest unless it is moving."""
 
     model = "solid"
     norm: ClassVar[int] = 2
@@ -46,16 +47,18 @@ class DiscreteSolid(DiscreteElements):
 
     def __init__(
         self,
-        columns: Columns,
+        mesh: MeshQuad,
         scene: Scene,
-        law: str,
-        material: Material | Constants,
-        clamp: str,
+        layers: int = 1,
+        law: str = STRAIN_LAW,
+        clamp: str = "shell-like",
         moving: bool = False,
     ):
+        """Raise BadInput for an unknown law or clamp, no layers or a folded element."""
         super().__init__(scene, moving)
+        columns, material = columns_of(mesh, scene, layers, law)
         self.columns, self.plan = columns, columns.plan
-        self.conservative, self.any_strain = law == STRAIN_LAW, LAWS[law].stands_any_strain
+        self.any_strain = LAWS[law].stands_any_strain
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
         self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
@@ -261,7 +264,12 @@ class DiscreteSolid(DiscreteElements):
         return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
 
     def stretch(self, shape: SheetShape) -> float:
-        return largest_stretch(*(self.on_surface(q)[:, :9] for q in (np.zeros_like(shape.q), shape.q)))
+        """Return the largest change of length along the sides of an element, √(1 + 2 E) − 1 of the mean of
+        Green's strain E over it."""
+        places = (self.on_surface(q)[:, :9] for q in (np.zeros_like(shape.q), shape.q))
+        rest, now = (np.sum(np.einsum("agi,eic->aegc", AT_GAUSS[1], at) ** 2, axis=3) for at in places)
+        mean = (now / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()  # 2 E, of both sides of every element
+        return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + mean, 0.0)) - 1.0)))
 
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return self._on_columns(q).reshape(-1, 3)

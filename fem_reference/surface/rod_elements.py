@@ -10,17 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import NamedTuple
 
 import numpy as np
-
-
-class Strained(NamedTuple):
-    """Of k sides in a shape: B (k, s, a, 3), stresses s (k, s) and pull on Q (k, a, 3), less the weight."""
-
-    gradient: np.ndarray
-    stress: np.ndarray
-    pull: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -54,23 +45,9 @@ class RodElements:
         """Strains (k, s) of the change (k, a, 3)."""
         return np.einsum("esic,eic->es", self.gradient(0.5 * change), change)
 
-    def strained(self, change: np.ndarray, load_factor: float) -> Strained:
-        """What the change (k, a, 3) makes; the intrinsic curvature grows with the load."""
-        gradient = self.gradient(change)
-        stress = self.stiffness * (self.strain(change) - load_factor * self.intrinsic)
-        return Strained(gradient, stress, self.force(gradient, stress) - load_factor * self.weight)
-
-    def driving(self, gradient: np.ndarray) -> np.ndarray:
-        """Force of the intrinsic curvature on Q (k, a, 3)."""
-        return self.force(gradient, self.stiffness * self.intrinsic)
-
     def force(self, gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Bᵀ s (k, a, 3)."""
         return np.einsum("es,esic->eic", stress, gradient)
-
-    def extrapolated(self, found: Strained, step: np.ndarray) -> np.ndarray:
-        """Stresses (k, s) linear in a step (k, a, 3) from a shape."""
-        return found.stress + self.stiffness * np.einsum("esic,eic->es", found.gradient, step)
 
     def tangent(self, gradient: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Bᵀ S B + Σ s H ⊗ I, (k, 3 a, 3 a)."""
@@ -88,7 +65,3 @@ class RodElements:
         """A tangent (k, 3 a, 3 a) times a step (k, a, 3)."""
         k, vectors = step.shape[:2]
         return (tangent @ step.reshape(k, 3 * vectors, 1)).reshape(step.shape)
-
-    def energy(self, change: np.ndarray, load_factor: float = 1.0) -> float:
-        """½ Σ S (e − λ e₀)² [J] of the change (k, a, 3)."""
-        return 0.5 * float(np.sum(self.stiffness * (self.strain(change) - load_factor * self.intrinsic) ** 2))

@@ -1,12 +1,12 @@
 """What a dynamic run answers with: probes, energies and forces over time, and how it ended.
 
-Part of the question's language, as `scenes.Solution` is for statics: it holds no mechanics.
+Part of the question's language, as `Solution` is for statics: it holds no mechanics.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -47,7 +47,7 @@ class History(Answer):
     time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
     dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
     and by supports and commands that move), none of a program that does not tell them; reactions: as those
-    of a `scenes.Solution`, (n, 3) [N] each; actuators: name → force and moment about the
+    of a `Solution`, (n, 3) [N] each; actuators: name → force and moment about the
     segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
     integrator; status `converged` means that the run reached its end; resumed_from: what lies
     before is an earlier run's, which this one took up [s].
@@ -96,23 +96,8 @@ class History(Answer):
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench simulate`: seconds, metres, joules, newtons."""
-        return {
-            "time": self.time,
-            "probes": self.probes,
-            "energy": self.balance,
-            "status": str(self.status),
-            "steps": self.steps,
-            "solve_seconds": self.solve_seconds,
-            "setup_seconds": self.setup_seconds,
-            "message": self.message,
-            "integrator": self.integrator,
-            "label": self.label,
-            "settings": self.settings,
-            "resumed_from": self.resumed_from,
-            "energies": self.accounts,
-            "reactions": self.reactions,
-            "actuators": self.actuators,
-        }
+        own = {one.name: getattr(self, one.name) for one in fields(self) if one.name != "extra"}
+        return {**own, "energy": self.balance, "status": str(self.status), "energies": self.accounts}
 
     def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
         """A row per probe: the displacement at the end, its largest excursion and, if measured, the error."""

@@ -9,7 +9,7 @@ from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 
 import fem_reference
 import lumped
-from fem_reference.shell.statics import discretise
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.actuator_forces import by_segment
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
@@ -116,20 +116,6 @@ def test_agrees_with_a_chain_of_many_segments_on_a_fine_lattice(name):
     np.testing.assert_allclose(force.sum(axis=0)[:3], expected.sum(axis=0)[:3], atol=1e-6)
 
 
-def test_forces_balance():
-    scene = driven(chain(curvature=4.0))
-    solution = shell(scene)
-    sheet, own = 1678.0 * 0.003 * 0.188**2 * 9.81, 0.05 * 0.188 * 9.81
-    np.testing.assert_allclose(solution.reactions["x0"], [0.0, 0.0, sheet + own], atol=1e-8)
-    np.testing.assert_allclose(solution.actuators["x1"].sum(axis=0)[:3], [0.0, 0.0, -own], atol=1e-8)
-    line = solution.mesh.point_data["actuator_line_force"]
-    off = solution.mesh.points[:, 0] < 0.188 - 1e-9
-    assert np.all(line[off] == 0.0) and np.abs(line[~off]).max() > 0.0
-    held = shell(driven().model_copy(update={"supports": (), "actuators": (chain(edge="y0", base="end"),)}))
-    np.testing.assert_allclose(held.reactions["y0 base"], [0.0, 0.0, sheet + own], atol=1e-7)
-    np.testing.assert_allclose(held.actuators["y0"].sum(axis=0)[:3], [0.0, 0.0, sheet], atol=1e-7)
-
-
 def test_a_pair_is_one_rod_on_the_mean_axis():
     pair = driven(chain(face="top", curvature=6.0), chain(face="bottom", curvature=2.0))
     single = driven(chain(bending_stiffness=0.4, line_density=0.1, curvature=4.0))
@@ -141,11 +127,6 @@ def test_a_pair_is_one_rod_on_the_mean_axis():
     assert list(together.actuators) == ["x1.1", "x1.2"]
 
 
-def unit(vectors):
-    """Of unit length."""
-    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-
-
 @pytest.mark.parametrize("model", ["plate", "shell", "solid"])
 def test_modes_are_those_of_the_sheet_alone(model):
     with_rod = fem_reference.modes(driven(chain()), model, 3, count=3)
@@ -155,7 +136,7 @@ def test_modes_are_those_of_the_sheet_alone(model):
 
 def test_segments_share_the_force_and_the_moment_about_their_middles():
     """On a straight edge, where products with the position are integrated exactly."""
-    sheet = discretise(rectangle(STRIP, (1, 4), graded=False), alone(segments=5))
+    sheet = DiscreteShell(rectangle(STRIP, (1, 4), graded=False), alone(segments=5))
     (only,) = sheet.rods.bound.rods
     position = np.column_stack([sheet.plan.nodes[only.line], np.zeros(len(only.line))])
     nodal = np.random.default_rng(0).standard_normal((len(position), 6))
@@ -169,13 +150,13 @@ def test_segments_share_the_force_and_the_moment_about_their_middles():
 
 def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes():
     """½ EI κ₀² L at full load, a quarter at half; EI and the length are 1."""
-    sheet = discretise(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
+    sheet = DiscreteShell(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
     for share, stored in ((1.0, 2.0), (0.5, 0.5)):
         assert sheet.rods.energy(np.zeros(sheet.size), share) == pytest.approx(stored, rel=1e-9)
 
 
 @pytest.mark.parametrize(("edge", "across"), [("x1", (1.0, 0.0, 0.0)), ("y1", (0.0, 1.0, 0.0))])
 def test_a_rods_own_vectors_lie_in_the_sheet_across_its_edge(edge, across):
-    own = discretise(rectangle(SHEET, 2), driven(chain(edge=edge))).rods.bound.own
+    own = DiscreteShell(rectangle(SHEET, 2), driven(chain(edge=edge))).rods.bound.own
     assert len(own) == 5
     np.testing.assert_allclose(np.abs(own), np.tile(across, (5, 1)), atol=1e-12)

@@ -26,7 +26,7 @@ from fem_reference.verification.strain_laws import LARGE, RUBBERS, STRAINS, WAYS
 from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, Hinged, Material, Pressure, Scene, Sheet, Symmetric
+from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
 from sheetbench.scenes.objects.material import WORDS
 
 PLAN = np.array([[0, 0], [2, 0.1], [2.1, 1.2], [-0.1, 1], [1, 0.05], [2.05, 0.65], [1, 1.1], [-0.05, 0.5]])
@@ -113,18 +113,6 @@ def test_rubbers_stretch_to_twice_their_length_as_closed_forms_say():
     rows = list(rows_of(["rubber"]))
     assert len(rows) == 2 * len(RUBBERS) * 3 * len(LARGE) and len(RUBBERS) == 1 + len(WORDS)
     assert all(row.passed for row in rows), [row for row in rows if not row.passed]
-
-
-@pytest.mark.parametrize("model", ["shell", "solid"])
-@pytest.mark.parametrize("rubber", RUBBERS, ids=lambda rubber: rubber.law)
-def test_a_scenes_rubber_is_pulled_to_twice_its_length(rubber, model):
-    """The material's law without being requested, and no word of strains outside the model."""
-    pull = stress(rubber.law, "one way", 1.0, rubber) * rubber.young * 0.01
-    scene = pulled((pull, 0.0), material=rubber)
-    found = fem_reference.solve(scene, model, elements=(2, 1))
-    assert found.settings["law"] == rubber.law and (found.status, found.message) == (Status.CONVERGED, "")
-    moved = found.displacement(np.array([scene.sheet.lengths]))[0, 0]
-    assert moved == pytest.approx(scene.sheet.length_x, rel=1e-6)
 
 
 def test_a_law_without_its_constants_is_refused_with_what_to_write():
@@ -268,28 +256,3 @@ def test_a_square_blown_up_to_a_quarter_of_its_side_converges_as_its_mesh_is_ref
     found = fem_reference.solve(scene, "shell", elements=elements)
     assert found.status is Status.CONVERGED
     assert found.displacement([[0.05, 0.05]])[0, 2] == pytest.approx(25.244e-3, rel=3e-3)
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize(("kind", "bounds"), [(Hinged, (0.0, 5e-4)), (Clamped, (6e-3, 1e-2))])
-def test_an_inflated_shell_differs_from_the_solid_by_its_clamp(kind, bounds):
-    """Free to turn at its edges, or held there with the mean over the thickness; a quarter of the square."""
-    sheet = Sheet(length_x=0.05, length_y=0.05, thickness=0.003)
-    edges = (kind(edge="x0"), kind(edge="y0"), Symmetric(edge="x1"), Symmetric(edge="y1"))
-    scene = Scene(name="quarter", sheet=sheet, material=MOONEY, supports=edges, loads=(Pressure(value=9e3),))
-    shell, solid = (
-        fem_reference.solve(scene, model, **options).displacement([[0.05, 0.05]])[0, 2]
-        for model, options in (("shell", {"elements": 4}), ("solid", {"elements": 4, "clamp": "mean"}))
-    )
-    assert bounds[0] <= abs(shell / solid - 1.0) < bounds[1]
-
-
-def test_gent_beyond_its_limit_is_told_with_the_limit():
-    gent = next(rubber for rubber in RUBBERS if rubber.law == "gent").replace(limit=2.0)
-    far = {"edge": "x1", "motion": {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.15, 0.0, 0.0]]}}
-    supports = (Clamped(edge="x0"), Clamped.model_validate(far))
-    sheet = Sheet(length_x=0.1, length_y=0.05, thickness=0.002)
-    scene = Scene(name="too-far", sheet=sheet, material=gent, supports=supports)
-    found = fem_reference.solve(scene, "shell", elements=(2, 1))
-    assert found.status is Status.NON_FINITE and 0.5 < found.load_factor < 1.0
-    assert "beyond load factor 0." in found.message and "its limit = 2" in found.message

@@ -14,7 +14,6 @@ import lumped
 from lumped.assembly import Assembly
 from lumped.calibration import edge_twist
 from lumped.grid_lines import grid_lines
-from lumped.masses import masses
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringTable, load
 from sheetbench.scenes.objects.grading import Grading, as_settings
@@ -99,17 +98,6 @@ def test_rigid_motions_cost_nothing(method):
     u = Rotation.from_rotvec([0.3, -2.0, 0.7]).apply(x) - x + np.array([0.1, 0.2, 0.3])
     energy, force = assembly.force(u)
     assert abs(energy) < 1e-12 * scale and np.abs(force).max() < 1e-9 * scale / 0.005
-
-
-def test_mass_is_the_sheets_around_each_mass_and_free_fall_is_rigid():
-    scene = Scene(name="free", sheet=OBLONG, material=SILICONE, gravity={"acceleration": (0.0, 0.0, -9.81)})
-    problem = lumped.build_problem(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.6))
-    for distribution in ("tributary", "gregory"):
-        share = masses(scene, problem.assembly.lattice, distribution)
-        assert share.sum() == pytest.approx(1200.0 * 0.005 * 0.02, rel=1e-14)
-    moving = lumped.System(scene, problem).lattice_mass
-    assert np.array_equal(moving, share) and moving.min() > 0.0
-    assert np.allclose(problem.loads.dead[:, 2] / moving, -9.81, rtol=1e-14)
 
 
 @cache
@@ -281,23 +269,3 @@ def test_what_has_no_cell_by_cell_form_is_refused():
     springs = lumped.calibrate(SHEET, RUBBER, 5, grading=0.5)
     with pytest.raises(BadInput, match="weights = 'full'"):
         lumped.solve(load("one-edge-clamped"), springs, weights="full")
-
-
-def test_sensitivities_scale_the_cells_alike():
-    """Of E, through a new calibration, and of a spring by its mean over the cells: against differences."""
-    scene = load("one-edge-clamped")
-    springs = lumped.calibrate(scene.sheet, scene.material, 5, grading=0.5)
-    found = lumped.sensitivity(scene, springs, ["young", "diagonal", "area"])
-    points = scene.probe_points()
-
-    def displaced(name, value):
-        if name != "young":
-            return lumped.solve(scene, springs.with_constant(name, value)).displacement(points)
-        changed = scene.replace(material=scene.material.replace(young=value))
-        own = lumped.calibrate(changed.sheet, changed.material, 5, grading=0.5)
-        return lumped.solve(changed, own).displacement(points)
-
-    for name, value in found.values.items():
-        ends = [displaced(name, value * (1 + side)) for side in (1e-4, -1e-4)]
-        slope = (ends[0] - ends[1]) / (2e-4 * value)
-        assert relative(found.derivatives[name], slope) < 1e-4

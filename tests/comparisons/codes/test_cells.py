@@ -9,10 +9,8 @@ import pytest
 from commands import json_of, one_line, run
 
 import sheetbench as sb
-from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import MESHES, cell_of
-from comparisons.codes.coefficients import limit_error, nearest
-from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.cell import MESHES, Cell, cell_of
+from comparisons.codes.coefficients import limit_error, moduli_of, nearest
 from comparisons.codes.parameters import parameters_of
 from comparisons.codes.table import CODES
 from lumped import moduli
@@ -133,7 +131,7 @@ def test_the_limit_is_that_of_discrete_shells_on_the_published_sheet(name, share
 def test_newtons_membrane_is_the_sheet_at_small_strain():
     """Its neo-Hookean energy, as its source has it, twice differentiated by small principal stretches."""
     stretching = {"lambda_h": 3.0, "mu_h": 2.0, "hinge": 1.0}
-    own = {p.parameter: p.value for p in parameters_of(CODES["newton"], stretching, SCENE)}
+    own = {p.name: p.value for p in parameters_of(CODES["newton"], stretching, SCENE)}
     mu, lame = own["tri_ke"], own["tri_ka"] + own["tri_ke"]  # the solver adds them
 
     def energy(a, b):
@@ -207,25 +205,6 @@ def test_no_scene_that_nobody_named_heads_an_answer(capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert said.startswith("sheet for MuJoCo") and "No SCENE was named" in said
     assert "one-edge-clamped" not in said and "in this scene" not in said
-    assert run("calibrate", *sheet, "--cell", "bricks") == 2
-    assert "--cell: needs a SCENE" in one_line(capsys)
-
-
-@pytest.mark.parametrize(
-    ("option", "why"),
-    [
-        ("bricks --hinge angle", "hinge: no effect on bricks, which have no hinges"),
-        ("FILE --spacing 1mm", "spacing: no effect on"),
-    ],
-)
-def test_options_without_effect_on_a_cell_are_refused(tmp_path, capsys, option, why):
-    file = tmp_path / "cell.toml"
-    file.write_text("periods = [[1, 0], [0, 1]]\nnodes = [[0, 0]]\nsprings = [[[0, 0, 0], [0, 1, 0], 'k']]")
-    cell, *others = option.replace("FILE", str(file)).split()
-    assert run("calibrate", SCENE.name, "--cell", cell, *others) == 2
-    assert why in one_line(capsys)
-    with pytest.raises(BadInput, match="no effect on a Cell"):
-        sb.calibrate(SCENE, cell=sb.cell("equilateral", 0.01), hinge="angle")
 
 
 @pytest.mark.parametrize(
@@ -251,6 +230,8 @@ def test_a_mesh_that_is_not_there_and_a_foreign_coefficient_are_refused():
         sb.cell("hexagons", 0.01, 0.001)
     with pytest.raises(BadInput, match="coefficient bend"):
         sb.calibrate(SCENE, cell="equilateral", coefficient={"bend": 1.0})
+    with pytest.raises(BadInput, match="no effect on a Cell"):
+        sb.calibrate(SCENE, cell=sb.cell("equilateral", 0.01), hinge="angle")
 
 
 def test_bending_of_codes_that_are_not_run_is_that_of_their_source():
@@ -261,5 +242,5 @@ def test_bending_of_codes_that_are_not_run_is_that_of_their_source():
         ("sofa", "bendingStiffness", 1.8),
         ("c-ipc", "bendingStiffMult", 0.2 / rigidity),
     ):
-        keys = {key.parameter: key.value for key in parameters_of(CODES[code], own, SCENE)}
+        keys = {key.name: key.value for key in parameters_of(CODES[code], own, SCENE)}
         assert keys[name] == pytest.approx(value)

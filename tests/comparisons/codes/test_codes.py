@@ -10,17 +10,18 @@ import meshio
 import numpy as np
 import pytest
 from commands import run
+from contact_cases import bent_over, laid_strip
 
 from comparisons.codes.cell import HINGES, _hinge, _triangle
-from comparisons.codes.files import OWN_MASSES, WRITERS
-from comparisons.codes.homogenise import moduli_of
+from comparisons.codes.coefficients import moduli_of
+from comparisons.codes.files import OWN_MASSES, WRITERS, _geom
 from comparisons.codes.parameters import undamped
 from comparisons.codes.setup import setup
 from comparisons.codes.sheet_mesh import sheet_mesh
 from comparisons.scoring.reference import references
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeLoad, PointLoad
+from sheetbench.scenes import EdgeLoad, Plane, PointLoad, Sphere
 
 SCENE = scenes.load("two-edges-clamped").replace(
     loads=(PointLoad(at=(0.188, 0.188), force=(0.01, 0.0, 0.05)),)
@@ -89,6 +90,13 @@ def test_files_read_back_hold_masses_gravity_held_vertices_and_loads(code, read,
     assert np.array(masses)[free].tolist() == mesh.masses[free].tolist()
     assert list(gravity) == [0.0, 0.0, -9.81]
     assert np.array(forces)[free].tolist() == mesh.forces[free].tolist()
+    assert np.sum(np.array(masses)[free]) == pytest.approx(1678.0 * 0.003 * 0.188**2 * (7 / 8) ** 2, rel=1e-9)
+    assert np.sum(np.array(forces)[free], axis=0) == pytest.approx([0.01, 0.0, 0.05])
+    assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
+    if code == "genesis":
+        sheet = meshio.read(tmp_path / "sheet.obj")
+        assert sheet.points.tolist() == mesh.vertices.tolist()
+        assert sheet.cells_dict["triangle"].tolist() == mesh.triangles.tolist()
 
 
 def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
@@ -138,34 +146,17 @@ def test_two_layers_of_equal_springs_bend_as_a_sheet_of_a_third(tmp_path):
     assert read.cells_dict["tetra"].tolist() == made.problem.tetrahedra.tolist()
 
 
-def test_genesis_reads_the_triangles(tmp_path):
-    mesh = written("genesis", tmp_path).mesh
-    read = meshio.read(tmp_path / "sheet.obj")
-    assert read.points.tolist() == mesh.vertices.tolist()
-    assert read.cells_dict["triangle"].tolist() == mesh.triangles.tolist()
-
-
 @pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_the_script_gets_the_numbers_that_are_shown(code, tmp_path):
     """With the membrane's C11, which bounds its steps, and the factor of hinges on a clamp."""
     made = written(code, tmp_path)
     read = json.loads((tmp_path / "sheet.json").read_text())
-    assert read["parameters"] == {key.parameter: key.value for key in made.keys}
+    assert read["parameters"] == {key.name: key.value for key in made.keys}
     assert read["stretching"] == pytest.approx(54.5e6 * 0.003 / (1.0 - 0.48**2))
     assert read["hinges"] == made.mesh.hinges.tolist() and read["clamp"] == 1.0
     scripts = [path.name for path in tmp_path.glob("run_*.py")]
     assert scripts == [f"run_{code}.py"] and "sheet.json" in (tmp_path / scripts[0]).read_text()
-
-
-@pytest.mark.usefixtures("coarse_limits")
-@pytest.mark.parametrize("code", WRITERS)
-def test_masses_and_loads_of_every_code_are_the_sheets(code):
-    mesh = setup(SCENE, code, 4, best=False).mesh
-    free = mesh.masses[~mesh.held].sum()
-    assert free == pytest.approx(1678.0 * 0.003 * 0.188**2 * (7 / 8) ** 2, rel=1e-9)
-    assert mesh.forces.sum(axis=0) == pytest.approx([0.01, 0.0, 0.05])
-    assert all(sum(shares) == pytest.approx(1.0) for _, shares in mesh.probes.values())
 
 
 @pytest.mark.sweep(2)
@@ -225,43 +216,14 @@ def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(sq
     assert [f"--grid {grid} or more" in note for note in notes if "too coarse" in note] == [True] * bool(grid)
 
 
-@pytest.mark.usefixtures("coarse_limits")
-def test_a_sheet_that_cannot_stand_has_no_best_coefficients():
-    """Upright under four times the weight: q L³/D = 10.7, which buckles at 7.84 (Greenhill)."""
-    scene = scenes.load("one-edge-clamped")
-    made = setup(scene.replace(gravity={"acceleration": (-4 * 9.81, 0.0, 0.0)}), "newton", 4)
-    assert made.limit_error is None and not made.succeeded and not made.best
-    assert made.complaints()[0].startswith("no error in one-edge-clamped is known")
-    assert not any("infinitely fine" in note for note in made.notes())
-
-
 DAMPED = SCENE.replace(material=SCENE.material.replace(damping_time=0.01))
-
-
-def test_mujocos_dampers_are_the_time_times_its_stiffness(tmp_path):
-    """At velocities so small that both are linear; without damping there is none."""
-    mujoco = pytest.importorskip("mujoco")
-    forces = []
-    for scene in (DAMPED, SCENE):
-        text = setup(scene, "mujoco", 4, best=False).files()
-        text["mujoco.xml"](tmp_path / "mujoco.xml")
-        model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
-        moving, displaced = mujoco.MjData(model), mujoco.MjData(model)
-        moving.qvel[:] = 1e-6 * np.random.default_rng(2).standard_normal(model.nv)
-        displaced.qpos[:] = 0.01 * moving.qvel
-        for data in (moving, displaced):
-            mujoco.mj_forward(model, data)
-        forces.append((moving.qfrc_damper.copy(), displaced.qfrc_spring.copy()))
-    (damper, spring), (none, _) = forces
-    assert damper == pytest.approx(spring, rel=1e-4, abs=1e-4 * np.abs(spring).max())
-    assert np.abs(spring).max() > 0.0 and not none.any()
 
 
 @pytest.mark.usefixtures("coarse_limits")
 @pytest.mark.parametrize("code", WRITERS)
 def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
     made = setup(DAMPED, code, 4, best=False)
-    keys = {key.parameter: key.value for key in made.keys}
+    keys = {key.name: key.value for key in made.keys}
     times = {"damping": 0.01}
     if code == "pybullet":
         times = {"springDampingStiffness": 0.01 * keys["springElasticStiffness"]}
@@ -271,3 +233,41 @@ def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
     assert not undamped(made.code, SCENE.material)
     texts = "".join(write.keywords["text"] for write in made.files().values())
     assert all(name in texts and f"{times[name]:.6g}"[:5] in texts for name in known)
+
+
+@pytest.mark.usefixtures("coarse_limits")
+@pytest.mark.parametrize("code", ["mujoco", "newton"])
+def test_obstacles_are_written(code, tmp_path):
+    scene = laid_strip(
+        0.1,
+        obstacles=(Plane(position=(0, 0, -0.2), normal=(1, 0, 3)), Sphere(position=(1, 0, -0.3), radius=0.1)),
+    )
+    for name, write in setup(scene, code, 2, best=False).files().items():
+        write(tmp_path / name)
+    sheet = json.loads((tmp_path / "sheet.json").read_text())
+    assert [one["kind"] for one in sheet["obstacles"]] == ["plane", "sphere"]
+    assert sheet["offset"] == 0.0025
+    if code == "mujoco":
+        mujoco = pytest.importorskip("mujoco")
+        model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
+        assert model.ngeom == 2
+        assert not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONTACT
+
+
+@pytest.mark.usefixtures("coarse_limits")
+def test_others_refuse_them():
+    note = " ".join(setup(bent_over(), "genesis", 2, best=False).notes())
+    assert "No files: obstacle: Genesis" in note
+
+
+def test_mujocos_cylinder_is_long_and_friction_has_tangents():
+    """Its size is radius and half length; condim 3 is a normal and two tangents, 1 a normal alone."""
+    rod = {
+        "kind": "cylinder",
+        "position": [0.0] * 3,
+        "axis": [0.0, 1.0, 0.0],
+        "radius": 0.01,
+        "friction": 0.3,
+    }
+    assert 'size="0.01 0.5"' in _geom(rod) and 'condim="3"' in _geom(rod)
+    assert 'condim="1"' in _geom({**rod, "friction": 0.0})

@@ -6,9 +6,8 @@ import pytest
 import fem_reference
 import lumped
 from sheetbench.answers.solution import Status
-from sheetbench.errors import BadInput
 from sheetbench.runs.watch import Watch
-from sheetbench.scenes import Scene, load
+from sheetbench.scenes import Scene
 
 MODELS = ("lumped", "plate", "shell", pytest.param("solid", marks=pytest.mark.nightly))
 SOFT = {
@@ -64,13 +63,6 @@ def test_what_turns_inside_out_ends_a_run(model):
     assert history.time[-1] < 0.2
 
 
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-@pytest.mark.parametrize("error", [0.1, 5.0, -1.0])
-def test_an_error_with_which_nothing_is_left_to_see_is_refused(model, error):
-    with pytest.raises(BadInput, match=f"error = {error:g}: of a step.* lies between 0 and 0.1"):
-        moved(load("two-edges-clamped"), model, 0.01, error=error)
-
-
 def test_a_growth_is_told_from_a_hundredth_and_ends_a_run_from_a_tenth():
     """A kinetic energy of 1 J and an elastic one that grows out of nothing, or is lost."""
     time = np.arange(4.0)
@@ -103,7 +95,7 @@ def test_a_sheet_in_other_units_takes_as_many_steps():
         # E h²/(ρ a⁴) ~ 1/T², g T² ~ a: alike in the same seconds
         material = {"young": 2e5 * scale**2, "poisson": 0.3, "density": 1000.0}
         scene = Scene.model_validate(SOFT | {"sheet": sheet, "material": material, "gravity": weight})
-        steps.append(fem_reference.simulate(scene, "plate", 0.2, elements=2, every=0.01).steps)
+        steps.append(fem_reference.simulate(scene, "plate", 0.05, elements=2, every=0.01).steps)
     assert steps[0] == steps[1]
 
 

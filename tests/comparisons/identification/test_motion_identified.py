@@ -13,7 +13,7 @@ from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
 from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Air, Relaxation, load
+from sheetbench.scenes import Relaxation, load
 from sheetbench.scenes.meaning.parameters import parameter, put
 
 TRUTH = load("one-edge-clamped").replace(loss_factor=0.12, frequency=3.0)
@@ -33,30 +33,19 @@ def lattice_run(scene, end):
     return lumped.simulate(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)), end, error=1e-8)
 
 
-@pytest.mark.parametrize("seeds", [range(1), pytest.param(range(20), marks=pytest.mark.nightly)])
-def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
-    """95 % intervals hold in at least 18 of 20 seeds, and in the first."""
+@pytest.mark.nightly
+def test_young_and_loss_factor_from_a_decay_with_noise():
+    """95 % intervals hold in at least 18 of 20 seeds."""
     held = {"young": 0, "loss_factor": 0}
     run = lattice_run(TRUTH, 0.8)
-    for seed in seeds:
+    for seed in range(20):
         found = identify(GUESS, decay(run, 0.8, 0.02, seed), list(held), Lattice((3, 3)))
         assert found.explained and not found.warnings
         for name, true in (("young", 54.5e6), ("loss_factor", 0.12)):
             low, high = found.unknowns[name].interval
             assert high - low < 0.15 * true
             held[name] += low <= true <= high
-    assert min(held.values()) >= 0.9 * len(seeds), held
-
-
-@pytest.mark.nightly
-def test_the_drag_of_the_air_from_a_decay():
-    truth = load("one-edge-clamped").replace(air=Air(drag=30.0))
-    measured = decay(lattice_run(truth, 0.4), 0.4, 0.01, 0, 40)
-    found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", Lattice((3, 3)))
-    low, high = found.unknowns["drag"].interval
-    assert low <= 30.0 <= high and high - low < 0.1 * 30.0
-    with pytest.raises(BadInput, match="'drag': the scene has no"):
-        identify(truth.replace(air=None), measured, "drag")
+    assert min(held.values()) >= 18, held
 
 
 def test_a_reference_follows_a_measured_motion():

@@ -17,8 +17,7 @@ from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
 from comparisons.pages import studies as pages
 from comparisons.pages.page import page, pictures, question, whole_words
-from comparisons.pages.studies import Study, read
-from comparisons.pages.tables import tables
+from comparisons.pages.studies import Study, read, tables
 from comparisons.sweep.folder import Folder
 from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
@@ -251,15 +250,6 @@ def test_damage_costs_a_sentence(tmp_path, capsys):
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert re.search(r'data-value="0.001">1<', text) and "x [mm]" in text
     assert "data:image/svg+xml;base64" in text
-
-
-def test_a_folder_that_is_none_is_refused(tmp_path, capsys):
-    assert run("report", str(tmp_path / "none")) == 2
-    assert "there is no such folder" in capsys.readouterr().err
-    (tmp_path / "mine.csv").write_text("a,b\n")
-    assert run("report", str(tmp_path)) == 2
-    assert "no verb has written here" in capsys.readouterr().err
-    assert not (tmp_path / "report.html").exists()
 
 
 def test_a_report_of_several_folders_shows_their_numbers_and_tells_them_apart(tmp_path):

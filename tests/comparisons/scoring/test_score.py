@@ -266,6 +266,7 @@ def test_noise_is_no_stiffness(write):
     assert "1000 times" in slipped.report().lead
 
 
+@pytest.mark.nightly
 def test_the_sheet_and_the_picture(write, tmp_path):
     out = tmp_path / "out"
     assert run("score", str(write(seconds=0.02)), "--case", "thick", "--out", str(out)) == 0

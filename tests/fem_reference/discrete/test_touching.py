@@ -16,7 +16,7 @@ from contact_cases import (
 )
 
 import fem_reference
-from fem_reference.shell.statics import discretise
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import divisions, mesh_of
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere
@@ -31,7 +31,7 @@ OBSTACLES = {
 @pytest.mark.parametrize("name", OBSTACLES)
 def test_force_is_the_potential_s_and_tangent_the_force_s_derivative(name):
     scene = laid_strip(0.1, obstacles=(OBSTACLES[name],))
-    sheet = discretise(mesh_of(scene, divisions(scene.sheet, (6, 2)), False), scene)
+    sheet = DiscreteShell(mesh_of(scene, divisions(scene.sheet, (6, 2)), False), scene)
     item, rng = sheet.contacts[0], np.random.default_rng(1)
     q, step, h = np.zeros(sheet.size), rng.normal(size=sheet.size), 1e-7
     sheet.displacement(q)[:] = 0.01 * rng.normal(size=(sheet.nodes, 3)) - [0.0, 0.0, 0.02]
@@ -47,9 +47,6 @@ def test_force_is_the_potential_s_and_tangent_the_force_s_derivative(name):
     found = sheet.of_surface(on, np.einsum("eicjd,ejd->eic", by, sheet.surface_change(step)[on]))
     along = (item.force(high) - item.force(low)) / (2 * h)
     assert np.linalg.norm(found - along) < 1e-7 * np.linalg.norm(along)
-    start, end = at(q), at(q + 1e-3 * step)
-    work = float(item.mean_force(start, end, at(q + 5e-4 * step)) @ (1e-3 * step))
-    assert work == pytest.approx(item.potential(start) - item.potential(end), rel=1e-9)
 
 
 @pytest.mark.parametrize("drop", [0.05, 0.2])
@@ -112,19 +109,15 @@ def test_the_plate_refuses_obstacles():
         fem_reference.solve(laid_strip(0.1), "plate")
 
 
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize(("integrator", "within"), [("generalised-alpha", 5e-3), ("energy-momentum", 1e-6)])
-def test_energy_of_a_shell_that_falls(integrator, within):
+@pytest.mark.nightly
+def test_energy_of_a_shell_that_falls():
     scene = laid_strip(0.05).replace(length_x=0.2, thickness=0.002, young=5e6)
     scene = scene.replace(obstacles=(Plane(position=(0.0, 0.0, -0.011)),))
-    options = {"step": 1e-3} if integrator == "energy-momentum" else {}
-    history = fem_reference.simulate(
-        scene, "shell", 0.08, elements=(6, 1), integrator=integrator, every=2e-3, **options
-    )
+    history = fem_reference.simulate(scene, "shell", 0.08, elements=(6, 1), every=2e-3)
     parts = history.energies
     whole = sum(parts[name] for name in ("kinetic", "elastic", "potential", "dissipated")) - parts["work"]
     assert history.status is Status.CONVERGED
-    assert np.abs(whole - whole[0]).max() < within * 1e3 * 0.002 * 0.02 * GRAVITY * 0.01
+    assert np.abs(whole - whole[0]).max() < 5e-3 * 1e3 * 0.002 * 0.02 * GRAVITY * 0.01
     assert history.reactions["obstacle 1"][:, 2].max() > 0.0
 
 

@@ -16,7 +16,7 @@ BENT = FactorTable(time=(0.0, 0.013, 0.05), factor=(0.0, 1.0, 0.5))
 
 
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("options", [{}, {"integrator": "energy-momentum", "step": 1e-3}])
+@pytest.mark.parametrize("options", [{}, {"step": 1e-3}])
 def test_a_killed_run_goes_on_to_the_last_bit(tmp_path, options):
     """From a copy of its folder between two samples, which is what kill -9 leaves there; with a bend of a
     load's history before the checkpoint and one after."""

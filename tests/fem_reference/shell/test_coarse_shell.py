@@ -5,14 +5,9 @@ import pytest
 
 import fem_reference
 from fem_reference.shell import coarse_start, statics
-from fem_reference.shell.coarse_start import at_nodes, sampled
-from fem_reference.shell.element import MEMBRANE
-from fem_reference.shell.statics import discretise
-from fem_reference.surface.mesh import mesh_of
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.kept import kept
 
 
 def moved(scene, solution):
@@ -73,37 +68,3 @@ def test_rods_and_few_elements_have_no_coarse_start():
     assert coarse_start.coarse((8, 33), scenes.load("two-edges-clamped")) == (2, 8)
     assert coarse_start.coarse((7, 33), scenes.load("two-edges-clamped")) is None
     assert coarse_start.coarse((16, 16), scenes.load("actuated-edge")) is None
-
-
-def test_a_membrane_strain_is_the_same_on_another_mesh():
-    scene = scenes.load("two-edges-clamped")
-    sheared = np.array([[0.02, 0.01], [-0.03, 0.04]])
-
-    def shell(elements):
-        sheet = discretise(mesh_of(scene, elements, True), scene)
-        q = np.zeros(sheet.size)
-        sheet.displacement(q)[:, :2] = sheet.plan.nodes @ sheared
-        strain = sheet.element.strain(sheet.gather(q))[:, MEMBRANE]
-        return sheet.element.reference[:, :9, :2], sheet.plan.elements, strain
-
-    (at, on, coarse), (finer_at, finer_on, fine) = shell((2, 3)), shell((5, 4))
-    green = 0.5 * (sheared + sheared.T + sheared @ sheared.T)
-    nodal = at_nodes(at, on, coarse)
-    np.testing.assert_allclose(nodal, np.broadcast_to(green, nodal.shape), rtol=1e-11)
-    of_finer = np.broadcast_to(green, (finer_on.max() + 1, 2, 2))
-    np.testing.assert_allclose(sampled(finer_at, of_finer[finer_on]), fine, rtol=1e-11)
-
-
-def test_what_is_kept_is_given_again_for_equal_arrays_only():
-    calls = []
-
-    @kept(last=2, most=64)
-    def total(values, weight=1.0):
-        calls.append(len(values))
-        return weight * float(values.sum())
-
-    few, many = np.arange(4.0), np.arange(9.0)
-    assert total(few) == total(few.copy()) == 6.0 and calls == [4]
-    assert total(few, weight=2.0) == 12.0 and total(few[::-1].copy()) == 6.0 and calls == [4, 4, 4]
-    assert total(few) == 6.0 and len(calls) == 4  # the oldest had been dropped
-    assert total(many) == total(many) == 36.0 and calls[4:] == [9, 9]

@@ -5,9 +5,7 @@ import pytest
 from one_unknown import Spring
 from scipy.sparse import csr_matrix, random_array
 
-import fem_reference.shell.statics
 import sheetbench.numerics.direct
-from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.trace import trace_path
@@ -53,19 +51,6 @@ def test_refuses_what_it_cannot_solve(library, entry):
     matrix = csr_matrix(np.array([[1.0, entry, 0.0], [entry, 1.0, 0.0], [0.0, 0.0, 2.0]]))
     with pytest.raises(SingularMatrixError):
         DirectSolver().factor(matrix).solve(np.array([1.0, 2.0, 3.0]))
-
-
-def test_the_shell_does_without_rslab(monkeypatch):
-    scene = scenes.load("two-edges-clamped")
-    with_it = fem_reference.shell.statics.solve(scene, 4)
-    monkeypatch.setattr(sheetbench.numerics.direct, "rslab", None)
-    without = fem_reference.shell.statics.solve(scene, 4)
-    assert without.status is Status.CONVERGED and without.message == ""
-    assert without.iterations == with_it.iterations
-    points = scene.probe_points()
-    np.testing.assert_allclose(
-        without.displacement(points), with_it.displacement(points), rtol=1e-9, atol=1e-12
-    )
 
 
 def test_steps_shrink_where_one_step_does_not_converge():

@@ -13,6 +13,7 @@ from fem_reference.discrete.course import Ramp
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell import statics as shell
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
@@ -103,7 +104,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
         supports=(Hinged(edge="x0"), Hinged(edge="x1")),
     )
     mesh = rectangle(scene.sheet, (12, 1), graded=False)
-    sheet = shell.discretise(mesh, scene)
+    sheet = DiscreteShell(mesh, scene)
     nodes = sheet.plan.nodes
     ends = np.flatnonzero(sheet.supports.position.any(axis=1))
     closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
@@ -239,7 +240,7 @@ def test_a_tape_spring_snaps_as_the_lattice_does(taped):
 @pytest.mark.parametrize("scene", [rod_scene(0.1, 3.0), chained()], ids=["shell", "rods"])
 def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene):
     """Along free positions, by central differences; a dragged sheet is, where it begins, the sheet itself."""
-    sheet = shell.discretise(rectangle(scene.sheet, (3, 3), graded=True), scene)
+    sheet = DiscreteShell(rectangle(scene.sheet, (3, 3), graded=True), scene)
     generator, factor, structure = np.random.default_rng(3), 0.7, Static(sheet)
     free = ~sheet.supports.position
     q, way = np.zeros((2, sheet.size))
@@ -257,7 +258,7 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
 
 
 def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
-    structure = Static(shell.discretise(rectangle(taped.sheet, (6, 6), graded=True), taped))
+    structure = Static(DiscreteShell(rectangle(taped.sheet, (6, 6), graded=True), taped))
     path = trace_path(structure, DirectSolver())
     energies = []
     measured = pseudo_transient._Creep._accepts
@@ -279,40 +280,9 @@ def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
 @pytest.mark.parametrize("name", ["curved-edge", "two-edges-clamped"])
 def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
     scene = scenes.load(name)
-    structure = Static(shell.discretise(rectangle(scene.sheet, (4, 4), graded=True), scene))
+    structure = Static(DiscreteShell(rectangle(scene.sheet, (4, 4), graded=True), scene))
     with_it = trace_path(structure, DirectSolver(), settle=relax)
     without = trace_path(structure, DirectSolver())
     assert np.array_equal(with_it.state.q, without.state.q)
     assert with_it.factorisations == without.factorisations
     assert (with_it.status, with_it.snaps, with_it.notes) == (Status.CONVERGED, [], [])
-
-
-# Rod's turn, load number, load factors of the snaps: 12 elements a side.
-TAPES = [
-    (-0.25, 10.0, [0.589]),
-    (0.25, 30.0, [0.893]),
-    (0.5, 30.0, [0.205]),
-    (-0.5, 30.0, [0.597]),
-    (-0.1, 100.0, [0.754, 0.830]),
-    (-0.25, 100.0, [0.653]),
-]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("turn, load_number, snaps", TAPES)
-def test_tape_springs_snap_to_where_the_lattice_does(turn, load_number, snaps):
-    scene = rod_scene(turn, load_number)
-    truth = shell.solve(scene, elements=12)
-    assert truth.status is Status.CONVERGED and truth.load_factor == 1.0
-    assert list(truth.snaps) == pytest.approx(snaps, rel=0.05)
-    ours = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, (33, 33)))
-    points = scene.probe_points()
-    assert error(ours.displacement(points), truth.displacement(points)) < 0.05
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("slenderness", [1e-4, 3e-4])
-def test_foils_reach_the_full_load_though_their_wrinkles_are_the_meshs(slenderness):
-    truth = shell.solve(stability_scenes.sheet(slenderness, 1e3, ("x0", "y0")), elements=12)
-    assert truth.load_factor == 1.0 and truth.status in (Status.CONVERGED, Status.UNSTABLE)
-    assert len(list(truth.snaps)) >= 1

@@ -8,6 +8,7 @@ from solid_cases import block
 
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import reference, shape
 from fem_reference.solid.materials import lame
 from fem_reference.surface.mesh import rectangle
@@ -123,7 +124,7 @@ def test_order_of_convergence(poisson):
     errors = []
     for layers in (1, 2, 4):
         scene = block(0.5, poisson)
-        sheet = solid.discretise(rectangle(scene.sheet, 2 * layers), scene, layers)
+        sheet = DiscreteSolid(rectangle(scene.sheet, 2 * layers), scene, layers)
         values, _ = shape(reference().points)
         at = np.einsum("aq,eac->eqc", values, sheet.element.positions)
         body = lame(scene.material)[1] * (2 * np.pi**2 + 1) * exact(at)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
-import fem_reference
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
@@ -21,43 +20,6 @@ def make_scene(young, segments):
     chain = base.actuators[0].replace(segments=segments)
     material = base.material.replace(young=young)
     return base.replace(material=material, actuators=(chain,), gravity=None)
-
-
-def bending(scene, solution):
-    """Mean curvature [1/m] of the edge with the chain."""
-    y = np.linspace(0.0, scene.sheet.length_y, 33)
-    edge = np.column_stack([np.full_like(y, scene.sheet.length_x), y])
-    return 2.0 * float(np.polyfit(y, solution.displacement(edge)[:, 2], 2)[0])
-
-
-def bent(scene, cells):
-    """The same of a lattice of square cells, so many along the edge."""
-    across = round(cells * scene.sheet.length_x / scene.sheet.length_y)
-    springs = lumped.calibrate(scene.sheet, scene.material, (across + 1, cells + 1, 2))
-    return bending(scene, lumped.solve(scene, springs))
-
-
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize(
-    "young, length, curvature, stiffness, within",
-    [
-        (54.5e6, 0.188, 4.0, 0.2, 0.005),
-        (545e6, 0.188, 1.0, 0.2, 0.005),
-        (545e6, 0.376, 4.0, 0.2, 0.005),
-    ],
-)
-def test_a_chain_bends_an_edge_as_the_shells_rod_whatever_its_segments(
-    young, length, curvature, stiffness, within
-):
-    """On 16 cells with one segment, four and eight. (Segments that were not divided lost 1.1 to 4.4 % with
-    four, all of it with one.)"""
-    scene = make_scene(young, 8)
-    chain = scene.actuators[0].replace(curvature=curvature, bending_stiffness=stiffness)
-    scene = scene.replace(sheet=scene.sheet.replace(length_x=length), actuators=(chain,), probes={})
-    rod = bending(scene, fem_reference.solve(scene, "shell", elements=8))
-    found = [bent(scene.replace(actuators=(chain.replace(segments=n),)), 16) for n in (1, 4, 8)]
-    assert max(abs(1.0 - one / rod) for one in found) < within
-    np.testing.assert_allclose(found, found[0], rtol=1e-9)
 
 
 def composite_elastica():

@@ -8,7 +8,7 @@ from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration import tables
 from lumped.calibration.cell_by_cell import each_cell
-from lumped.calibration.report import _admissible, _require_positive, report
+from lumped.calibration.report import _require_positive, report
 from lumped.spring_constants import Springs
 from sheetbench import scenes
 from sheetbench.scenes import BadInput, Material, PerDirection, Sheet, SpringSet
@@ -191,17 +191,6 @@ def test_textbook_constructions_on_oblong_cells():
     assert (lloyd.x, lloyd.y) == pytest.approx((strip * 5 / 16, strip * 25 / 24))
 
 
-def test_json_document():
-    long_cells = lumped.calibrate(SEED.sheet, SEED.material, (9, 17)).document()["springs"]
-    assert {"shear", "mid_shear", "mid_stretch"} < set(long_cells) and set(long_cells["axial"]) == {"x", "y"}
-    document = lumped.calibrate(SEED.sheet, SEED.material, (9, 9)).document()
-    assert set(document["springs"]) == {
-        "axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area",
-        "edge_shear", "strip_shear",
-    }  # fmt: skip
-    assert [row["name"] for row in document["moduli"]] == ["D11", "D12", "D66", "A11", "A12", "A66", "S"]
-
-
 def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
     """A strip of 250 × 120 × 1.5 mm, 9 × 9 masses: κGh = 52.4 N/m, S* of the long cells a 93rd of it."""
     sheet = Sheet(length_x=0.25, length_y=0.12, thickness=0.0015)
@@ -212,11 +201,6 @@ def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
     assert shown["Sx"][2:5] == (row["kappa_G_h"], row["asked"], row["got"])
     assert row["asked"] == pytest.approx(0.562, abs=5e-4)
     assert shown["D11"][2] == shown["D11"][3]
-
-
-def test_area_springs_of_nothing_need_no_note():
-    none, negative = (Springs.made(1e-3, mid_area=value) for value in (0.0, -1.0))
-    assert _admissible(none) == () != _admissible(negative)
 
 
 def test_a_bend_that_costs_nothing_is_refused():

@@ -1,11 +1,8 @@
 """The calibration of links alone: what its table stands on, what it meets, how much nearer than `cauchy`."""
 
-import csv
-
 import numpy as np
 import pytest
 from cases import with_material
-from commands import run
 
 import fem_reference
 import lumped
@@ -13,7 +10,6 @@ from lumped.calibration.central import coefficients
 from lumped.calibration.central_table import ROWS
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes.language.toml import to_toml
 from studies.transfer.training import POINTS, bent_scenes
 
 SEED = scenes.load("two-edges-clamped")
@@ -62,19 +58,6 @@ def test_the_lattice_errs_half_as_much_as_cauchys_on_the_scenes_that_bend():
         return max(_error(scene, springs, truth) for scene, truth in zip(posed, truths, strict=True))
 
     assert worst("central") < 0.1 and worst("central") < 0.65 * worst("cauchy")
-
-
-def test_links_alone_go_into_scenes_and_files(tmp_path, capsys):
-    folder = tmp_path / "lattice"
-    arguments = ["two-edges-clamped", "--grid", "5", "--calibration", "central"]
-    assert run("calibrate", *arguments, "--export", str(folder), "--toml") == 0
-    with (folder / "cells.csv").open(encoding="utf-8") as text:
-        assert list(csv.DictReader(text)) == []
-    own = tmp_path / "own.toml"
-    own.write_text(to_toml(SEED) + capsys.readouterr().out, encoding="utf-8")
-    springs = lumped.calibrate(SEED.sheet, SEED.material, 5, "central")
-    again, before = lumped.solve(scenes.load(str(own))), lumped.solve(SEED, springs)
-    np.testing.assert_allclose(again.displacement(POINTS), before.displacement(POINTS), rtol=1e-9)
 
 
 def _error(scene, springs, truth):

@@ -6,11 +6,7 @@ from dynamic_cases import ROD, make_scene, run, system
 
 from lumped.dynamics import INTEGRATORS, State
 from lumped.dynamics.implicit.compiled_newton import (
-    CONVERGED,
-    STALE,
     CompiledNewton,
-    NewtonLimits,
-    iterate,
 )
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.runs.observer import LatticeObserver
@@ -54,24 +50,6 @@ def test_the_compiled_iteration_takes_the_steps_of_the_general_one(scene, name):
     np.testing.assert_allclose(one.u, other.u, rtol=0.0, atol=1e-9 * size)
     np.testing.assert_allclose(lost, spent, rtol=1e-5, atol=1e-15)
     assert np.abs(one.u).max() > 1e-4 * size
-
-
-def test_the_compiled_iteration_tells_how_many_corrections_are_left():
-    equations, _ = system(CASES["dampers in proportion"], 4)
-    compiled, by = CompiledNewton(equations), (1e6, 1e3)
-    u, still, pulled = np.zeros((3, *equations.lattice_mass.shape, 3))
-    assert compiled.factorise(u, still, 0.0, *by)
-
-    def iterated(loads, corrections):
-        limits = NewtonLimits(1e-12, equations.problem.size, 0.5, corrections)
-        kept = compiled.arrays, compiled.factors, compiled.workspace
-        return iterate(corrections, u, still, still, by, loads, limits, *kept)
-
-    assert iterated(still, 8) == (CONVERGED, 7)
-    assert not u.any()
-    pulled[:, 2] = 1e-3
-    assert iterated(pulled, 1) == (STALE, 0)  # which has no second left
-    assert u.any()
 
 
 @pytest.mark.parametrize("scene", CASES.values(), ids=CASES)

@@ -173,11 +173,6 @@ def test_dampers_of_the_table_act_by_family_and_mass_damping_decays_exactly():
     assert states[-1].v[0] == pytest.approx(v[0] * np.exp(-4.0 * 0.2), rel=1e-5)
 
 
-def test_without_damping_no_damper_is_assembled():
-    equations, _ = system(make_scene())
-    assert not equations.damping.present
-
-
 def test_unknown_choices_are_refused():
     scene = make_scene()
     for options, said in (
@@ -187,21 +182,3 @@ def test_unknown_choices_are_refused():
     ):
         with pytest.raises(ValueError, match=said):
             lumped.simulate(scene, springs(scene), 0.01, **options)
-
-
-@pytest.mark.slow
-def test_the_seeds_run_settles_and_without_dampers_keeps_its_energy():
-    scene = make_scene("two-edges-settling")
-    static = lumped.solve(scene, springs(scene, 9)).displacement(scene.probe_points())
-    history = lumped.simulate(scene, springs(scene, 9), 3.0)
-    end = np.array([history.probes[name][-1] for name in scene.probes])
-    assert largest(end - static) < 1e-4 * largest(static)
-    scene = make_scene()
-    history = lumped.simulate(scene, springs(scene, 9), 10.0, integrator="midpoint", step=1e-3, every=0.02)
-    drift = largest(history.balance - history.balance[0])
-    assert drift < 1e-6 * largest(history.energies["potential"])
-
-
-def test_no_frame_is_kept_that_is_not_asked_for():
-    scene = make_scene()
-    assert len(lumped.simulate(scene, springs(scene, 3), 0.002, every=0.001).extra["frames"]) == 0

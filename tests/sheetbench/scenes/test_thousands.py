@@ -83,17 +83,3 @@ def test_of_many_the_first_that_is_wrong_is_named():
     with pytest.raises(SceneError, match="support 1 and x0 move the same part of the sheet"):
         edge = {"rectangle": {"x": (0.0, 0.1), "y": (0.0, 0.1)}}
         scene(support=[*hold([edge], **LIFTED), ROOT])
-
-
-def test_a_patch_upon_others_has_the_constants_of_all():
-    left, right, upon = (
-        {"rectangle": {"x": x, "y": (0.1, 0.2)}} for x in ((0.1, 0.2), (0.2, 0.3), (0.15, 0.25))
-    )
-    patches = [
-        {"shape": left, "density": 2000.0},
-        {"shape": right, "density": 3000.0},
-        {"shape": upon, "thickness": 0.004},
-    ]
-    square = 0.1 * 0.1
-    expected = 0.002 * (1000.0 * (0.25 - 2 * square) + 5000.0 * square) + 0.002 * 5000.0 * square / 2
-    assert mass_of(scene(patch=patches)) == pytest.approx(expected, rel=1e-9)

@@ -153,17 +153,6 @@ def test_lattice_and_shell_swing_alike_as_gravity_comes_and_goes_and_all_masses_
     assert spent[0] == pytest.approx(spent[1], rel=0.02) and spent[0] > 0.0
 
 
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_a_free_sheet_with_a_body_falls_as_one(model):
-    scene = strip(body(at=(0.05, 0.01), moments=(1e-6, 1e-6, 1e-6)), supports=())
-    if model == "lumped":
-        history = lumped.simulate(scene, springs(scene, (9, 3)), duration=0.01, integrator="midpoint")
-        ends = [np.array(probe[-1]) for probe in history.probes.values()]
-        assert np.allclose(ends, [0.0, 0.0, -0.5 * 9.81 * 0.01**2], rtol=0.0, atol=1e-10)
-    else:
-        assert fem_reference.modes(scene, "shell", 2, 1).rigid_modes == 6
-
-
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell"])
 def test_a_mass_spread_over_a_part_is_a_patch_of_higher_density(model):
     denser = DENSITY + TIP / (0.05 * WIDTH * THICK)

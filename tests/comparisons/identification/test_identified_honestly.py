@@ -74,26 +74,6 @@ def test_a_growing_part_of_a_motion_leads_past_minima_that_are_out_of_step():
     assert best.x[0] == pytest.approx(log(1 / 0.7), abs=0.002) and tried == 1
 
 
-def helix(value, measured):
-    """Turns six times as fast as it rises with the logarithm: a turn away is a minimum of its own."""
-    turned = 6.0 * log(value)
-    return np.outer(measured.points[:, 0], [np.cos(turned), np.sin(turned), 0.05 * turned])
-
-
-def test_other_starts_are_tried_where_the_first_leaves_more_than_noise():
-    measured = Displacements(POINTS, np.zeros((64, 3)))
-    measured = replace(measured, displacement=noisy(helix(2.5, measured), 2))
-    fit = fit_of(helix, measured, 2.5 * np.exp(-np.pi / 3.0))
-    plain = fit.search(np.zeros(1))
-    assert plain.noise > 0.05 and abs(plain.x[0]) < 0.1
-
-    def enough(one):
-        return explained(one.noise, runs(measured, fit.per_point(one.residuals)))
-
-    best, tried = nearest(fit, enough, anything)
-    assert tried > 1 and enough(best) and best.x[0] == pytest.approx(np.pi / 3.0, abs=0.01)
-
-
 @pytest.mark.parametrize("kind", ["space", "time", "surface"])
 def test_noise_is_taken_for_noise_and_a_smooth_rest_is_not(kind):
     points, smooth = POINTS, np.sin(10.0 * POINTS @ np.array([[1.0, 0.3, 2.0], [0.5, 2.0, 1.0]]))

@@ -100,7 +100,7 @@ class TensileFit(Answer):
         return constants(self.fits), misfits(self.fits, self.law)
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("tensile", "comparisons.identification.tensile.figure:compose", (self,)),)
+        return (Picture("tensile", "comparisons.identification.figure:tensile", (self,)),)
 
     def notes(self) -> list[str]:
         """Return what to put into a scene, and what the curves leave open."""

@@ -30,7 +30,7 @@ from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.location import interpolate
@@ -293,9 +293,9 @@ class Discrete(ABC):
         """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], of nodal ones as `displacement`."""
         return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
 
-    @abstractmethod
     def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
         """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
+        return self.supports.reactions(self.displacement(exerted))
 
     @abstractmethod
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
@@ -315,9 +315,10 @@ class Discrete(ABC):
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         """Force and couple on the nodes of g (N,)."""
 
-    @abstractmethod
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         """What the rods exert, which pull at their sides' vectors (k, a, 3)."""
+        surface = self.surface(q)
+        return on_edges(self.rods.bound, pull, surface.position, surface.director)
 
     @abstractmethod
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -23,7 +23,7 @@ from fem_reference.plate.element import TILT_X, PlateElements, W
 from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import carried, rod
 from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import BoundRods, on_surface
@@ -255,9 +255,6 @@ class DiscretePlate(Discrete):
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return self._fields(q)[:, :3]
 
-    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
-        return self.supports.reactions(self.displacement(exerted))
-
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
         director = self.surface(q).director + np.pad(self._fields(q)[:, 3:], ((0, 0), (0, 1)))
@@ -271,10 +268,6 @@ class DiscretePlate(Discrete):
         nodal = self._fields(exerted)  # of the tilts' forces f the couple is e_z × f
         couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])
         return HoldingForces(np.concatenate([nodal[:, :3], couple], axis=1), self.surface(q).position)
-
-    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
-        surface = self.surface(q)
-        return on_edges(self.rods.bound, pull, surface.position, surface.director)
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         surface, held = self.surface(q), np.where(self.is_held, exerted, 0.0)

@@ -13,9 +13,9 @@ from commands import run
 from contact_cases import bent_over, laid_strip
 
 from comparisons.codes.cell import HINGES, _hinge, _triangle
+from comparisons.codes.cell_moduli import undamped
 from comparisons.codes.coefficients import moduli_of
 from comparisons.codes.files import OWN_MASSES, WRITERS, _geom
-from comparisons.codes.parameters import undamped
 from comparisons.codes.setup import setup
 from comparisons.codes.sheet_mesh import sheet_mesh
 from comparisons.scoring.reference import references

@@ -14,7 +14,7 @@ from comparisons.comparison.comparison import error
 from comparisons.external import answer as external
 from comparisons.external.answer import ExternalCode
 from comparisons.external.calculix import model as results
-from comparisons.external.calculix.deck import LAWS as CALCULIX_LAWS
+from comparisons.external.calculix.model import LAWS as CALCULIX_LAWS
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
 from fem_reference.verification.strain_laws import RUBBERS

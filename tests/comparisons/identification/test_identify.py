@@ -99,15 +99,6 @@ def test_constants_of_patches_are_found_again(model):
         identify(guess, Surface(np.ones((9, 3)) * 1e-3), lattice=Lattice(4))
 
 
-@pytest.mark.parametrize(("curvature", "changes"), [(3.0, {}), (-2.0, {"gravity": None})])
-def test_curvature_of_a_support(curvature, changes):
-    """Without gravity it may turn the deflection over."""
-    scene = scenes.load("curved-edge").model_copy(update=changes)
-    values = lattice(put(scene, "curvature_x0", curvature)).displacement(POINTS)
-    found = identify(scene, Displacements(POINTS, values), ["curvature_x0"], Lattice(9))
-    assert found.unknowns["curvature_x0"].value == pytest.approx(curvature, rel=1e-6)
-
-
 CANTILEVER = scenes.load("one-edge-clamped")
 TILT = 0.03  # rad
 BOTH = ["young", "tilt_x0"]

@@ -113,13 +113,6 @@ def test_training_scenes_are_the_seeds_sheet_held_by_one_and_two_edges():
     assert two.gravity == SCENE.gravity
 
 
-def test_a_fit_is_computed_once():
-    fit = resolve(SCENE, Lattice(5, "fit-modal"))
-    first = fit.springs
-    assert fit.calibrated() is first
-    assert first.method == "fit-modal" and first.masses == "gregory"
-
-
 def test_calibrate_trains_on_the_scene_it_is_given(capsys):
     found = []
     for scene in ("two-edges-clamped", "one-edge-clamped"):

@@ -11,7 +11,7 @@ from scipy.io import loadmat
 
 import lumped
 from comparisons.models.spec import Lattice
-from comparisons.modes import state_figure as figure
+from comparisons.modes import figure
 from comparisons.modes.state_space import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
@@ -162,7 +162,7 @@ def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names
     strip = strip.replace(supports=[Clamped(edge="x1")])
     found = linearise(strip, Lattice(4), modes=3)
     assert figure.moved_most(found) == "near"
-    drawn = figure.compose(found)
+    drawn = figure.responses(found)
     title, legend = drawn.axes[0].get_title(loc="left"), drawn.axes[0].get_legend()
     assert title.endswith("near along z, the probe that moves most at rest")
     assert legend is not None and "gravity [factor]" in [text.get_text() for text in legend.get_texts()]

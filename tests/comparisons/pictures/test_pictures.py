@@ -3,6 +3,7 @@
 import matplotlib
 import numpy as np
 import pytest
+from fake_solutions import history
 from matplotlib.figure import Figure
 
 from comparisons.models.check import check
@@ -17,8 +18,6 @@ from comparisons.pictures.plan import (
     rims,
 )
 from sheetbench.answers import history_figure as motion
-from sheetbench.answers.history import ENERGIES, History
-from sheetbench.answers.solution import Status
 from sheetbench.answers.style import MOST, STYLE, plain, save
 from sheetbench.scenes import load
 
@@ -49,15 +48,10 @@ def test_names_of_near_points_stand_apart():
         assert not any(first.overlaps(second) for second in boxes[i + 1 :])
 
 
-def history(probes):
-    time = np.linspace(0.0, 1.0, 5)
-    moved = {f"p{i} $": np.outer(time, [0.0, 0.0, 1e-3 * i]) for i in range(probes)}
-    energies = dict.fromkeys(ENERGIES, time)
-    return History("lumped", "verlet", {}, Status.CONVERGED, "", time, moved, energies, {}, {}, 4, 0.0, 0.0)
-
-
 def test_many_probes_have_a_dozen_panels_of_those_that_move_most():
-    figure = motion.compose(history(250), HOSTILE, {})
+    time = np.linspace(0.0, 1.0, 5)
+    moved = {f"p{i} $": np.outer(time, [0.0, 0.0, 1e-3 * i]) for i in range(250)}
+    figure = motion.compose(history(time, moved), HOSTILE, {})
     titles = [axis.get_title(loc="left") for axis in figure.axes]
     assert len(figure.axes) == MOST + 1
     assert titles[0] == plain("p238 $") and titles[MOST - 1] == plain("p249 $")

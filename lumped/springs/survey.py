@@ -43,7 +43,7 @@ def survey(
     add_sums(cells.energies(u, in_layers, areas[0]), energies[kinds:])
     add_sums(cells.energies(u, middle, areas[1]), energies[kinds + 2 :])
     add_sums(cells.energies(u, faces, areas[2]), energies[kinds + 4 :])
-    return energies, links.largest_strains(np.expand_dims(u, 0), along)[0], stretch
+    return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
 
 
 @njit(cache=True)

@@ -10,28 +10,30 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
-from lumped.statics.soundness import first_broken
+from lumped.statics.soundness import examine
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 
 COLLAPSED = 1e-6  # of a link's rest length
-FAULTS = (  # as `soundness.first_broken` numbers them
+FAULTS = (  # as `soundness.examine` numbers them
     (Status.NON_FINITE, "the mass at {} has left the range of numbers"),
     (Status.INVERTED, "the link at {} has no length left: refine the grid"),
     (Status.INVERTED, "the cell at {} has turned inside out: refine the grid"),
 )
 
 
-def broken(assembly: Assembly, states: np.ndarray) -> tuple[int, Fault | None]:
-    """Return how many of the displacements (k, n, 3) [m] mean something before the first that does not, and
-    why that one does not: a number that is not finite, or a collapsed link, or an inverted cell."""
-    sound, fault, lattice = len(states), None, assembly.lattice
-    for links in assembly.all_families.link_geometry:
-        found, kind, mass = first_broken(states[:sound], *links, COLLAPSED, *lattice.plan)
-        if found < sound:
-            status, message = FAULTS[kind]
-            sound, fault = found, Fault(status, message.format(place(lattice, mass)))
-    return sound, fault
+def inspect(assembly: Assembly, states: np.ndarray) -> tuple[np.ndarray, Fault | None]:
+    """Return the largest strain of a link in a layer at each of the displacements (k, n, 3) [m] before the
+    first that means nothing, and why that one does not: a number that is not finite, or a collapsed link, or
+    an inverted cell."""
+    lattice, fault, of_families = assembly.lattice, None, []
+    for links in assembly.all_families.all_links:
+        found, kind, mass = examine(states, links.arrays, COLLAPSED, *lattice.plan)
+        of_families.append(found)
+        if kind >= 0:
+            states, (status, message) = states[: len(found)], FAULTS[kind]
+            fault = Fault(status, message.format(place(lattice, mass)))
+    return of_families[0][: len(states)], fault
 
 
 def place(lattice: Lattice, mass: int) -> str:

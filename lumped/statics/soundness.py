@@ -1,5 +1,5 @@
-"""What every answer and every sample of a motion is looked at for, as compiled loops: collapsed links and
-inverted cells (`lumped.statics.faults`), how sharply the sheet bends, what rounding its links carry
+"""What every answer and every sample of a motion is looked at for, as compiled loops: inverted
+cells (`lumped.statics.faults`), how sharply the sheet bends, what rounding its links carry
 (`lumped.statics.validity`)."""
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from lumped.springs.links import measure
+from lumped.springs.links import LinkArrays, strains
 from sheetbench.numerics.maps import Rows
 from sheetbench.numerics.typed import njit
 
@@ -42,38 +42,33 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
 
 
 @njit(cache=True)
-def first_broken(
+def examine(
     states: np.ndarray,
-    nodes: np.ndarray,
-    offset: np.ndarray,
-    rest_length: np.ndarray,
-    limit: float,
+    links: LinkArrays,
+    shortest: float,
     columns: np.ndarray,
     positions: np.ndarray,
     areas: np.ndarray,
-) -> tuple[int, int, int]:
-    """Return the first of the displacements (k, n, 3) [m] that means nothing, k if all do, why and the mass
-    where: 0, a number that is not finite; 1, the shortest link, shorter than this share of its rest length
-    (arrays as in `lumped.springs.links`); 2, the cell of the mid-surface whose normal points away from the
-    mean director of its corners most, for its area when flat; areas (ny − 1, nx − 1) [m²], 0 of absent ones,
+) -> tuple[np.ndarray, int, int]:
+    """Return `links.strains` of the displacements (k, n, 3) [m] before the first that means nothing, why that
+    one does not, −1 where all do, and the mass where: 0, a number is not finite; 1, the shortest link; 2, the
+    cell of the mid-surface whose normal points away from the mean director of its corners most, for its area
+    when flat. shortest: of a link, over its length at rest; areas (ny − 1, nx − 1) [m²], 0 of absent cells,
     the rest as in `surface`."""
     ny, nx, _ = columns.shape
     first, second, mean = np.empty(3), np.empty(3), np.empty(3)
+    sound, kind, mass = len(states), -1, 0
     for k in range(len(states)):
         for i in range(len(positions)):
-            for q in range(3):
-                if not math.isfinite(states[k, i, q]):
-                    return k, 0, i
-        least, mass = np.inf, 0
-        for m in range(len(nodes)):
-            _, square, length, _ = measure(states[k], nodes, offset, rest_length, m)
-            rest = length * length
-            if square < least * rest:
-                least, mass = square / rest, nodes[m, 0]
-        if least < limit * limit:
-            return k, 1, mass
+            moved = states[k, i, 0] + states[k, i, 1] + states[k, i, 2]
+            if kind < 0 and not math.isfinite(moved):
+                sound, kind, mass = k, 0, i
+    found, link = strains(states[:sound], links, shortest)
+    if link >= 0:
+        kind, mass = 1, links.nodes[link, 0]
+    for k in range(len(found)):
         middle, director = surface(columns, positions, states[k])
-        least = np.inf
+        least, which = np.inf, 0
         for j in range(ny - 1):
             for i in range(nx - 1):
                 for q in range(3):
@@ -86,10 +81,10 @@ def first_broken(
                     r, s = (q + 1) % 3, (q + 2) % 3
                     facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
                 if areas[j, i] > 0.0 and facing < least * areas[j, i]:
-                    least, mass = facing / areas[j, i], columns[j, i, 0]
+                    least, which = facing / areas[j, i], columns[j, i, 0]
         if least <= 0.0:
-            return k, 2, mass
-    return len(states), 0, 0
+            return found[:k], 2, which
+    return found, kind, mass
 
 
 @njit(cache=True)

@@ -161,17 +161,6 @@ def test_lattice_and_shell_swing_alike_as_gravity_comes_and_goes_and_all_masses_
     assert spent[0] == pytest.approx(spent[1], rel=0.02) and spent[0] > 0.0
 
 
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_a_free_sheet_with_a_body_falls_as_one(model):
-    scene = strip(body(at=(0.05, 0.01), moments=(1e-6, 1e-6, 1e-6)), supports=())
-    if model == "lumped":
-        history = lumped.simulate(scene, springs(scene, (9, 3)), duration=0.01, integrator="midpoint")
-        ends = [np.array(probe[-1]) for probe in history.probes.values()]
-        assert np.allclose(ends, [0.0, 0.0, -0.5 * 9.81 * 0.01**2], rtol=0.0, atol=1e-10)
-    else:
-        assert fem_reference.modes(scene, "shell", 2, 1).rigid_modes == 6
-
-
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell"])
 def test_a_mass_spread_over_a_part_is_a_patch_of_higher_density(model):
     denser = DENSITY + TIP / (0.05 * WIDTH * THICK)
@@ -181,14 +170,6 @@ def test_a_mass_spread_over_a_part_is_a_patch_of_higher_density(model):
         assert np.allclose(*found, rtol=3e-3) and found[0][0] == pytest.approx(found[1][0], rel=1e-3)
     else:
         assert np.allclose(*found, rtol=1e-4)
-
-
-def test_modes_about_the_deformed_strip_are_alike():
-    found = [
-        frequencies(strip(body(moments=(0.0, 1e-6, 0.0)), young=1e7), model, 1, about="deformed")
-        for model in ("lumped", "shell")
-    ]
-    assert np.allclose(*found, rtol=5e-3)
 
 
 def test_a_state_space_has_the_body_and_its_weight():
@@ -201,42 +182,6 @@ def test_a_state_space_has_the_body_and_its_weight():
     change = (ending(scene, lumped.solve(more, own)) - ending(scene, lumped.solve(scene, own))) / 1e-3
     by_weight = linear.jacobian[linear.outputs.index("P3 uz"), linear.inputs.index("gravity")]
     assert by_weight == pytest.approx(change, rel=1e-2)
-
-
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_mirrored_and_turned_sheets_answer_alike(model):
-    """A body within a cell and one on a line, of a sheet held at x0 or at x1, or along y."""
-    side, at = 0.12, (0.1, 0.035)
-    bodies = [(at, (3e-6, 1e-6, 0.0)), ((0.06, 0.06), (2e-6, 1e-6, 0.0))]
-    scene = Scene(
-        name="square",
-        sheet=Sheet(side, side, THICK),
-        material=Material(2e7, 0.3, DENSITY),
-        gravity=Gravity((0.0, 0.0, -9.81)),
-        supports=[{"edge": "x0", "kind": "clamped"}],
-        masses=[body(at=place, moments=moments) for place, moments in bodies],
-        probes={"A": (side, side)},
-    )
-    mirrored = scene.replace(
-        supports=[{"edge": "x1", "kind": "clamped"}],
-        masses=[body(at=(side - x, y), moments=moments) for (x, y), moments in bodies],
-        probes={"A": (0.0, side)},
-    )
-    turned = scene.replace(
-        supports=[{"edge": "y0", "kind": "clamped"}],
-        masses=[body(at=(side - y, x), moments=(iy, ix, iz)) for (x, y), (ix, iy, iz) in bodies],
-        probes={"A": (0.0, side)},
-    )
-    found, swings = [], []
-    for one in (scene, mirrored, turned):
-        if model == "lumped":
-            own = springs(one, (9, 9))
-            found.append(ending(one, lumped.solve(one, own), "A"))
-            swings.append(lumped.modes(one, own, 3).frequencies)
-        else:
-            found.append(ending(one, fem_reference.solve(one, model=model, elements=4), "A"))
-            swings.append(fem_reference.modes(one, model, 4, 3).frequencies)
-    assert np.allclose(found, found[0], rtol=1e-8) and np.allclose(swings, swings[0], rtol=1e-8)
 
 
 def test_judges_are_given_the_weight():

@@ -64,6 +64,7 @@ def test_a_driven_edge_comes_to_rest_where_statics_have_it(model):
     assert spread < 5e-3 and motion.energies["work"][-1] > 0.0
 
 
+@pytest.mark.nightly
 def test_a_chain_in_motion_pulls_at_shell_and_lattice_alike():
     """The force on the sheet, inertia of the chain in it: within what two elements leave uncertain."""
     scene = driven(curvature=RAMP, damping_time=0.02).replace(damping_rate=25.0)

@@ -256,26 +256,6 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
     assert slow == pytest.approx(residual, rel=1e-9, abs=1e-9 * np.abs(residual).max())
 
 
-def test_no_step_of_the_creep_raises_the_potential(taped, monkeypatch):
-    structure = Static(shell.discretise(rectangle(taped.sheet, (6, 6), graded=True), taped))
-    path = trace_path(structure, DirectSolver())
-    energies = []
-    measured = pseudo_transient._Creep._accepts
-
-    def accepts(self, state):
-        taken = measured(self, state)
-        if taken:
-            energies.append(structure.potential(state, self.load_factor)[0])
-        return taken
-
-    monkeypatch.setattr(pseudo_transient._Creep, "_accepts", accepts)
-    before, state = path.factorisations, path.state
-    relax(path, path.load_factor + 0.01)
-    assert path.state is state and path.factorisations > before
-    assert len(energies) > 5 and energies[-1] < energies[0]
-    assert np.diff(energies).max() <= 1e-12 * np.abs(energies).max()
-
-
 @pytest.mark.parametrize("name", ["curved-edge", "two-edges-clamped"])
 def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
     scene = scenes.load(name)

@@ -20,15 +20,18 @@ from contact_cases import (
     lying_quarter,
     pressed_loop,
 )
+from drawn_obstacles import judged
 from scipy.optimize import fsolve
 
 import fem_reference
 import lumped
+from lumped import contact
 from lumped.actuators import Drive
 from lumped.contact import points_of_cells
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
+from sheetbench.numerics.continuation import stiffening
 from sheetbench.scenes import Cylinder, Motion, Plane, SceneError, Sphere
 from sheetbench.scenes.objects.grading import Grading
 
@@ -275,3 +278,27 @@ def test_points_of_a_cell_share_its_area_and_hang_from_its_corners_alike(ends):
     weights, shares = points_of_cells(np.array([0.02, 0.03]), 0.01, ends)
     assert len(shares) == ((5 * 7) if ends else (4 * 6))  # at most half a radius apart
     assert weights.sum(axis=1) == pytest.approx(1.0) and shares @ weights == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("number", [2, 22, 39, 59])
+def test_drawn_sheet_is_not_walked_through(number):
+    assert judged(number)[1] == ""
+
+
+@pytest.mark.parametrize("number", [22, 59])
+def test_geometry_finds_a_ball_between_masses(number, monkeypatch):
+    corners = np.eye(4), np.full(4, 0.25)
+    monkeypatch.setattr(contact, "points_of_cells", lambda *sides: corners)
+    assert "deep in it" in judged(number)[1]
+
+
+def test_geometry_finds_a_ball_that_came_through_the_sheet(monkeypatch):
+    monkeypatch.setattr(contact.Contact, "step_share", lambda *ways: 1.0)
+    monkeypatch.setattr(stiffening, "WAY", 1e9)
+    assert "below the middle" in judged(2)[1]
+
+
+@pytest.mark.nightly
+def test_a_thousand_drawn_sheets():
+    faults = {number: found[1] for number in range(1000) if (found := judged(number))[1]}
+    assert not faults

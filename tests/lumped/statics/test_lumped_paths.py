@@ -14,7 +14,7 @@ import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeLoad, Held, Material, Pressure, Scene, Sheet
+from sheetbench.scenes import EdgeLoad, Held, Material, Pressure, Scene, Sheet, load
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
 RIGIDITY = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)
@@ -120,3 +120,17 @@ def test_several_threads_look_at_an_answers_mesh_at_once():
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(look, range(4)))
     assert all((each == mesh.points).all() for each in found)
+
+
+SCENE = load("two-edges-clamped")
+SPRINGS = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 5))
+
+
+def test_threads_do_not_disturb_each_other():
+    several = [SPRINGS.with_constant("diagonal", k) for k in np.linspace(2000.0, 9000.0, 12)]
+    with ThreadPoolExecutor(3) as pool:
+        answers = list(pool.map(lambda springs: lumped.solve(SCENE, springs), several))
+    for many, springs in zip(answers, several, strict=True):
+        single = lumped.solve(SCENE, springs)
+        assert (many.status, many.iterations) == (single.status, single.iterations)
+        np.testing.assert_array_equal(many.mesh.point_data["reaction"], single.mesh.point_data["reaction"])

@@ -39,6 +39,7 @@ def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
         assert (one.returncode, one.stdout, one.stderr) == (0, usual.stdout, "")
 
 
+@pytest.mark.nightly
 def test_a_drawing_needs_no_window_whatever_matplotlib_is_told(tmp_path):
     few = ["check", "one-edge-clamped", "--out", str(tmp_path)]
     environment = {**os.environ, "MPLBACKEND": "nope"}

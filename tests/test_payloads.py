@@ -128,7 +128,7 @@ def test_the_weight_follows_gravitys_history():
 RUNS = [("lumped", "midpoint"), ("lumped", "esdirk"), ("lumped", "verlet"), "plate", "shell"]
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep(4)
 @pytest.mark.parametrize("run", RUNS, ids=str)
 def test_a_swing_keeps_its_energy_and_reaches_as_far_as_the_others(run):
     """From the flat sheet the potential energy goes into motion and springs and back; nothing else acts."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
-from comparisons.cli.options import Export, Large, MethodOptions, SheetOptions, option
+from comparisons.cli.options import Kind, LatticeOptions, Metres, SheetOptions
 from comparisons.cli.output import OutputOptions
 from comparisons.cli.verb import no_effect
+from sheetbench.choices import CALIBRATIONS
 
+SUMMARIES = "; ".join(f"{name}: {method.summary}" for name, method in CALIBRATIONS.items())
 SPRINGS = "calibration k layer_distance grading toml"
 DAMPING = "loss_factor damping_ratio log_decrement quality at band prony"
 
@@ -21,79 +21,25 @@ DAMPING = "loss_factor damping_ratio log_decrement quality at band prony"
     without_cell="spacing hinge coefficient",
 )
 def command(
-    scene: Annotated[
-        str | None, typer.Argument(metavar="[SCENE]", help="Scene with the sheet and its material.")
-    ] = None,
+    scene: str | None = None,
     *,
     sheet: SheetOptions,
-    lattice: MethodOptions,
-    toml: Annotated[bool, option("Print the \\[springs] table for a scene file.")] = False,
-    export: Export = None,
-    for_: Annotated[
-        str | None,
-        option(
-            "Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis: its own "
-            "sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a program "
-            "that reads it.",
-            "CODE",
-        ),
-    ] = None,
-    cell: Annotated[
-        str | None,
-        option(
-            "Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer "
-            "mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with "
-            "hinges), bricks, or a TOML file with periods, nodes and elements.",
-            "CELL",
-        ),
-    ] = None,
-    spacing: Annotated[
-        float | None,
-        option(
-            "With --cell: distance of nodes, in m or as 5mm. Default: an eighth of the shorter side.",
-            "LENGTH",
-            unit="m",
-        ),
-    ] = None,
-    hinge: Annotated[
-        str | None,
-        option(
-            "With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height, w = 3 "
-            "length² over the area of both triangles. Default: length.",
-            "WEIGHT",
-        ),
-    ] = None,
-    coefficient: Annotated[
-        list[str] | None,
-        option("With --cell: use this in place of the one found. May be repeated.", "NAME=VALUE"),
-    ] = None,
-    loss_factor: Annotated[
-        float | None, option("Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.", "ETA")
-    ] = None,
-    damping_ratio: Annotated[
-        float | None, option("Damping as ζ, a fraction of critical damping.", "ZETA")
-    ] = None,
-    log_decrement: Annotated[
-        float | None, option("Damping as the logarithmic decrement of a decay, ln(peak/next peak).", "DELTA")
-    ] = None,
-    quality: Annotated[float | None, option("Damping as the quality factor of a resonance.", "Q")] = None,
-    at: Annotated[
-        float | None,
-        option("One damper per spring: the loss factor is right at this frequency only.", "HZ", unit="Hz"),
-    ] = None,
-    band: Annotated[
-        tuple[float, float] | None,
-        option("Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.", "LOW HIGH"),
-    ] = None,
-    prony: Annotated[
-        Path | None,
-        option(
-            "Young's modulus and branches from a CSV of frequency \\[Hz], storage, loss (or tan_delta), "
-            "or of time \\[s], modulus; moduli in Pa or as the header has it, storage \\[MPa].",
-            "FILE",
-        ),
-    ] = None,
-    large: Large = False,
+    lattice: LatticeOptions,
+    toml: bool = False,
+    export: str | None = None,
+    for_: str | None = None,
+    cell: str | None = None,
+    spacing: Metres = None,
+    hinge: str | None = None,
+    coefficient: list[str] | None = None,
+    loss_factor: float | None = None,
+    damping_ratio: float | None = None,
+    log_decrement: float | None = None,
+    quality: float | None = None,
+    at: Annotated[float | None, Kind("Hz")] = None,
+    band: tuple[float, float] | None = None,
+    prony: Path | None = None,
+    large: bool = False,
     output: OutputOptions,
 ) -> Any:
     """Find spring constants for a sheet, or another code's numbers.
@@ -102,6 +48,30 @@ def command(
     The fitted methods train on the SCENE; without one, on the sheet under its own weight with one edge and
     with two adjacent edges clamped. --export writes the lattice of the SCENE, or of the sheet with one edge
     clamped.
+
+    Args:
+        scene ([SCENE], argument): Scene with the sheet and its material.
+        calibration (NAME): {SUMMARIES}; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.
+        toml: Print the [springs] table for a scene file.
+        for_ (CODE): Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis:
+            its own sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a
+            program that reads it.
+        cell (CELL): Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer
+            mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with
+            hinges), bricks, or a TOML file with periods, nodes and elements.
+        spacing (LENGTH): With --cell: distance of nodes, in m or as 5mm. Default: an eighth of the shorter
+            side.
+        hinge (WEIGHT): With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height,
+            w = 3 length² over the area of both triangles. Default: length.
+        coefficient (NAME=VALUE): With --cell: use this in place of the one found. May be repeated.
+        loss_factor (ETA): Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.
+        damping_ratio (ZETA): Damping as ζ, a fraction of critical damping.
+        log_decrement (DELTA): Damping as the logarithmic decrement of a decay, ln(peak/next peak).
+        quality (Q): Damping as the quality factor of a resonance.
+        at (HZ): One damper per spring: the loss factor is right at this frequency only.
+        band (LOW HIGH): Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.
+        prony (FILE): Young's modulus and branches from a CSV of frequency [Hz], storage, loss (or tan_delta),
+            or of time [s], modulus; moduli in Pa or as the header has it, storage [MPa].
     """
     from dataclasses import fields
 

@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-
-from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 
 
 @no_effect(with_schema="scene")
 def command(
-    scene: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[SCENE]", help="Catalogue name or path; without it, the catalogue is listed."
-        ),
-    ] = None,
+    scene: str | None = None,
     *,
-    schema: Annotated[
-        bool,
-        option("Print the JSON Schema of scenes, for editors; --out writes it, and a page of every key."),
-    ] = False,
+    schema: bool = False,
     output: PictureOptions,
 ) -> Any:
     """Say what will be solved and warn of slips; list the catalogue.
 
     Without a SCENE the catalogue is listed. --out draws the scene and copies those of the catalogue, to start
     from.
+
+    Args:
+        scene ([SCENE], argument): Catalogue name or path; without it, the catalogue is listed.
+        schema: Print the JSON Schema of scenes, for editors; --out writes it, and a page of every key.
     """
     from warnings import catch_warnings, simplefilter
 

@@ -3,61 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Any
 
-from comparisons.cli.options import Export, Large, LatticeOptions, Law, Models, Scene, Symmetry, option
+from comparisons.cli.options import LatticeOptions, Seconds
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
-from sheetbench.choices import BRANCHES, ELEMENTS, REFERENCE, REFERENCES, listed
+from sheetbench.choices import REFERENCE
 
 FRAMES = 100  # of a motion
 
 
 @no_effect(with_duration="symmetry branch export", without_duration="every animate")
 def command(
-    scene: Scene,
+    scene: str,
     lattice: LatticeOptions,
-    reference: Annotated[str, option(f"{listed(REFERENCES)}.", "MODEL")] = REFERENCE,
+    reference: str = REFERENCE,
     *,
-    elements: Annotated[
-        str | None,
-        option(
-            "The reference's elements along the shorter side, or 8x4 along x and y; "
-            f"default: {ELEMENTS}; 8 with --duration.",
-            "N",
-        ),
-    ] = None,
-    law: Law = None,
-    symmetry: Symmetry = False,
-    model: Models = None,
-    uncertainty: Annotated[
-        bool | None,
-        option(
-            "Solve the reference on coarser meshes too, for its error bar. Default: of plates and shells.",
-            None,
-            "--uncertainty/--no-uncertainty",
-        ),
-    ] = None,
-    branch: Annotated[
-        str | None,
-        option(
-            f"{listed(BRANCHES)}: buckled leaves an unstable equilibrium along its buckling mode. "
-            "Default: path.",
-            "NAME",
-        ),
-    ] = None,
-    duration: Annotated[
-        float | None, option("Compare the motion over this time, from rest.", "S", unit="s")
-    ] = None,
-    every: Annotated[
-        float | None,
-        option("With --duration: time between samples. Default: 1/100 of the lowest period.", "S", unit="s"),
-    ] = None,
-    animate: Annotated[
-        bool, option("With --duration and --out: draw both sheets moving, side by side.")
-    ] = False,
-    export: Export = None,
-    large: Large = False,
+    elements: str | None = None,
+    law: str | None = None,
+    symmetry: bool = False,
+    model: list[str] | None = None,
+    uncertainty: bool | None = None,
+    branch: str | None = None,
+    duration: Seconds = None,
+    every: Seconds = None,
+    animate: bool = False,
+    export: str | None = None,
+    large: bool = False,
     output: PictureOptions,
 ) -> Any:
     """Solve a scene with the lattice and a reference, side by side.
@@ -65,6 +37,18 @@ def command(
     What differs is shown with the reference's error bar, and what it cost. Where no calibration is named,
     uniform springs are shown alongside. With --duration and --out, runs are written to the folder as they go,
     and the same command resumes them.
+
+    Args:
+        reference (MODEL): {REFERENCES}.
+        elements (N): The reference's elements along the shorter side, or 8x4 along x and y; default:
+            {ELEMENTS}; 8 with --duration.
+        uncertainty: Solve the reference on coarser meshes too, for its error bar. Default: of plates and
+            shells.
+        branch (NAME): {BRANCHES}: buckled leaves an unstable equilibrium along its buckling mode. Default:
+            path.
+        duration (S): Compare the motion over this time, from rest.
+        every (S): With --duration: time between samples. Default: 1/100 of the lowest period.
+        animate: With --duration and --out: draw both sheets moving, side by side.
     """
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.context import running

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-
-from comparisons.cli.options import Calibration, CampaignOptions, Large, SpringOptions, option
+from comparisons.cli.options import CampaignOptions, Listed, Seconds, SpringOptions
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from sheetbench.choices import REFERENCE, REFERENCES
@@ -15,57 +13,42 @@ SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "
 MOVING = {"lumped": "9,17", "plate": "4,8", "shell": "4,8", "solid": "2,4", "meshes": "4,8"}
 
 
-def _sizes(what: str, name: str, *names: str) -> Any:
-    """The option of a model's sizes."""
-    usual = f"{SIZES[name]}; {MOVING[name]} with --duration"
-    text = f"{what} along the shorter side, in rising order. Default: {usual}."
-    return option(text, "N,N,N", *names, listed=True)
-
-
 @no_effect(with_duration="workers retry")
 def command(
-    scenes: Annotated[
-        list[str],
-        typer.Argument(metavar="SCENES", help="Catalogue names or paths to TOML files; all: the catalogue."),
-    ],
+    scenes: list[str],
     lattice: SpringOptions,
     *,
-    grid: Annotated[str | None, _sizes("Masses of the lattice", "lumped", "--lumped", "--grid")] = None,
-    calibration: Calibration = None,
-    plate: Annotated[str | None, _sizes("Elements of the linear plate", "plate")] = None,
-    shell: Annotated[str | None, _sizes("Elements of the nonlinear shell", "shell")] = None,
-    solid: Annotated[str | None, _sizes("Elements of the nonlinear solid", "solid")] = None,
-    judges: Annotated[
-        str | None,
-        option(
-            "External codes, with commas, or FILE.py:OBJECT; default: all that are installed.",
-            "NAMES",
-            listed=True,
-        ),
-    ] = None,
-    meshes: Annotated[
-        str | None,
-        option(
-            f"Elements of external codes. Default: each code's own; {MOVING['meshes']} with --duration.",
-            "N,N,N",
-            listed=True,
-        ),
-    ] = None,
-    duration: Annotated[
-        float | None,
-        option(
-            "Compare the motion of one scene over this time instead, each model on the finest of its meshes.",
-            "S",
-            unit="s",
-        ),
-    ] = None,
-    large: Large = False,
+    grid: Listed = None,
+    calibration: str | None = None,
+    plate: Listed = None,
+    shell: Listed = None,
+    solid: Listed = None,
+    judges: Listed = None,
+    meshes: Listed = None,
+    duration: Seconds = None,
+    large: bool = False,
     campaign: CampaignOptions,
     output: PictureOptions,
 ) -> Any:
     """Compare models and external codes, each with its convergence.
 
     An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
+
+    Args:
+        scenes (SCENES, argument): Catalogue names or paths to TOML files; all: the catalogue.
+        grid (N,N,N): Masses of the lattice along the shorter side, in rising order. Default: {SIZES[lumped]};
+            {MOVING[lumped]} with --duration.
+        plate (N,N,N): Elements of the linear plate along the shorter side, in rising order. Default:
+            {SIZES[plate]}; {MOVING[plate]} with --duration.
+        shell (N,N,N): Elements of the nonlinear shell along the shorter side, in rising order. Default:
+            {SIZES[shell]}; {MOVING[shell]} with --duration.
+        solid (N,N,N): Elements of the nonlinear solid along the shorter side, in rising order. Default:
+            {SIZES[solid]}; {MOVING[solid]} with --duration.
+        judges (NAMES): External codes, with commas, or FILE.py:OBJECT; default: all that are installed.
+        meshes (N,N,N): Elements of external codes. Default: each code's own; {MOVING[meshes]} with
+            --duration.
+        duration (S): Compare the motion of one scene over this time instead, each model on the finest of its
+            meshes.
     """
     from comparisons.comparison.crosscheck import candidates, crosscheck, load_scenes
     from comparisons.comparison.motion import compare_motion

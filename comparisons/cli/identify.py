@@ -5,95 +5,59 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
-from comparisons.cli.options import Large, LatticeOptions, Law, option
+from comparisons.cli.options import Kind, LatticeOptions, Listed, Metres
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
-from sheetbench.choices import ELEMENTS
 
 OF_SCENE = "scene measured unknown model elements law offset refine lattice grid calibration k"
 
 
 @no_effect(with_tensile=f"{OF_SCENE} layer_distance grading", without_tensile="area gauge up_to")
 def command(
-    scene: Annotated[
-        str | None,
-        typer.Argument(metavar="[SCENE]", help="Catalogue name or path; not needed for --tensile."),
-    ] = None,
-    measured: Annotated[
-        Path | None,
-        option(
-            "CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time \\[s], a motion), "
-            "or x,y,z of the deformed surface; or a VTP or PLY point cloud of it.",
-            "FILE",
-        ),
-    ] = None,
-    unknown: Annotated[
-        str | None,
-        option(
-            "young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other constants of "
-            "fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE, tilt_EDGE "
-            "(of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch, drag "
-            "(of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z; several with "
-            "commas. Default: young.",
-            "NAMES",
-            listed=True,
-        ),
-    ] = None,
+    scene: str | None = None,
+    measured: Path | None = None,
+    unknown: Listed = None,
     *,
     lattice: LatticeOptions,
-    tensile: Annotated[
-        list[str] | None,
-        option(
-            "A tensile test instead: CSV with stretch, strain or displacement, and engineering_stress, "
-            "true_stress or force, each with its unit (force \\[N]); pure-shear=FILE or equibiaxial=FILE of "
-            "other tests. May be repeated.",
-            "FILE",
-        ),
-    ] = None,
-    up_to: Annotated[
-        float | None, option("With --tensile: ignore data beyond this stretch.", "STRETCH")
-    ] = None,
-    area: Annotated[
-        float | None,
-        option("With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².", "M2", unit="m²"),
-    ] = None,
-    gauge: Annotated[
-        float | None,
-        option("With --tensile and a displacement: undeformed length, 33mm.", "M", unit="m"),
-    ] = None,
-    model: Annotated[str | None, option("lumped, shell or solid. Default: lumped.", "MODEL")] = None,
-    elements: Annotated[
-        str | None,
-        option(
-            "The shell's or solid's elements along the shorter side, or 8x4 along x and y; default: "
-            f"{ELEMENTS}.",
-            "N",
-        ),
-    ] = None,
-    law: Law = None,
-    offset: Annotated[
-        float | None,
-        option(
-            "Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.",
-            "M",
-            unit="m",
-        ),
-    ] = None,
-    refine: Annotated[
-        bool,
-        option("Look at other cells or elements too, for their error.", None, "--refine/--no-refine"),
-    ] = True,
-    large: Large = False,
+    tensile: list[str] | None = None,
+    up_to: float | None = None,
+    area: Annotated[float | None, Kind("m²")] = None,
+    gauge: Metres = None,
+    model: str | None = None,
+    elements: str | None = None,
+    law: str | None = None,
+    offset: Metres = None,
+    refine: bool = True,
+    large: bool = False,
     output: PictureOptions,
 ) -> Any:
     """Fit material or support values to measurements of a sheet.
 
     With 95 % intervals. The search starts at the scene's values; at others too if that fit is poor. Without
     --lumped the lattice is refined until the error of its grid is below the noise. Lengths are in metres
-    unless a column's header says otherwise (uz \\[mm]), in the scene's axes. --tensile fits a rubber's law
+    unless a column's header says otherwise (uz [mm]), in the scene's axes. --tensile fits a rubber's law
     and its constants instead.
+
+    Args:
+        scene ([SCENE], argument): Catalogue name or path; not needed for --tensile.
+        measured (FILE): CSV with the columns x,y,ux,uy,uz or x,y,uz (metres; with a column time [s], a
+            motion), or x,y,z of the deformed surface; or a VTP or PLY point cloud of it.
+        unknown (NAMES): young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other
+            constants of fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE,
+            tilt_EDGE (of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch,
+            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z; several with
+            commas. Default: young.
+        tensile (FILE): A tensile test instead: CSV with stretch, strain or displacement, and
+            engineering_stress, true_stress or force, each with its unit (force [N]); pure-shear=FILE or
+            equibiaxial=FILE of other tests. May be repeated.
+        up_to (STRETCH): With --tensile: ignore data beyond this stretch.
+        area (M2): With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².
+        gauge (M): With --tensile and a displacement: undeformed length, 33mm.
+        model (MODEL): lumped, shell or solid. Default: lumped.
+        elements (N): The shell's or solid's elements along the shorter side, or 8x4 along x and y; default:
+            {ELEMENTS}.
+        offset (M): Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.
+        refine: Look at other cells or elements too, for their error.
     """
     from sheetbench.errors import BadInput
 

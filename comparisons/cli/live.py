@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from comparisons.cli.options import LatticeOptions, Scene, option
+from comparisons.cli.options import LatticeOptions
 
 ELEMENTS = 8
 
 
 def command(
-    scene: Scene,
+    scene: str,
     lattice: LatticeOptions,
     *,
-    elements: Annotated[
-        int, option("Elements of the shell along the shorter side to start with.", "N")
-    ] = ELEMENTS,
-    port: Annotated[int, option("Port to listen on; 0: any that is free.", "PORT")] = 0,
-    browser: Annotated[
-        bool, option("Open the page in a browser, or only print its address.", None, "--browser/--no-browser")
-    ] = True,
+    elements: int = ELEMENTS,
+    port: int = 0,
+    browser: bool = True,
 ) -> None:
     """Open a page with sliders, where lattice and shell are solved.
 
     With --k it has a slider for k too.
 
     The page is served on localhost only, at a secret URL. Ctrl-C ends it.
+
+    Args:
+        elements (N): Elements of the shell along the shorter side to start with.
+        port (PORT): Port to listen on; 0: any that is free.
+        browser: Open the page in a browser, or only print its address.
     """
     import webbrowser
     from html import escape

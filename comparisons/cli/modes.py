@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any, cast
 
-from comparisons.cli.options import Elements, Large, LatticeOptions, Scene, option
+from comparisons.cli.options import Kind, LatticeOptions
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
-from sheetbench.choices import ELEMENTS, MASSES, REFERENCE, REFERENCES, listed
+from sheetbench.choices import ELEMENTS, REFERENCE
 
 if TYPE_CHECKING:
     from sheetbench.answers.solution import About
@@ -15,53 +15,18 @@ if TYPE_CHECKING:
 
 @no_effect(with_state_space="count masses reference elements buckling", without_state_space="reduce")
 def command(
-    scene: Scene,
+    scene: str,
     lattice: LatticeOptions,
     *,
-    count: Annotated[int, option("How many modes, lowest first.", "N")] = 10,
-    masses: Annotated[
-        str | None,
-        option(
-            f"How the lattice's mass is lumped: {listed(MASSES)}. Default: higher-order, or the masses "
-            "that springs were fitted with.",
-            "NAME",
-        ),
-    ] = None,
-    reference: Annotated[
-        list[str] | None,
-        option(f"{listed(REFERENCES)}; may be repeated. Default: {REFERENCE}.", "MODEL"),
-    ] = None,
-    elements: Elements = str(ELEMENTS),
-    about: Annotated[
-        str | None,
-        option(
-            "About the flat, stress-free sheet, or its equilibrium under its loads (lattice and shell). "
-            "Default: flat; deformed with --state-space.",
-            "flat|deformed",
-            choices=("flat", "deformed"),
-        ),
-    ] = None,
-    buckling: Annotated[
-        bool, option("Also the load factors at which the flat sheet buckles, with the shapes paired.")
-    ] = False,
-    state_space: Annotated[
-        int | None,
-        option(
-            "The lattice's linear form instead, with so many modes, 0 for all: poles, static gains; --out "
-            "writes M, C, K and the state space for NumPy and MATLAB.",
-            "N",
-            min=0,
-        ),
-    ] = None,
-    reduce: Annotated[
-        str | None,
-        option(
-            "With --state-space: balanced:8 keeps the 8 most important states; balanced:0.01 as few as "
-            "keep the error of every response below that share of its static value.",
-            "HOW",
-        ),
-    ] = None,
-    large: Large = False,
+    count: int = 10,
+    masses: str | None = None,
+    reference: list[str] | None = None,
+    elements: str = str(ELEMENTS),
+    about: Annotated[str | None, Kind(choices=("flat", "deformed"))] = None,
+    buckling: bool = False,
+    state_space: Annotated[int | None, Kind(least=0)] = None,
+    reduce: str | None = None,
+    large: bool = False,
     output: PictureOptions,
 ) -> Any:
     """List natural frequencies; buckling loads; control matrices.
@@ -69,6 +34,19 @@ def command(
     Frequencies of lattice and reference, of the flat sheet or about its equilibrium. With --state-space the
     lattice is made linear, for control: inputs are the loads, forces at the probes, commands of chains
     and positions of held edges; outputs the probes' displacements.
+
+    Args:
+        count (N): How many modes, lowest first.
+        masses (NAME): How the lattice's mass is lumped: {MASSES}. Default: higher-order, or the masses that
+            springs were fitted with.
+        reference (MODEL): {REFERENCES}; may be repeated. Default: {REFERENCE}.
+        about (flat|deformed): About the flat, stress-free sheet, or its equilibrium under its loads (lattice
+            and shell). Default: flat; deformed with --state-space.
+        buckling: Also the load factors at which the flat sheet buckles, with the shapes paired.
+        state_space (N): The lattice's linear form instead, with so many modes, 0 for all: poles, static
+            gains; --out writes M, C, K and the state space for NumPy and MATLAB.
+        reduce (HOW): With --state-space: balanced:8 keeps the 8 most important states; balanced:0.01 as few
+            as keep the error of every response below that share of its static value.
     """
     from comparisons.models.grids import parse_elements
     from comparisons.modes.spectra import spectra

@@ -4,29 +4,29 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from comparisons.cli.options import SheetOptions, option
+from comparisons.cli.options import Listed, SheetOptions
 
 SHEET = {"length_x": 0.3, "length_y": 0.2, "thickness": 0.002}  # unless given
 MATERIAL = {"young": 1.2e6, "poisson": 0.45, "density": 1100.0}
 
 
 def command(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The TOML file to write.")],
+    file: Path,
     sheet: SheetOptions,
     *,
-    clamped: Annotated[
-        str | None, option("x0, x1, y0, y1; several with commas. Default: x0.", "EDGES", listed=True)
-    ] = None,
-    overwrite: Annotated[bool, option("Replace the file where there is one.")] = False,
+    clamped: Listed = None,
+    overwrite: bool = False,
 ) -> Path:
     """Write a commented scene to start from.
 
     The scene is a sheet under its own weight, with what can be added as comments. The JSON Schema is written
     beside the file, for editors.
+
+    Args:
+        file (FILE, argument): The TOML file to write.
+        clamped (EDGES): x0, x1, y0, y1; several with commas. Default: x0.
+        overwrite: Replace the file where there is one.
     """
     from comparisons.cli import console
     from comparisons.models.quantities import checked

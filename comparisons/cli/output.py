@@ -11,12 +11,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import typer
 
 from comparisons.cli import messages, startup
-from comparisons.cli.options import CampaignOptions, Group, Json, NoPictures, option
+from comparisons.cli.options import CampaignOptions, Group
 from sheetbench import clock
 
 if TYPE_CHECKING:
@@ -204,16 +204,19 @@ class Output:
 
 @dataclass(frozen=True)
 class OutputOptions(Group):
-    """Where the answer of a verb goes: --json, --out and --overwrite; terminal: not in Python."""
+    """Where the answer of a verb goes; terminal: not in Python.
+
+    Args:
+        out (DIR): Write files into this folder.
+        overwrite: With --out: first remove what an earlier run left there; its manifest lists it.
+    """
 
     no_effect: ClassVar[dict[str, str]] = {"without_out": "overwrite"}
     verb: str
     terminal: bool = True
-    json: Json = False
-    out: Annotated[str | None, option("Write files into this folder.", "DIR")] = None
-    overwrite: Annotated[
-        bool, option("With --out: first remove what an earlier run left there; its manifest lists it.")
-    ] = False
+    json: bool = False
+    out: str | None = None
+    overwrite: bool = False
     figure: str | None = None
     no_pictures: bool = False
 
@@ -270,18 +273,15 @@ class OutputOptions(Group):
 
 @dataclass(frozen=True)
 class PictureOptions(OutputOptions):
-    """The output of a verb that draws pictures: --figure and --no-pictures besides."""
+    """The output of a verb that draws pictures.
+
+    Args:
+        figure (FORMAT): With --out: pictures for a paper, without a title, as pdf, svg or png, several with
+            commas; pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).
+        no_pictures: With --out: all files but the pictures.
+    """
 
     no_effect: ClassVar[dict[str, str]] = {
         "without_out": "overwrite figure animate",
         "with_no_pictures": "figure animate",
     }
-    figure: Annotated[
-        str | None,
-        option(
-            "With --out: pictures for a paper, without a title, as pdf, svg or png, several with commas; "
-            "pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).",
-            "FORMAT",
-        ),
-    ] = None
-    no_pictures: NoPictures = False

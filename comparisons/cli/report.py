@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
-
-from comparisons.cli.options import Json, option
 
 
 def command(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder that verbs wrote to with --out.")],
+    folder: Path,
     *,
-    out: Annotated[
-        Path | None, option("Folder of the page, report.html, or FILE.html. Default: DIR.", "DIR")
-    ] = None,
-    open_: Annotated[bool, option("Open the page in the browser.")] = False,
-    json: Json = False,
+    out: Path | None = None,
+    open_: bool = False,
+    json: bool = False,
 ) -> Path:
     """Write one HTML file with all runs below a folder.
 
     The folder and those below it are read; a study is what a verb wrote with --out, as its manifest says. The
     page has sheets to turn, tables to sort, figures, notes and manifests, and needs no network.
+
+    Args:
+        folder (DIR, argument): A folder that verbs wrote to with --out.
+        out (DIR): Folder of the page, report.html, or FILE.html. Default: DIR.
+        open_: Open the page in the browser.
     """
     from webbrowser import open as browse
 

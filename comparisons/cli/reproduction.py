@@ -4,23 +4,23 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from comparisons.cli.options import Elements, option
+from comparisons.cli.options import Kind
 from comparisons.cli.output import PictureOptions
-from sheetbench.choices import ELEMENTS, REPRODUCED, listed
+from sheetbench.choices import ELEMENTS, REPRODUCED
 
 
 def command(
-    part: Annotated[
-        list[str] | None,
-        option(f"Only {listed(REPRODUCED)}; may be repeated. Default: all.", "NAME", choices=REPRODUCED),
-    ] = None,
-    elements: Elements = str(ELEMENTS),
+    part: Annotated[list[str] | None, Kind(choices=REPRODUCED)] = None,
+    elements: str = str(ELEMENTS),
     *,
     output: PictureOptions,
 ) -> Any:
     """Reproduce Habibi et al.'s study from its published inputs: errors, both tests, the settling run.
 
     With which sheets come nearest to the published tables, and what in them no sheet can have.
+
+    Args:
+        part (NAME): Only {REPRODUCED}; may be repeated. Default: all.
     """
     from comparisons.models.grids import parse_elements
     from comparisons.reproduction.reproduction import reproduce

@@ -5,34 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
-from comparisons.cli.options import option
+from comparisons.cli.options import Kind
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
-from sheetbench.choices import SUITES, listed
+from sheetbench.choices import SUITES
 
 
 @no_effect(without_answers="case")
 def command(
-    answers: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="[ANSWERS]",
-            help="CSV: case,probe[,time],ux,uy,uz[,seconds] in m, s; without it, the set is listed.",
-        ),
-    ] = None,
+    answers: Path | None = None,
     *,
-    suite: Annotated[
-        str | None,
-        option(
-            f"The suite answered or listed: {listed(SUITES)}. Default: by the header and cases of ANSWERS; "
-            "all are listed.",
-            "NAME",
-            choices=SUITES,
-        ),
-    ] = None,
-    case: Annotated[list[str] | None, option("Only this case; may be repeated.", "NAME")] = None,
+    suite: Annotated[str | None, Kind(choices=SUITES)] = None,
+    case: list[str] | None = None,
     output: PictureOptions,
 ) -> Any:
     """List the reference set, or score somebody's answers to it.
@@ -41,6 +25,13 @@ def command(
     writes its scenes, its values as CSV and JSON (CC-BY-4.0), and a form to fill in, where cases left empty
     are left out. Of ANSWERS: errors, likely mistakes (units, signs, swapped probes), rank. Exit status 3
     where units, signs or probes are mistaken.
+
+    Args:
+        answers ([ANSWERS], argument): CSV: case,probe[,time],ux,uy,uz[,seconds] in m, s; without it, the set
+            is listed.
+        suite (NAME): The suite answered or listed: {SUITES}. Default: by the header and cases of ANSWERS; all
+            are listed.
+        case (NAME): Only this case; may be repeated.
     """
     from comparisons.scoring.score import score
     from comparisons.scoring.suite import Suite

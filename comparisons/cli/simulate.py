@@ -5,48 +5,41 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-from comparisons.cli.options import Export, Large, LatticeOptions, Scene, option
+from comparisons.cli.options import Kind, LatticeOptions, Seconds
 from comparisons.cli.output import PictureOptions
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
 
 FRAMES = 100
+SUMMARIES = "; ".join(f"{name}: {summary}" for name, summary in INTEGRATORS.items())
 
 
 def command(
-    scene: Scene,
-    duration: Annotated[float, option("How long to simulate.", "S", unit="s")] = 1.0,
+    scene: str,
+    duration: Annotated[float, Kind("s")] = 1.0,
     *,
     lattice: LatticeOptions,
-    step: Annotated[
-        float | None,
-        option("Largest time step. Default: from the stability limit or the error.", "S", unit="s"),
-    ] = None,
-    error: Annotated[
-        float | None,
-        option("Error of a step, of the displacement, for integrators that choose their steps.", "FRACTION"),
-    ] = None,
-    integrator: Annotated[
-        str,
-        option(
-            "; ".join(f"{name}: {summary}" for name, summary in INTEGRATORS.items())
-            + "; auto: esdirk, or generalised-alpha where the sheet has chains.",
-            "NAME",
-        ),
-    ] = INTEGRATOR,
-    every: Annotated[
-        float | None, option("Time between samples. Default: 1/100 of the lowest period.", "S", unit="s")
-    ] = None,
-    measured: Annotated[
-        Path | None, option("Measured histories, CSV: time,probe,ux,uy,uz in s and m.", "FILE")
-    ] = None,
-    animate: Annotated[bool, option("Also draw an animation (with --out).")] = False,
-    export: Export = None,
-    large: Large = False,
+    step: Seconds = None,
+    error: float | None = None,
+    integrator: str = INTEGRATOR,
+    every: Seconds = None,
+    measured: Path | None = None,
+    animate: bool = False,
+    export: str | None = None,
+    large: bool = False,
     output: PictureOptions,
 ) -> Any:
     """Move the lattice from rest; with --out it streams and resumes.
 
     Gravity and loads are on at t = 0. With --out the same command resumes a run.
+
+    Args:
+        duration (S): How long to simulate.
+        step (S): Largest time step. Default: from the stability limit or the error.
+        error (FRACTION): Error of a step, of the displacement, for integrators that choose their steps.
+        integrator (NAME): {SUMMARIES}; auto: esdirk, or generalised-alpha where the sheet has chains.
+        every (S): Time between samples. Default: 1/100 of the lowest period.
+        measured (FILE): Measured histories, CSV: time,probe,ux,uy,uz in s and m.
+        animate: Also draw an animation (with --out).
     """
     from comparisons.comparison.measured import read_measured, require_within
     from comparisons.comparison.simulation import Simulation

@@ -4,28 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from comparisons.cli.options import ClusterOptions, Large, LatticeOptions, Scene, option
+from comparisons.cli.options import ClusterOptions, Count, Kind, LatticeOptions
 from comparisons.cli.output import PictureOptions
-from sheetbench.choices import REFERENCE, REFERENCES, VARIED, listed
+from sheetbench.choices import REFERENCE, VARIED
 
 
 def command(
-    scene: Scene,
+    scene: str,
     lattice: LatticeOptions,
     *,
-    vary: Annotated[
-        list[str] | None,
-        option(
-            f"Only {listed(VARIED)}; may be repeated. Default: all.",
-            "NAME",
-            choices=VARIED,
-        ),
-    ] = None,
-    reference: Annotated[
-        str, option(f"What errors are measured from: {listed(REFERENCES)}.", "MODEL")
-    ] = REFERENCE,
-    elements: Annotated[int, option("Elements of the references along the shorter side.", "N", min=1)] = 12,
-    large: Large = False,
+    vary: Annotated[list[str] | None, Kind(choices=tuple(VARIED))] = None,
+    reference: str = REFERENCE,
+    elements: Count = 12,
+    large: bool = False,
     campaign: ClusterOptions,
     output: PictureOptions,
 ) -> Any:
@@ -33,6 +24,11 @@ def command(
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
     integrators the largest stable step is measured. With --out an interrupted run is resumed.
+
+    Args:
+        vary (NAME): Only {VARIED}; may be repeated. Default: all.
+        reference (MODEL): What errors are measured from: {REFERENCES}.
+        elements (N): Elements of the references along the shorter side.
     """
     from comparisons.stability.extremes import stability
     from sheetbench.answers.figure_style import parse_figure

@@ -5,11 +5,9 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Annotated, Any
+from typing import Any
 
 import typer
-
-from comparisons.cli.options import NoPictures
 
 CONTEXT = {"ignore_unknown_options": True, "help_option_names": []}  # options are the study's, help too
 CHECKOUT = Path(__file__).parents[2]
@@ -20,18 +18,18 @@ HELP = ("-h", "--help")
 
 def command(
     context: typer.Context,
-    name: Annotated[
-        str | None, typer.Argument(metavar="NAME", help="Name of the study; without it, all are listed.")
-    ] = None,
-    options: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="ARGUMENTS", help="Arguments of the study: sheetbench study NAME --help."),
-    ] = None,
-    no_pictures: NoPictures = False,
+    name: str | None = None,
+    options: list[str] | None = None,
+    no_pictures: bool = False,
 ) -> None:
     """Run a study: reproduction, and in a checkout the laboratory's.
 
     Without NAME the studies that are installed are listed.
+
+    Args:
+        name (NAME, argument): Name of the study; without it, all are listed.
+        options (ARGUMENTS, argument): Arguments of the study: sheetbench study NAME --help.
+        no_pictures: With --out: all files but the pictures.
     """
     from comparisons.cli import console
     from sheetbench.answers.table import Column, Table

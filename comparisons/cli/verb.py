@@ -1,9 +1,9 @@
-"""A verb from its function: the signature makes the command, and the function of `import sheetbench`.
+"""A verb from its function: its signature and docstring make the command, and the function in Python.
 
 Options have the function's names and defaults, `--layer-distance` in the terminal and `layer_distance` in
-Python; a parameter of a group's type stands for the group's options. What an option does only with or without
-another is declared by `no_effect`, what alone it takes by `choices` of `option`; both are refused in one way
-for all.
+Python, and words as `comparisons.cli.options` says; a parameter of a group's type stands for the group's
+options. What an option does only with or without another is declared by `no_effect`, what alone it takes by
+the choices of its `Kind`; both are refused in one way for all.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 import reprlib
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import nullcontext, redirect_stdout
+from contextlib import ExitStack, nullcontext, redirect_stdout
 from functools import cache, wraps
 from inspect import Parameter, Signature, cleandoc, isclass, signature
 from io import StringIO
@@ -22,15 +22,11 @@ from typing import Annotated, Any, get_args, get_origin
 
 import typer
 
-from comparisons.cli import interruption
-from comparisons.cli.options import CampaignOptions, Group, LatticeGroup, option
+from comparisons.cli import interruption, options
+from comparisons.cli.options import CampaignOptions, Group, Kind, LatticeGroup, Words, words_of
 from comparisons.cli.output import OutputOptions
 
-Quiet = Annotated[
-    bool, option("No progress and no notes on standard error; results, warnings and errors stay.")
-]
-Verbose = Annotated[bool, option("All notes on the answer, not only the first three.")]
-NoPicturesAnyway = Annotated[bool, typer.Option(hidden=True)]  # of verbs that draw none, for scripts
+NAMES = {"grid": ("--lumped", "--grid"), "grids": ("--grids", "--grid", "--lumped")}  # of one option
 OURS = ("sheetbench", "comparisons", "lumped", "fem_reference")  # packages
 TERMINAL = ("json",)  # options of the terminal alone
 OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
@@ -52,17 +48,24 @@ class _Declared:
     """A command's parameters, those of its groups one by one."""
 
     def __init__(self, command: Command) -> None:
-        self.own = signature(command, eval_str=True)
+        self.command, self.own = command, signature(command, eval_str=True)
         self.groups: dict[str, type[Group]] = {
             name: one.annotation
             for name, one in self.own.parameters.items()
             if isclass(one.annotation) and issubclass(one.annotation, Group)
         }
+        described = [of for kind in self.groups.values() for of in kind.documented()]
+        self.words = words_of(command, *described, options)
         self.rules = dict(getattr(command, "no_effect", {}))
         for kind in self.groups.values():
             self.rules |= {
                 rule: f"{self.rules.get(rule, '')} {names}" for rule, names in kind.no_effect.items()
             }
+
+    @property
+    def prose(self) -> str:
+        """What the command does, without its options."""
+        return cleandoc(self.command.__doc__ or "").partition("\n\nArgs:")[0]
 
     def each(self) -> Iterable[Parameter]:
         for name, one in self.own.parameters.items():
@@ -90,7 +93,7 @@ class _Declared:
                 options = {shown(name): name in given for name in names.split()}
                 require_effect(f"{how} {shown(other)}", options)
         for one in self.each():
-            if (choices := getattr(_info(one.annotation), "choices", ())) and one.name in given:
+            if (choices := _kind(one).choices) and one.name in given:
                 value = given[one.name]
                 for each in value if isinstance(value, list | tuple) else str(value).split(","):
                     require_choice(shown(one.name), str(each).strip(), choices)
@@ -106,6 +109,19 @@ class _Declared:
             values[group] = kind(**more, **own)
         return values
 
+    def read_by_typer(self, one: Parameter, hidden: bool = False) -> Parameter:
+        """Return a parameter with what typer is to know of it."""
+        one = one.replace(kind=Parameter.KEYWORD_ONLY)
+        if one.annotation is typer.Context:
+            return one
+        words, kind, plain = self.words.get(one.name, Words()), _kind(one), _plain(one).annotation
+        settings: dict[str, Any] = {"help": words.text.replace("[", "\\["), "metavar": words.metavar}
+        if words.argument:
+            return one.replace(annotation=Annotated[plain, typer.Argument(**settings)])
+        settings |= {} if kind.unit is None else {"parser": _quantity_in(kind.unit)}
+        info = typer.Option(*_names(one), hidden=hidden, min=kind.least, **settings)
+        return one.replace(annotation=Annotated[plain, info])
+
 
 def _same(value: Any, usual: Any) -> bool:
     return type(value) is type(usual) and bool(value == usual)
@@ -119,18 +135,17 @@ def _flag(name: str) -> str:
 def as_verb(name: str, command: Command) -> Callable[..., None]:
     """Return the command as typer reads it, with the options of its groups and those of every verb.
 
-    A flag is `--name` alone, unless it says more. An Impossible scene is refused with the name of its file.
+    An Impossible scene is refused with the name of its file.
     """
     declared = _Declared(command)
-    parameters = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in declared.each()]
+    parameters = [declared.read_by_typer(one) for one in declared.each()]
     draws = any(parameter.name == "no_pictures" for parameter in parameters)
     of_campaign = any(issubclass(kind, CampaignOptions) for kind in declared.groups.values())
-    added = ({} if draws else {"no_pictures": NoPicturesAnyway}) | {"quiet": Quiet, "verbose": Verbose}
-    for flag, annotation in added.items():
-        parameters.append(Parameter(flag, Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
-    for parameter in parameters:
-        _name_option(parameter)
-    arguments = {one.name for one in parameters if _info(one.annotation, typer.models.ArgumentInfo)}
+    for flag in (*(() if draws else ("no_pictures",)), "quiet", "verbose"):
+        added = Parameter(flag, Parameter.KEYWORD_ONLY, default=False, annotation=bool)
+        # no pictures of verbs that draw none either, for scripts
+        parameters.append(declared.read_by_typer(added, hidden=flag == "no_pictures"))
+    arguments = {option for option, words in declared.words.items() if words.argument}
 
     def shown(option: str) -> str:
         return option.upper() if option in arguments else _flag(option)
@@ -142,40 +157,59 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
         declared.require(values, shown)
         plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
         grouped = declared.grouped(values, verb=name, **plain)
-        try:
+        with ExitStack() as stack:
             if quiet or verbose:
                 from comparisons.cli import console  # with rich: help must not wait for it
 
-                with console.speaking(quiet, verbose):
-                    command(**grouped)
-            else:
+                stack.enter_context(console.speaking(quiet, verbose))
+            if values.get("large"):
+                from comparisons.models.context import running
+
+                stack.enter_context(running(large=True))
+            try:
                 command(**grouped)
-        except ValueError as error:
-            from sheetbench.errors import Impossible, SceneError
+            except ValueError as error:
+                from sheetbench.errors import Impossible, SceneError
 
-            if isinstance(error, Impossible) and values.get("scene"):
-                raise SceneError(f"{values['scene']}: {error}") from None
-            raise
+                if isinstance(error, Impossible) and values.get("scene"):
+                    raise SceneError(f"{values['scene']}: {error}") from None
+                raise
 
-    paragraphs = (command.__doc__ or "").split("\n\n")  # whose lines a help page breaks itself
+    paragraphs = declared.prose.replace("[", "\\[").split("\n\n")  # whose lines a help page breaks itself
     run.__doc__ = "\n\n".join(" ".join(one.split()) for one in paragraphs)
     run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return run
 
 
-def _info(annotation: Any, kind: type = typer.models.ParameterInfo) -> Any:
-    """Return what typer knows of a parameter, None where that is nothing."""
-    return next((one for one in getattr(annotation, "__metadata__", ()) if isinstance(one, kind)), None)
+def _kind(parameter: Parameter) -> Kind:
+    """Return what an option takes beyond its type."""
+    more = getattr(parameter.annotation, "__metadata__", ())
+    return next((one for one in more if isinstance(one, Kind)), Kind())
 
 
-def _name_option(parameter: Parameter) -> None:
-    """Name a flag without a name of its own, to which typer would add `--no-name`, and an option whose
-    parameter ends in "_"."""
-    info = _info(parameter.annotation, typer.models.OptionInfo)
-    named = info is None or info.default is not ... or info.param_decls
-    if not named and (parameter.annotation.__origin__ is bool or parameter.name.endswith("_")):
-        info.param_decls = (_flag(parameter.name),)
+def _names(parameter: Parameter) -> tuple[str, ...]:
+    """Return an option's names where typer would have others: of a flag `--name` alone unless it can be on by
+    default, of a parameter that ends in "_" what is before."""
+    flag = _flag(parameter.name)
+    if "bool" in str(parameter.annotation):
+        return (flag,) if parameter.default is False else (f"{flag}/--no-{flag[2:]}",)
+    return (flag,) if parameter.name.endswith("_") else NAMES.get(parameter.name, ())
+
+
+def _quantity_in(unit: str) -> Callable[[str], float]:
+    """Return a parser of an option's text, a number in an SI unit or a quantity with a unit of its own."""
+
+    def parse(text: str) -> float:
+        from sheetbench.errors import BadInput  # with numpy and pydantic: help must not wait for them
+        from sheetbench.scenes.language.units import quantity
+
+        try:
+            return quantity(str(text), unit)
+        except BadInput as error:
+            raise typer.BadParameter(str(error)) from None
+
+    return parse
 
 
 @cache
@@ -237,7 +271,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
             raise
 
     run.__signature__ = own  # type: ignore[attr-defined]
-    run.__doc__ = "\n".join([cleandoc(command.__doc__ or ""), "", *_explained(declared)])
+    run.__doc__ = "\n".join([declared.prose, "", *_explained(declared)])
     run.__annotations__ = {one.name: one.annotation for one in own.parameters.values()}
     return run
 
@@ -258,8 +292,7 @@ def _plain(parameter: Parameter) -> Parameter:
 def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
     """Return what makes of an argument in Python what the terminal makes of an option's text."""
     kind = str(_plain(parameter).annotation)
-    info = _info(parameter.annotation)
-    unit = getattr(info, "unit", None)
+    of, unit = _kind(parameter), _kind(parameter).unit
 
     def convert(value: Any) -> Any:
         if value is None:
@@ -268,7 +301,7 @@ def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
             from sheetbench.scenes.language.units import amount
 
             return amount(parameter.name, value, unit or "")
-        if getattr(info, "listed", False) and not isinstance(value, str):
+        if of.listed and not isinstance(value, str):
             each = value if isinstance(value, list | tuple) else [value]
             return ",".join("x".join(map(str, n)) if isinstance(n, list | tuple) else str(n) for n in each)
         if kind.startswith("list["):
@@ -296,9 +329,7 @@ def _single(name: str, value: Any, numbers: bool = True) -> Any:
 
 
 def _explained(declared: _Declared) -> Iterable[str]:
-    """Return a line for every parameter with a help text."""
+    """Return a line for every parameter with words."""
     for one in declared.each():
-        info = _info(one.annotation)
-        if info is not None and info.help and one.name not in TERMINAL:
-            text = " ".join(info.help.replace("\\[", "[").split())
-            yield f"{one.name}: {re.sub(r'--([a-z][a-z-]*)', _in_python, text)}"
+        if one.name in declared.words and one.name not in TERMINAL:
+            yield f"{one.name}: {re.sub(r'--([a-z][a-z-]*)', _in_python, declared.words[one.name].text)}"

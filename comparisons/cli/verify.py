@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
-from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
 
 
 def command(
-    case: Annotated[
-        list[str] | None, option("Only this case; may be repeated. Default: all.", "NAME")
-    ] = None,
+    case: list[str] | None = None,
     *,
     output: PictureOptions,
 ) -> Any:
@@ -19,6 +16,9 @@ def command(
 
     One row each: exit status 3 unless all pass. The sweeps locking-plate, locking-shell and locking-solid
     have a picture (with --out), strain-laws a table of what the laws change.
+
+    Args:
+        case (NAME): Only this case; may be repeated. Default: all.
     """
     from fem_reference.verification import run
     from fem_reference.verification.answer import Verification

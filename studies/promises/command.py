@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Annotated
 
 from comparisons.cli import console
-from comparisons.cli.options import CampaignOptions, option
+from comparisons.cli.options import CampaignOptions, Count, Kind
 from comparisons.cli.output import OutputOptions
-from sheetbench.choices import REFERENCES, listed
+from sheetbench.choices import REFERENCES
 from studies.promises import study
 from studies.promises.answer import Promise, Promises
 from studies.promises.expected import expected_errors, solve_again
@@ -16,21 +16,11 @@ PARTS = ("bars", "expected", "advice")
 
 
 def command(
-    part: Annotated[
-        list[str] | None,
-        option(f"Only {listed(PARTS)}; may be repeated. All unless given.", "NAME", choices=PARTS),
-    ] = None,
-    scenes: Annotated[
-        int, option("Scenes drawn, for bars half a minute of one processor each.", "N", min=1)
-    ] = study.SCENES,
-    seed: Annotated[int, option("Seed of the scenes.", "N", min=0)] = study.SEED,
-    model: Annotated[
-        list[str] | None,
-        option(f"Bars of {listed(REFERENCES)}; may be repeated.", "NAME", choices=REFERENCES),
-    ] = None,
-    anew: Annotated[
-        bool, option("Solve the stored scenes of expected errors again.", None, "--anew")
-    ] = False,
+    part: Annotated[list[str] | None, Kind(choices=PARTS)] = None,
+    scenes: Count = study.SCENES,
+    seed: Annotated[int, Kind(least=0)] = study.SEED,
+    model: Annotated[list[str] | None, Kind(choices=tuple(REFERENCES))] = None,
+    anew: bool = False,
     *,
     campaign: CampaignOptions,
     output: OutputOptions,
@@ -38,6 +28,13 @@ def command(
     """Measure how often promised errors hold: the references' bars, expected errors, advice's tolerance.
 
     Exit status 3 unless as many hold as required. With --out an interrupted study is resumed.
+
+    Args:
+        part (NAME): Only {PARTS}; may be repeated. All unless given.
+        scenes (N): Scenes drawn, for bars half a minute of one processor each.
+        seed (N): Seed of the scenes.
+        model (NAME): Bars of {REFERENCES}; may be repeated.
+        anew: Solve the stored scenes of expected errors again.
     """
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()
     with output.open() as out:

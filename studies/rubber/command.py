@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
-from comparisons.cli.options import option
 from comparisons.cli.output import PictureOptions
 from studies.rubber.answer import measure
 
 
 def command(
-    data: Annotated[Path, option("Where silicone-tensile/, treloar/ and silicone-beam/ are.", "DIR")] = Path(
-        "../shared/data"
-    ),
-    block: Annotated[bool, option("Also the block of silicone-beam/ (C3D; half an hour).", None)] = False,
+    data: Path = Path("../shared/data"),
+    block: bool = False,
     *,
     output: PictureOptions,
 ) -> None:
     """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them.
 
     With --block also let a block of silicone go, with one damper and with branches.
+
+    Args:
+        data (DIR): Where silicone-tensile/, treloar/ and silicone-beam/ are.
+        block: Also the block of silicone-beam/ (C3D; half an hour).
     """
     with output.open() as out:
         out.show(measure(data, block, out.progress))

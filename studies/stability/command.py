@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.options import ClusterOptions, option
+from comparisons.cli.options import ClusterOptions, Kind
 from comparisons.cli.output import PictureOptions
 from sheetbench.answers.figure_style import parse_figure
-from sheetbench.choices import listed
 from sheetbench.errors import BadInput
 from studies.stability.study import PARTS, maps
 
 
 def command(
-    part: Annotated[
-        list[str] | None,
-        option(f"Only {listed(PARTS)}; may be repeated.", "NAME", choices=PARTS),
-    ] = None,
+    part: Annotated[list[str] | None, Kind(choices=tuple(PARTS))] = None,
     *,
     campaign: ClusterOptions,
     output: PictureOptions,
@@ -25,6 +21,9 @@ def command(
 
     Neighbouring masses, units of stiffness and families of springs are varied too. With --out an interrupted
     run is resumed.
+
+    Args:
+        part (NAME): Only {PARTS}; may be repeated.
     """
     if any(style.narrow for style in parse_figure(output.figure)):
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")

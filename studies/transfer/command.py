@@ -6,10 +6,10 @@ from collections.abc import Collection, Sequence
 from typing import Annotated
 
 from comparisons.cli import console
-from comparisons.cli.options import CampaignOptions, Grading, Large, option
+from comparisons.cli.options import CampaignOptions, Count, Kind
 from comparisons.cli.output import OutputOptions
 from comparisons.models.spec import items
-from sheetbench.choices import AUTO, CALIBRATIONS, listed
+from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
 from studies.transfer.scenes import transfer_scenes
 from studies.transfer.study import METHODS, PARTS, transfer
@@ -17,26 +17,14 @@ from studies.transfer.training import write_table
 
 
 def command(
-    methods: Annotated[str | None, option("Calibrations, with commas; all unless given.", "NAMES")] = None,
-    grids: Annotated[
-        str,
-        option(
-            "Masses along the shorter side, 4 n + 1, coarsest first.",
-            "N,N,…",
-            "--grids",
-            "--grid",
-            "--lumped",
-        ),
-    ] = "9,17,33",
-    grading: Grading = None,
-    scenes: Annotated[str | None, option("Scenes of the study; all unless given.", "NAMES")] = None,
-    part: Annotated[
-        list[str] | None,
-        option(f"Only {listed(PARTS)}; may be repeated. All unless given.", "NAME", choices=PARTS),
-    ] = None,
-    elements: Annotated[int, option("Elements of the shell along a side.", "N", min=1)] = 24,
-    train: Annotated[bool, option("Only train the calibration central, and write its table.", None)] = False,
-    large: Large = False,
+    methods: str | None = None,
+    grids: str = "9,17,33",
+    grading: str | None = None,
+    scenes: str | None = None,
+    part: Annotated[list[str] | None, Kind(choices=tuple(PARTS))] = None,
+    elements: Count = 24,
+    train: bool = False,
+    large: bool = False,
     *,
     campaign: CampaignOptions,
     output: OutputOptions,
@@ -44,6 +32,14 @@ def command(
     """Measure every calibration on many scenes, statics and frequencies, as the grid is refined.
 
     On drawn sheets lattices stand beside the shell with its bar. With --out an interrupted study is resumed.
+
+    Args:
+        methods (NAMES): Calibrations, with commas; all unless given.
+        grids (N,N,…): Masses along the shorter side, 4 n + 1, coarsest first.
+        scenes (NAMES): Scenes of the study; all unless given.
+        part (NAME): Only {PARTS}; may be repeated. All unless given.
+        elements (N): Elements of the shell along a side.
+        train: Only train the calibration central, and write its table.
     """
     calibrations = _known("--methods", items(methods), (*CALIBRATIONS, AUTO))
     names = _known("--scenes", items(scenes), transfer_scenes())

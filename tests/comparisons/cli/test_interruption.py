@@ -49,6 +49,7 @@ main()
 """
 
 
+@pytest.mark.nightly
 def test_a_second_interrupt_shows_no_traceback(tmp_path, monkeypatch):
     """It met what was being cleared up, and the end of the interpreter."""
     monkeypatch.chdir(tmp_path)

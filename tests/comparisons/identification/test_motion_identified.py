@@ -33,19 +33,19 @@ def lattice_run(scene, end):
     return lumped.simulate(scene, lumped.calibrate(scene.sheet, scene.material, (3, 3)), end, error=1e-8)
 
 
-@pytest.mark.parametrize("seeds", [range(1), pytest.param(range(20), marks=pytest.mark.nightly)])
-def test_young_and_loss_factor_from_a_decay_with_noise(seeds):
-    """95 % intervals hold in at least 18 of 20 seeds, and in the first."""
+@pytest.mark.nightly
+def test_young_and_loss_factor_from_a_decay_with_noise():
+    """95 % intervals hold in at least 18 of 20 seeds."""
     held = {"young": 0, "loss_factor": 0}
     run = lattice_run(TRUTH, 0.8)
-    for seed in seeds:
+    for seed in range(20):
         found = identify(GUESS, decay(run, 0.8, 0.02, seed), list(held), Lattice((3, 3)))
         assert found.explained and not found.warnings
         for name, true in (("young", 54.5e6), ("loss_factor", 0.12)):
             low, high = found.unknowns[name].interval
             assert high - low < 0.15 * true
             held[name] += low <= true <= high
-    assert min(held.values()) >= 0.9 * len(seeds), held
+    assert min(held.values()) >= 18, held
 
 
 @pytest.mark.nightly

@@ -84,6 +84,7 @@ def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
     assert [row["status"] for row in implicit] == ["converged"] * 2
 
 
+@pytest.mark.nightly
 def test_steps_beyond_the_limit_are_refused_and_coarse_ones_err(store, monkeypatch):
     monkeypatch.setattr(extremes, "DIVISIONS", (60, 15))
     found = varied(store, "time-step", scene=SETTLING, grid=3)

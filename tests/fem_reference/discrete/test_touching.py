@@ -109,6 +109,7 @@ def test_the_plate_refuses_obstacles():
         fem_reference.solve(laid_strip(0.1), "plate")
 
 
+@pytest.mark.nightly
 def test_energy_of_a_shell_that_falls():
     scene = laid_strip(0.05).replace(length_x=0.2, thickness=0.002, young=5e6)
     scene = scene.replace(obstacles=(Plane(position=(0.0, 0.0, -0.011)),))

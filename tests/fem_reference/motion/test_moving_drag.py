@@ -38,7 +38,7 @@ def lattice():
     return lumped.simulate(SWING, springs(SWING, 9), 0.2, every=0.01)
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep
 @pytest.mark.parametrize(("model", "elements"), [("plate", 3), ("solid", 2), ("shell", 3)])
 def test_a_swing_in_air_is_that_of_the_lattice(lattice, model, elements):
     """Within 1 %, nearly linear, in dense air that takes a third of the weight's work in half a swing."""

@@ -47,6 +47,7 @@ def test_a_chain_that_spins_about_the_edge_has_its_rotary_inertia():
     assert energies[0] - energies[1] == pytest.approx(0.5 * mass * square * omega**2, rel=1e-9)
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["plate", "shell"])
 def test_a_driven_edge_comes_to_rest_where_statics_have_it(model):
     scene = driven(curvature=RAMP, damping_time=0.02).replace(damping_rate=25.0)

@@ -102,7 +102,7 @@ def test_friction_slows_a_slide():
     assert history.energies["dissipated"][-1] > 0.0
 
 
-@pytest.mark.sweep(2)
+@pytest.mark.sweep
 @pytest.mark.parametrize("integrator", ["auto", "midpoint", "esdirk"])
 def test_a_press_does_its_work(integrator):
     """A hanging strip that a plane lifts gains what the plane gives."""

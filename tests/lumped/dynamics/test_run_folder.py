@@ -25,7 +25,7 @@ RUNS = [(name, [], [PULSE]) for name in ("generalised-alpha", "esdirk", "verlet"
 RUNS += [("midpoint", [CHAIN], []), ("midpoint", [CHAIN], [PULSE])]
 
 
-@pytest.mark.sweep(5)
+@pytest.mark.sweep(7)
 @pytest.mark.parametrize("branches", [(), (Relaxation(0.3, 0.02),)])
 @pytest.mark.parametrize(("name", "actuators", "loads"), RUNS)
 def test_a_killed_run_resumes_to_the_last_digit(tmp_path, name, actuators, loads, branches):

@@ -10,7 +10,6 @@ from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 import fem_reference
 import lumped
 from fem_reference.shell.statics import discretise
-from fem_reference.surface.actuator_forces import by_segment
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
 from sheetbench import scenes
@@ -134,32 +133,11 @@ def test_modes_are_those_of_the_sheet_alone(model):
     np.testing.assert_allclose(with_rod.frequencies, without.frequencies, rtol=1e-12)
 
 
-def test_segments_share_the_force_and_the_moment_about_their_middles():
-    """On a straight edge, where products with the position are integrated exactly."""
-    sheet = discretise(rectangle(STRIP, (1, 4), graded=False), alone(segments=5))
-    (only,) = sheet.rods.bound.rods
-    position = np.column_stack([sheet.plan.nodes[only.line], np.zeros(len(only.line))])
-    nodal = np.random.default_rng(0).standard_normal((len(position), 6))
-    found = by_segment(only, nodal, position, np.tile([0.0, 0.0, 1.0], (len(position), 1)))
-    middles = np.column_stack([np.zeros(5), 0.1 + 0.2 * np.arange(5), np.full(5, only.offset)])
-    on_nodes = nodal[:, 3:] + np.cross(position, nodal[:, :3])
-    on_segments = found[:, 3:] + np.cross(middles, found[:, :3])
-    np.testing.assert_allclose(found[:, :3].sum(axis=0), nodal[:, :3].sum(axis=0), atol=1e-12)
-    np.testing.assert_allclose(on_segments.sum(axis=0), on_nodes.sum(axis=0), atol=1e-12)
-
-
 def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes():
     """½ EI κ₀² L at full load, a quarter at half; EI and the length are 1."""
     sheet = discretise(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
     for share, stored in ((1.0, 2.0), (0.5, 0.5)):
         assert sheet.rods.energy(np.zeros(sheet.size), share) == pytest.approx(stored, rel=1e-9)
-
-
-@pytest.mark.parametrize(("edge", "across"), [("x1", (1.0, 0.0, 0.0)), ("y1", (0.0, 1.0, 0.0))])
-def test_a_rods_own_vectors_lie_in_the_sheet_across_its_edge(edge, across):
-    own = discretise(rectangle(SHEET, 2), driven(chain(edge=edge))).rods.bound.own
-    assert len(own) == 5
-    np.testing.assert_allclose(np.abs(own), np.tile(across, (5, 1)), atol=1e-12)
 
 
 def small(scene, factor=1e-3):

@@ -105,16 +105,6 @@ def test_springs_fitted_to_frequencies_keep_their_masses():
     assert lumped.usual_masses(replace(springs, masses="gregory")) == "gregory"
 
 
-def test_frequencies_are_those_of_the_bending_stiffness_whatever_the_layers_distance():
-    """`consistent-membrane`, its layers further apart, bends as `consistent` does and so vibrates like it."""
-    scene = transfer_scenes()["opposite-edges-clamped"]
-    one, other = (
-        lumped.modes(scene, lumped.calibrate(scene.sheet, scene.material, 5, method), 5).frequencies
-        for method in ("consistent", "consistent-membrane")
-    )
-    assert other == pytest.approx(one, rel=1e-4)
-
-
 @pytest.mark.parametrize(("supports", "distribution"), [((), "gregory"), (("x0",), "tributary")])
 def test_a_free_sheet_falls_flat_and_a_held_one_weighs_what_its_cells_do(supports, distribution):
     """The weight is of the masses that move, or of those around each; at a clamp the latter are exact."""

@@ -64,15 +64,6 @@ def test_no_volumetric_locking_of_a_full_clamp():
     assert relative(coarse, fine) < 1e-2
 
 
-@pytest.mark.slow
-def test_one_layer_is_enough():
-    """A second layer of bricks moves Habibi et al.'s probes by less than 0.1 %."""
-    scene = scenes.load("two-edges-clamped")
-    points = scene.probe_points()
-    one, two = (solid.solve(scene, 16, layers=layers).displacement(points) for layers in (1, 2))
-    assert relative(one, two) < 1e-3
-
-
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("law", [law for law in STRAIN_LAWS if law != "st-venant-kirchhoff"])
 def test_other_laws_are_close_at_small_strain_and_converge_as_fast(law):
@@ -111,7 +102,7 @@ def test_full_clamp_is_stiffer():
     """It stops the Poisson contraction of the face as well: a little less deflection, the same reactions."""
     scene = scenes.load("one-edge-clamped")
     points = scene.probe_points()
-    full, like_a_shell = (solid.solve(scene, 4, clamp=clamp) for clamp in ("full", "shell-like"))
+    full, like_a_shell = (solid.solve(scene, 6, clamp=clamp) for clamp in ("full", "shell-like"))
     ratio = full.displacement(points)[2, 2] / like_a_shell.displacement(points)[2, 2]
     assert 0.98 < ratio < 1.0
     np.testing.assert_allclose(full.reactions["x0"], like_a_shell.reactions["x0"], atol=1e-7)
@@ -143,15 +134,6 @@ def test_slices_much_longer_than_wide_are_as_stable_as_the_sheet(elements, gradi
     answer, coarse = solid.solve(scene, elements, grading=grading), solid.solve(scene, (12, 1))
     assert answer.status is Status.CONVERGED
     assert relative(answer.displacement([[10.0, 0.5]]), coarse.displacement([[10.0, 0.5]])) < 3e-3
-
-
-def test_a_load_beyond_reach_keeps_the_last_equilibrium():
-    scene = scenes.load("one-edge-clamped")
-    pulled = scene.model_copy(update={"loads": (scenes.Pressure(value=-1e9),)})
-    answer = solid.solve(pulled, 2)
-    assert answer.status not in (Status.CONVERGED, Status.UNSTABLE)
-    assert answer.load_factor < 1.0 and answer.message
-    assert np.all(np.isfinite(answer.displacement(scene.probe_points())))
 
 
 def test_field_mesh_has_every_node():

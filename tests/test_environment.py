@@ -6,7 +6,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import one_line, run
 
 PROGRAM = (sys.executable, "-m", "sheetbench")
 
@@ -19,14 +18,6 @@ def test_an_output_that_cannot_be_written_is_said_in_a_line(arguments):
         done = subprocess.run([*PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
     assert done.returncode == 2
     assert done.stderr == "sheetbench: the output cannot be written: no space left on device\n"
-
-
-@pytest.mark.parametrize(
-    "arguments", [("report",), ("score", "--out"), ("check", "one-edge-clamped", "--out")], ids=str
-)
-def test_a_name_that_is_too_long_is_said_in_a_line(capsys, arguments):
-    assert run(*arguments, 300 * "a") == 2
-    assert "too long" in one_line(capsys)
 
 
 def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
@@ -45,10 +36,3 @@ def test_a_drawing_needs_no_window_whatever_matplotlib_is_told(tmp_path):
     environment = {**os.environ, "MPLBACKEND": "nope"}
     done = subprocess.run([*PROGRAM, *few], env=environment, capture_output=True, text=True)
     assert done.returncode == 0 and "nope" not in done.stderr and list(tmp_path.glob("*.png"))
-
-
-def test_a_file_without_an_end_is_refused_before_memory_ends(tmp_path, capsys):
-    assert run("check", "/dev/zero") == 2
-    assert "/dev/zero: larger than 64 MB, which no such file is" in one_line(capsys)
-    assert run("score", "/dev/zero") == 2
-    assert "/dev/zero: larger than 256 MB, which no such file is" in one_line(capsys)

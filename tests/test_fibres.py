@@ -7,9 +7,6 @@ import fem_reference
 import lumped
 import lumped.plies
 import sheetbench as sb
-from comparisons.external.answer import refusal
-from comparisons.external.calculix.model import DRAWN
-from comparisons.external.calculix.model import MODEL as CALCULIX
 from fem_reference.surface import plies
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Material, SceneError, load
@@ -200,17 +197,3 @@ def test_the_solid_has_a_brick_or_more_for_every_layer():
     uneven = [{"thickness": h, "angle": 0.1 * h} for h in (0.00095, 0.0011, 0.00095)]
     with pytest.raises(ValueError, match="layer: the solid has 12 bricks of one height at most"):
         fem_reference.solve(scene.replace(layers=uneven), "solid", elements=2)
-
-
-@pytest.mark.skipif(CALCULIX.version() is None, reason=f"needs {CALCULIX.needs}")
-def test_calculix_agrees_with_the_shell():
-    scene = with_fibres(**FIBRES, angle=np.pi / 6)
-    judged = CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 6})
-    assert judged.status is Status.CONVERGED
-    shell = fem_reference.solve(scene, "shell", elements=12).displacement(scene.probe_points())
-    assert np.abs(judged.displacement(scene.probe_points()) - shell).max() < 0.003 * np.abs(shell).max()
-
-
-def test_calculix_refuses_layers():
-    scene = with_fibres(**FIBRES).replace(layers=CROSS)
-    assert refusal(scene, "", "", drawn=DRAWN) == "layer: it is given sheets without"

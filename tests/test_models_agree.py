@@ -2,6 +2,7 @@
 sheets."""
 
 import pytest
+from cases import sheet
 
 import fem_reference
 import lumped
@@ -20,13 +21,9 @@ def test_a_stretched_rubber_bends_as_what_it_has_thinned_to():
         {"kind": "held", "edge": "y0", "components": ["y", "z"]},
         {"kind": "held", "edge": "y1", "components": ["z"]},
     ]
-    scene = scenes.Scene(
-        name="stretched",
-        sheet=scenes.Sheet(side, side, thickness),
-        material=scenes.Material(1e6, 0.49, 1000.0, law="neo-hookean"),
-        supports=supports,
-        loads=[{"kind": "pressure", "value": 0.5}],
-    )
+    rubber = scenes.Material(1e6, 0.49, 1000.0, law="neo-hookean")
+    loads = [{"kind": "pressure", "value": 0.5}]
+    scene = sheet(side, side, thickness, material=rubber, supports=supports, loads=loads)
 
     def deflection(solution):
         return 1e3 * solution.displacement([[side / 2.0, side / 2.0]])[0, 2]

@@ -1,10 +1,8 @@
-"""Narrow strips of oblique fibres, clamped at an end, under a small weight: lattice against shell.
-
-`python tests/test_oblique_strips.py` prints the table of docs/theory.md, section 4.
-"""
+"""Narrow strips of oblique fibres, clamped at an end, under a small weight: lattice against shell."""
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
 from comparisons.comparison.comparison import error
@@ -13,7 +11,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Material
 
 # E1, E2, G12 [MPa], degrees, length and width [mm] of a sheet 1 mm thick; errors in percent with 5, 9 and 17
 # masses across, against a shell of 16 elements across
@@ -34,14 +32,9 @@ MASSES = (5, 9, 17)
 def strip(young_1, young_2, shear, angle, length, width):
     x, y = 1e-3 * length, 1e-3 * width
     moduli = {"young_1": 1e6 * young_1, "young_2": 1e6 * young_2, "shear_12": 1e6 * shear, "poisson_12": 0.3}
-    return Scene(
-        name="strip",
-        sheet=Sheet(length_x=x, length_y=y, thickness=1e-3),
-        material=Material(kind="orthotropic", density=1.0, angle=float(np.radians(angle)), **moduli),
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-        support=(Clamped(edge="x0"),),
-        probes={"A": (x, 0.0), "B": (x, y / 2), "C": (x, y), "D": (x / 2, y / 2)},
-    )
+    material = Material(kind="orthotropic", density=1.0, angle=float(np.radians(angle)), **moduli)
+    probes = {"A": (x, 0.0), "B": (x, y / 2), "C": (x, y), "D": (x / 2, y / 2)}
+    return sheet(x, y, 1e-3, material=material, weight=9.81, probes=probes)
 
 
 def measured(scene, masses, elements=16):
@@ -79,16 +72,3 @@ def test_the_table_of_strips():
         assert 100 * found < 0.55
     within = [0.5 < ratio < 2.0 for ratio in ratios]
     assert len(within) >= 20 and np.mean(within) >= 0.8
-
-
-if __name__ == "__main__":
-    print(
-        "| E1, E2, G12 [MPa], fibres [°], length, width [mm] | 5 | 9 | 17 | expected |\n| --- "
-        + "|---:" * 4
-        + "|"
-    )
-    for constants in STRIPS:
-        rows = measured(strip(*constants), MASSES)
-        numbers = [f"{100 * row[1]:.2f}" for row in rows]
-        expected = ", ".join("–" if row[2] is None else f"{100 * row[2]:.2f}" for row in rows)
-        print(f"| {', '.join(map(str, constants))} | {' | '.join(numbers)} | {expected} |", flush=True)

@@ -8,15 +8,13 @@ new one needs a row.
 
 import json
 import math
-from inspect import signature
 
 import pytest
 from commands import run
+from verbs import TENSILE, in_python, values_of
 from verbs import write_inputs as write_inputs_of_verbs
 
-import sheetbench as sb
 from comparisons.cli.app import verb_group
-from sheetbench.answers.files import to_json
 from sheetbench.errors import BadInput
 from sheetbench.scenes import load
 from sheetbench.scenes.language.toml import to_toml
@@ -115,16 +113,16 @@ OF_VERB = {
 SHELL = f"{SEED} --measured measured.csv --model shell --elements 2"
 MOVING = f"{SETTLING} --lumped 3,4 --plate= --shell 2 --solid= --elements 3 --workers 1 --duration 0.002"
 CELL, STATE_SPACE = f"{ONE} --cell equilateral", f"{SETTLING} --lumped 3 --state-space 3"
-TENSILE = "--tensile tensile.csv --area 20mm2"
+PULLED = "--tensile tensile.csv --area 20mm2"
 OTHER_BASE = {  # where an option has an effect on something else alone
     ("compare", "--every"): f"{SETTLING} --lumped 3 --elements 2 --duration 0.004",
     ("calibrate", "--at"): f"{ONE} --lumped 3 --loss-factor 0.2 --at 4",
     ("identify", "--elements"): SHELL,
     ("identify", "--law"): SHELL,
     ("identify", "--offset"): f"{SEED} --measured cloud.csv --lumped 3",
-    ("identify", "--tensile"): TENSILE,
-    ("identify", "--up-to"): TENSILE,
-    ("identify", "--area"): TENSILE,
+    ("identify", "--tensile"): PULLED,
+    ("identify", "--up-to"): PULLED,
+    ("identify", "--area"): PULLED,
     ("identify", "--gauge"): "--tensile machine.csv --area 20mm2 --gauge 50mm",
     ("tradeoff", "--duration"): MOVING,
     ("tradeoff", "--integrator"): MOVING,
@@ -157,19 +155,8 @@ SAME_OF = {
     ("crosscheck", "--judges"): "programs that need not be there",
     ("score", "--case"): "said to be not answered yet",
 }
-TIMES = (
-    "seconds",
-    "front",
-    "memory",
-    "timings",
-    "settings",
-    "time_order",
-    "spread",
-    "busy",
-    "load_average",
-    "warnings",
-    "compile",
-)
+TIMES = ("seconds", "front", "memory", "timings", "settings", "time_order", "spread", "busy", "load_average")
+TIMES += ("warnings", "compile")
 OPTIONS = [
     (verb, name)
     for verb in BASE
@@ -179,17 +166,10 @@ OPTIONS = [
 ]
 
 
-def numbers(found, name=""):
-    """Every number of a document with the path to it, but those of the clock and repeated of the question."""
-    if isinstance(found, dict):
-        for key, value in found.items():
-            if not any(word in key for word in TIMES):
-                yield from numbers(value, f"{name}.{key}")
-    elif isinstance(found, list):
-        for i, value in enumerate(found):
-            yield from numbers(value, f"{name}.{i}")
-    elif type(found) in (int, float) and math.isfinite(found):
-        yield name, found
+def numbers(document):
+    """Every number by the path to it, but those of the clock and repeated of the question."""
+    found = values_of(document, TIMES)
+    return {key: one for key, one in found if type(one) in (int, float) and math.isfinite(one)}
 
 
 def write_inputs(folder):
@@ -199,8 +179,8 @@ def write_inputs(folder):
     cloud = "x,y,z\n" + "".join(
         f"{x},{y},{-0.35 * x * y * (x + y)}\n" for x in (0.06, 0.1, 0.15) for y in (0.05, 0.12, 0.17)
     )
-    rows = [(1.0 + 0.1 * n, 0.9 * (1.0 + 0.1 * n - (1.0 + 0.1 * n) ** -2)) for n in range(16)]
-    tensile = "stretch,force\n" + "".join(f"{stretch},{pull}\n" for stretch, pull in rows)
+    rows = [line.split(",") for line in TENSILE.splitlines()[1:]]
+    rows = [(float(stretch), float(pull)) for stretch, pull in rows]
     machine = "extension,force\n" + "".join(f"{0.05 * (stretch - 1.0)},{pull}\n" for stretch, pull in rows)
     softer = "stretch,force\n" + "".join(f"{stretch},{0.8 * pull}\n" for stretch, pull in rows)
     at = [0.1 * 2**n for n in range(10)]
@@ -208,25 +188,9 @@ def write_inputs(folder):
     motion = "time,probe,ux,uy,uz\n0.002,P4,,,-1e-5\n0.01,P4,,,-0.001\n"
     on_edge = load(ONE).replace(gravity={"acceleration": (0.0, -9.81, 0.0)})
     (folder / "edge.toml").write_text(to_toml(on_edge), encoding="utf-8")
-    texts = {
-        "other": displaced,
-        "cloud": cloud,
-        "tensile": tensile,
-        "tensile-softer": softer,
-        "machine": machine,
-    }
+    texts = {"other": displaced, "cloud": cloud, "tensile-softer": softer, "machine": machine}
     for name, text in {**texts, "prony": prony, "motion": motion}.items():
         (folder / f"{name}.csv").write_text(text, encoding="utf-8")
-
-
-def in_python(verb, arguments):
-    """The document of the verb's function, of the words as the terminal reads them."""
-    function, command = getattr(sb, verb), verb_group((verb,)).commands[verb]
-    parameters = command.make_context(verb, list(arguments)).params
-    known = signature(function).parameters
-    return json.loads(
-        to_json(function(**{k: v for k, v in parameters.items() if k in known and v != ()}).document())
-    )
 
 
 @pytest.fixture(scope="module")
@@ -253,9 +217,9 @@ def answered(tmp_path, monkeypatch, capsys, undrawn, few):
             with pytest.raises(BadInput):
                 in_python(verb, arguments)
             return said.err
-        found = dict(numbers(json.loads(said.out)))
+        found = numbers(json.loads(said.out))
         if status == 0 and not {"--tolerance", "--budget"} & {*arguments}:  # which go by times
-            assert dict(numbers(in_python(verb, arguments))) == found
+            assert numbers(in_python(verb, arguments)) == found
         return found
 
     return answered

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 from scipy.optimize import brentq
 from sheetbench_felupe import MODEL as FELUPE
 from sheetbench_mujoco import MODEL as MUJOCO
@@ -15,7 +16,7 @@ from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.problem import Triangles, problem
 from sheetbench.answers.balance import dead_force
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad, Scene, Sheet
+from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad
 from sheetbench.scenes.meaning.parameters import parameter, put
 
 LENGTH, WIDTH, THICK, YOUNG, DENSITY, TIP = 0.2, 0.02, 0.003, 2e6, 1100.0, 5e-3
@@ -26,17 +27,8 @@ PART = {"rectangle": {"x": (0.15, 0.2), "y": (0.0, WIDTH)}}
 
 
 def strip(*masses, young=YOUNG, **more):
-    return Scene(
-        name="strip",
-        sheet=Sheet(LENGTH, WIDTH, THICK),
-        material=Material(young, 0.0, DENSITY),
-        **{
-            "gravity": Gravity((0.0, 0.0, -9.81)),
-            "supports": [{"edge": "x0", "kind": "clamped"}],
-            "masses": masses,
-            **more,
-        },
-    )
+    given = {"material": Material(young, 0.0, DENSITY), "masses": masses, "weight": 9.81} | more
+    return sheet(LENGTH, WIDTH, THICK, **given)
 
 
 def springs(scene, grid=(21, 3)):

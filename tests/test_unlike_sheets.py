@@ -30,14 +30,6 @@ def folder(tmp_path, monkeypatch):
         scene.save(f"{name}.toml")
 
 
-@pytest.mark.parametrize(
-    ("verb", "options"),
-    [("compare", [*SMALL, "--duration", "0.01"]), ("calibrate", ["--grid", "5", "--toml"])],
-)
-def test_verbs_that_know_fibres(verb, options, capsys):
-    assert run(verb, "fabric.toml", *options) == 0, capsys.readouterr().err
-
-
 def test_files_say_what_each_cell_is_made_of():
     assert run("compare", "drawn.toml", *SMALL, "--out", "out") == 0
     for model in ("lumped", "shell"):

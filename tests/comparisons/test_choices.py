@@ -1,7 +1,5 @@
 """What the command line offers is what there is: the names, options and defaults of the tables themselves."""
 
-import subprocess
-import sys
 from inspect import signature
 from typing import get_args
 
@@ -59,24 +57,3 @@ def test_the_published_study_keeps_its_methods_in_their_order():
 def test_help_names_every_choice(verb, option, names):
     (said,) = [p for p in verb_group().commands[verb].params if p.name == option]
     assert all(name in said.help for name in names)
-
-
-def test_the_names_are_known_without_what_they_stand_for():
-    slow = (
-        "import sys, sheetbench.choices; print(*{'numpy', 'numba', 'pydantic', 'lumped'} & set(sys.modules))"
-    )
-    found = subprocess.run([sys.executable, "-c", slow], capture_output=True, text=True, check=True)
-    assert found.stdout.split() == []
-
-
-def test_a_switch_is_off_unless_given():
-    commands = verb_group().commands.items()
-    switches = {
-        (verb, p.name): p.default for verb, command in commands for p in command.params if is_switch(p)
-    }
-    assert len(switches) > 50 and not [name for name, on in switches.items() if on]
-
-
-def is_switch(parameter):
-    """Whether an option takes no value and has no --no-… of its own."""
-    return getattr(parameter, "is_flag", False) and not parameter.secondary_opts

@@ -1,6 +1,8 @@
 """Sheets, materials and shorthands that the tests share; the first sheet is that of Habibi et al.'s
 scenes."""
 
+from typing import Any
+
 import numpy as np
 
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
@@ -24,6 +26,29 @@ POINTS = np.array([[x, y] for x in SIDE for y in SIDE])  # (64, 2) [m], of a 9 �
 OBLONG = Sheet(length_x=0.2, length_y=0.1, thickness=0.005)
 SILICONE = Material(young=2.0e7, poisson=0.3, density=1200.0)
 CLAMP = Clamped(edge="x0")
+
+
+def sheet(
+    x: float,
+    y: float,
+    thickness: float,
+    young: float = 1e6,
+    poisson: float = 0.3,
+    density: float = 1000.0,
+    *,
+    held: str = "x0",
+    weight: float = 0.0,
+    **more: Any,
+) -> Scene:
+    """A sheet [m] of an isotropic material [Pa, –, kg/m³], clamped along edges, under gravity [m/s²] down.
+
+    more: keys of a scene, in place of these or besides.
+    """
+    given: dict[str, Any] = {"name": "sheet", "material": Material(young, poisson, density)}
+    given["supports"] = tuple(Clamped(edge=edge) for edge in held.split())
+    if weight:
+        given["gravity"] = Gravity(acceleration=(0.0, 0.0, -weight))
+    return Scene(sheet=Sheet(x, y, thickness), **given | more)
 
 
 def with_material(scene: Scene, **changes: float) -> Scene:

@@ -6,10 +6,12 @@ again from the answer, at any width.
 
 import io
 import json
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from functools import cached_property
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +21,9 @@ from commands import run
 from matplotlib.figure import Figure
 from rich.console import Console
 
+import sheetbench
 from comparisons.cli import characters, console
+from comparisons.cli.app import verb_group
 from comparisons.cli.output import Output, OutputOptions
 from comparisons.codes import coefficients, setup
 from comparisons.pictures import offscreen
@@ -28,6 +32,7 @@ from comparisons.sweep import executors
 from comparisons.sweep.campaign import carry_out
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN
+from sheetbench.answers.files import to_json
 
 MEASURED = "x,y,ux,uy,uz\n0.188,0.188,-0.0004,-0.0004,-0.0135\n0.094,0.094,0,0,-0.00245\n0.1,0.15,,,-0.0075\n"
 ANSWERS = "case,probe,ux,uy,uz\n" + "".join(f"thick,P{n},0,0,{-5e-4 * n}\n" for n in (1, 2, 3, 4))
@@ -67,6 +72,29 @@ def write_inputs(folder: Path) -> None:
     """Write what `identify` and `score` read."""
     for name, text in (("measured", MEASURED), ("answers", ANSWERS), ("tensile", TENSILE)):
         (folder / f"{name}.csv").write_text(text, encoding="utf-8")
+
+
+def in_python(verb: str, words: Iterable[str]) -> Any:
+    """The document of the verb's function; the words of the command line, as the terminal reads them, are its
+    arguments."""
+    function, command = getattr(sheetbench, verb), verb_group((verb,)).commands[verb]
+    parameters = command.make_context(verb, list(words)).params
+    known = signature(function).parameters
+    taken = {key: value for key, value in parameters.items() if key in known and value != ()}
+    return json.loads(to_json(function(**taken).document()))
+
+
+def values_of(found: Any, left_out: tuple[str, ...], name: str = "") -> Iterator[tuple[str, Any]]:
+    """Every number and text of a document with the path to it, but below keys with one of these words."""
+    if isinstance(found, dict):
+        for key, value in found.items():
+            if not any(word in key for word in left_out):
+                yield from values_of(value, left_out, f"{name}.{key}")
+    elif isinstance(found, list):
+        for i, value in enumerate(found):
+            yield from values_of(value, left_out, f"{name}.{i}")
+    elif not (isinstance(found, float) and math.isnan(found)):
+        yield name, found
 
 
 def undraw(patch: pytest.MonkeyPatch) -> None:

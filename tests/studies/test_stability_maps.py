@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from campaigns import FEW
-from commands import json_of, one_line, run
+from commands import json_of, run
 
 import lumped
 from comparisons.models.resolve import resolve
@@ -14,33 +14,8 @@ from comparisons.models.spec import Elements, Lattice
 from comparisons.stability import extremes, limit
 from comparisons.stability.rows import LARGE
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Gravity
 from studies.stability import study
 from studies.stability.scenes import bent, pressed, sheet
-
-
-@pytest.mark.parametrize(("damping", "vertical"), [(0.0, 1.0), (0.0, 60.0), (0.3, 60.0), (1.0, 1.0)])
-def test_the_measured_explicit_limit_is_the_computed_one_and_the_default_step_safe(
-    damping, vertical, monkeypatch
-):
-    """Of stiff vertical springs and damped ones too; two thousand default steps under gravity stay sound."""
-    monkeypatch.setattr(limit, "SHARPNESS", 4e-3)
-    still = sheet(0.016, 1.0).replace(gravity=None)
-    springs = lumped.calibrate(still.sheet, still.material, grid=3)
-    springs = springs.with_constant("vertical", vertical * springs.springs.vertical)
-    flat = np.zeros((18, 3))
-    undamped = lumped.step_limit(limit.system(still, springs), flat)
-    scene = still.replace(material=still.material.replace(damping_time=2.0 * damping / undamped.frequency))
-    equations = limit.system(scene, springs)
-    computed = lumped.step_limit(equations, flat)
-    assert limit.measured_limit(equations, computed.step) == pytest.approx(computed.step, rel=0.02)
-    heavy, duration = scene.replace(gravity=Gravity((0.0, 0.0, -9.81))), 2000 * computed.advised
-    for precision in ("double", "single"):
-        found = lumped.simulate(
-            heavy, springs, duration, integrator="verlet", every=0.1 * duration, precision=precision
-        )
-        assert found.status is Status.CONVERGED and found.steps >= 2000
-        assert found.settings.get("precision", "double") == precision
 
 
 def test_uneven_masses_move_the_limit_as_computed(monkeypatch):
@@ -66,13 +41,6 @@ def off(scene, masses, elements=12):
     """How a lattice ended beside the shell, and its error."""
     ours, shell = solve(resolve(scene, Lattice(masses))), solve(resolve(scene, Elements("shell", elements)))
     return ours, shell, study._compared(scene, ours, shell)["error"]
-
-
-@pytest.mark.parametrize("thin", [1e-4, 1e-2])
-@pytest.mark.parametrize("load", [1e-3, 10.0])
-def test_thin_sheets_converge_and_agree_at_every_load(thin, load):
-    ours, shell, error = off(sheet(thin, load), 17)
-    assert ours.status is shell.status is Status.CONVERGED and error < 0.05
 
 
 @pytest.mark.slow
@@ -134,9 +102,3 @@ def test_command_writes_maps_and_tables_and_resumes(tmp_path, capsys, monkeypatc
     before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
     assert json_of(capsys, *words) == document
     assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
-
-
-def test_an_unknown_part_is_refused_in_one_line(capsys):
-    assert run("study", "stability", "--part", "weather") == 2
-    message = one_line(capsys)
-    assert "weather" in message and "published" in message

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-import lumped
 from comparisons.calibration.calibrate import subject
-from comparisons.calibration.damping import keys, ratios
+from comparisons.calibration.damping import keys
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Branches, load
 
@@ -21,20 +20,6 @@ FOUR = (
 def test_four_ways_to_say_the_same(known):
     """δ = 2πζ/√(1 − ζ²) at ζ = 0.06."""
     assert keys(**known, at=5.0)["loss_factor"] == pytest.approx(0.12, rel=1e-6)
-
-
-def test_modes_get_the_damping_that_their_kind_of_damper_has():
-    scene = load("one-edge-clamped")
-    springs = lumped.calibrate(scene.sheet, scene.material, (4, 4))
-    omega = 2.0 * np.pi * lumped.modes(scene, springs, count=6).frequencies
-    one = ratios(subject(scene, keys(loss_factor=0.12, at=5.0)), springs)
-    assert [mode.got for mode in one][:6] == pytest.approx(0.12 / (2.0 * np.pi * 5.0) * omega / 2.0, rel=1e-6)
-    band = ratios(subject(scene, keys(loss_factor=0.12, band=(2.0, 200.0))), springs)
-    assert sum(mode.asked is not None for mode in band) > 5
-    for mode in band:
-        if mode.asked is not None:
-            assert mode.got == pytest.approx(mode.asked, rel=0.1)
-    assert band[0].frequency_hz > omega[0] / (2.0 * np.pi)  # branches stiffen
 
 
 def test_a_pole_is_that_of_the_equation_of_motion():

@@ -97,15 +97,6 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(fault, monkeypatch, caps
     assert "please report it" in request
 
 
-@pytest.mark.usefixtures("quick")
-def test_printed_table_has_units_error_time_and_status(capsys):
-    assert run("compare", "two-edges-clamped") == 0
-    printed = capsys.readouterr().out
-    for part in ("[mm]", "[ms]", "−10.100", "0.99", "converged", "factorisations", "54.5 MPa"):
-        assert part in printed
-    assert max(len(line.rstrip()) for line in printed.splitlines()) <= 80
-
-
 @pytest.mark.usefixtures("undrawn")
 def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(quick, tmp_path, capsys):
     scene = scenes.load("two-edges-clamped")

@@ -1,13 +1,11 @@
 """What is said while people wait: what is solved, how large it is, how far it has come; little in a pipe."""
 
 import io
-import re
 from concurrent.futures import Executor, Future
 from typing import Any
 
 import pytest
-from campaigns import Here, task
-from commands import run
+from campaigns import task
 from rich.console import Console
 
 import fem_reference
@@ -17,9 +15,7 @@ from comparisons.calibration.calibrate import calibrate
 from comparisons.cli import console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.lines import BETWEEN, QUIET, Lines
-from comparisons.models import solve as solvers
 from comparisons.models.context import running
-from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
 from comparisons.pictures import amounts, work
@@ -29,7 +25,6 @@ from sheetbench.answers.size import Size
 from sheetbench.answers.solution import Iteration
 
 SCENE = "two-edges-clamped"
-SMALL = ("compare", SCENE, "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
 QUICK, SLOW = Size(100, 1e6, 0.1), Size(1_234_567, 1e9, 300.0)
 
 
@@ -79,36 +74,6 @@ def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch):
     assert reports == ["working …"]
 
 
-def test_a_short_command_is_quiet_in_a_pipe(monkeypatch, capsys):
-    monkeypatch.setattr(cli_lines, "QUIET", 3600.0)  # however slow this machine is today
-    assert run(*SMALL) == 0
-    assert capsys.readouterr().err == ""
-
-
-def test_a_long_command_says_size_and_time_first(monkeypatch, capsys):
-    monkeypatch.setattr(work, "LONG", 0.0)
-    assert run(*SMALL) == 0
-    assert "solving shell, 2 × 2 elements (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()
-
-
-def test_a_large_grid_is_announced_with_its_unknowns_and_its_time(monkeypatch):
-    """`compare --grid 300` on a strip of 3 by 1: refused before the first array."""
-    sheet, material = parts()
-    strip = sb.Scene(
-        name="strip",
-        sheet=sheet.replace(length_x=3.0 * sheet.length_y),
-        material=material,
-        support=(sb.Clamped(edge="x0"),),
-    )
-    reports: list[Work] = []
-    with running(progress=reports.append, large=True), pytest.raises(ZeroDivisionError):
-        monkeypatch.setattr(solvers, "warm", lambda model: 1 / 0)
-        solvers.solve(resolve(strip, Lattice(300)))
-    said = str(reports[0])
-    assert said.startswith("solving lumped, 898 × 300 × 2 masses (1.62 million unknowns, about ")
-    assert re.fullmatch(r".*about \d+ (s|min)\) …", said)
-
-
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 def test_every_iteration_is_told_with_its_load_factor(model):
     reports: list[Iteration] = []
@@ -122,10 +87,6 @@ def test_every_iteration_is_told_with_its_load_factor(model):
 def parts():
     scene = sb.load(SCENE)
     return scene.sheet, scene.material
-
-
-def test_progress_is_no_option_of_a_model():
-    assert all("progress" not in fem_reference.options(model) for model in fem_reference.MODELS)
 
 
 def test_a_comparison_tells_what_it_solves_and_how_far_it_is():
@@ -149,10 +110,6 @@ def test_other_verbs_tell_too(tmp_path):
     sb.modes(SCENE, grid=3, elements=2, count=2, progress=reports.append)
     assert [one.doing for one in reports] == ["modes of lumped", "modes of shell"]
     reports.clear()
-    sb.tradeoff("one-edge-clamped", tolerance=0.2, progress=reports.append)
-    wanted = {"solving shell, 4 × 4 elements", "solving lumped, 3 × 3 × 2 masses"}
-    assert wanted <= {one.doing for one in reports}
-    reports.clear()
     measured = tmp_path / "measured.csv"
     measured.write_text("x,y,uz\n0.094,0.094,-0.00245\n0.188,0.188,-0.0135\n")
     sb.identify(SCENE, measured, model="shell", elements=2, progress=reports.append)
@@ -166,19 +123,6 @@ def test_a_fit_tells_what_it_is_trained_on():
     with running(progress=reports.append):
         calibrate(training_scenes(*parts())[0], spec, named=False)
     assert [one.doing.split()[0] for one in reports] == ["training", "training", "fitting"]
-
-
-def test_a_campaign_tells_which_run_goes_on(tmp_path):
-    seen: list[Progress] = []
-    runs = [task("square", x=x) for x in (1.0, 2.0)]
-    with campaign(tmp_path) as store:
-        carry_out(runs, store, pool=Here, progress=seen.append)
-    assert [(p.done, p.status, p.going) for p in seen] == [
-        (0, GOING, ("square",)),
-        (1, "done", ()),
-        (1, GOING, ("square",)),
-        (2, "done", ()),
-    ]
 
 
 class Two(Executor):
@@ -196,12 +140,14 @@ class Two(Executor):
         return future
 
 
-def test_runs_side_by_side_are_all_told(tmp_path):
+def test_a_campaign_tells_which_runs_go_on(tmp_path):
     seen: list[Progress] = []
     with campaign(tmp_path) as store:
         runs = [task("square", x=x) for x in (1.0, 2.0)]
         carry_out(runs, store, pool=Two, workers=2, progress=seen.append)
-    assert [len(p.going) for p in seen] == [1, 2, 1, 0]
+    assert [(p.done, p.status, len(p.going)) for p in seen] == [
+        *((0, GOING, 1), (0, GOING, 2), (1, "done", 1), (2, "done", 0)),
+    ]
 
 
 @pytest.mark.parametrize("terminal", [True, False])

@@ -39,18 +39,20 @@ def test_quiet_leaves_results_and_warnings(chatty, quiet, capsys):
     assert printed.err.splitlines() == [*progress, "a warning"]
 
 
-def test_a_quiet_comparison_prints_its_result_alone(monkeypatch, capsys):
-    monkeypatch.setattr(work, "LONG", 0.0)
-    assert run(*SMALL, "--quiet") == 0
-    quiet = capsys.readouterr()
-    assert quiet.err == "" and quiet.out.startswith("{")
-    assert run(*SMALL) == 0  # it is over with the command
-    assert "solving shell" in capsys.readouterr().err
-
-
 def test_quiet_is_quiet_of_what_the_packages_log(capsys):
     from comparisons.cli import messages
 
     with messages.in_lines(), console.speaking(quiet=True):
         logging.getLogger("sheetbench").info("compiling")
     assert capsys.readouterr().err == ""
+
+
+def test_a_comparison_says_in_a_pipe_what_lasts_and_nothing_where_it_is_quiet(monkeypatch, capsys):
+    monkeypatch.setattr(cli_lines, "QUIET", 3600.0)  # however slow this machine is today
+    assert run(*SMALL) == 0 and capsys.readouterr().err == ""
+    monkeypatch.setattr(work, "LONG", 0.0)
+    assert run(*SMALL, "--quiet") == 0
+    quiet = capsys.readouterr()
+    assert quiet.err == "" and quiet.out.startswith("{")
+    assert run(*SMALL) == 0  # it is over with the command
+    assert "solving shell, 2 × 2 elements (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()

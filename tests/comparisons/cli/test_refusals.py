@@ -103,6 +103,9 @@ ROWS = {
     "study reproduction --part dynamics": "errors, tables, settling, nearest",
     f"{SIMULATE} --integrator verlet --step 0.1": "stability limit of verlet",
     f"{SIMULATE} --integrator rk4": "choose from",
+    f"{SIMULATE} --error 5": "error = 5: of a step|lies between 0 and 0.1",
+    f"{SIMULATE} --error -1": "error = -1: of a step|lies between 0 and 0.1",
+    f"compare {ONE} --duration 0.1 --error 0.1": "error",
     f"{SIMULATE} --duration -1": "duration = -1 s",
     f"{SIMULATE} --measured nowhere.csv": "nowhere.csv",
     f"{SIMULATE} --animate": "--animate: no effect without --out",
@@ -146,6 +149,28 @@ ROWS = {
     f"{IDENTIFY} --model shell --lumped 5": "grid: no effect with the model shell",
     f"{IDENTIFY} --model shell --k 5": "k: no effect with the model shell",
     f"{IDENTIFY} --elements 16": "elements: no effect with the model lumped",
+    "study transfer --methods magic": "magic|consistent",
+    "study transfer --scenes moon": "moon|two-edges-clamped",
+    "study transfer --part all": "all|static",
+    "study transfer --grids 9,18": "9,18|4 n + 1",
+    "study transfer --grids nine": "nine|4 n + 1",
+    "study transfer --grading=2": "2",
+    "study transfer --out ''": "--out = ''",
+    "study stability --part weather": "weather|published",
+    f"crosscheck {ONE} {TWO} --duration 0.1": "--duration: one scene, a lattice, and a shell",
+    f"crosscheck {ONE} --shell '' --duration 0.1": "--duration: one scene, a lattice, and a shell",
+    f"stability {ONE} --reference cuboid": "cuboid|shell",
+    f"stability {ONE} --figure pdf:single --out a": "both columns",
+    f"modes {ONE} --figure jpg --out a": "--figure",
+    f"modes {ONE} --figure svg --no-pictures --out a": "--no-pictures",
+    f"calibrate {TWO} --cell bricks --hinge angle": "hinge: no effect on bricks, which have no hinges",
+    f"report {300 * 'a'}": "too long",
+    f"score --out {300 * 'a'}": "too long",
+    f"check {ONE} --out {300 * 'a'}": "too long",
+    "check /dev/zero": "/dev/zero: larger than 64 MB, which no such file is",
+    "score /dev/zero": "/dev/zero: larger than 256 MB, which no such file is",
+    "report none": "there is no such folder",
+    "report .": "no verb has written here",
     "weigh": "No such command 'weigh'; see sheetbench --help",
     "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "no scheduler there",
 }
@@ -167,7 +192,7 @@ for verb, command in SHORT.items():
 
 
 @pytest.mark.smoke
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.replace(HUGE, "99…"))
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.replace(HUGE, "99…")[:80])
 def test_it_is_refused_in_a_line(row, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.094,0.094,,,-0.0024\n0.188,0.188,,,-0.0134\n")

@@ -6,10 +6,8 @@ What every verb shows there: test_every_verb.py.
 import io
 
 import pytest
-from rich.console import Console
 
-from comparisons.cli import characters, console
-from comparisons.sweep.campaign import Progress
+from comparisons.cli import characters
 
 
 @pytest.mark.parametrize(
@@ -28,13 +26,3 @@ def test_what_an_encoding_lacks_is_spelled(encoding, text, printed):
     stream.write(text)
     stream.flush()
     assert stream.buffer.getvalue().decode(encoding) == printed == characters.spelled(text, encoding)
-
-
-@pytest.mark.parametrize("width", [50, 80, 160])
-def test_a_campaign_says_how_far_it_is(monkeypatch, width):
-    screen = io.StringIO()
-    monkeypatch.setattr(console, "err", Console(file=screen, force_terminal=True, width=width))
-    with console.progress() as progress:
-        progress(Progress(1, 3, "shell [2]", "converged", None))
-        progress(Progress(3, 3, "shell [4]", "converged", 0.0))
-    assert "3/3" in screen.getvalue() and "shell [4]" in screen.getvalue()

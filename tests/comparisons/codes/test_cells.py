@@ -207,25 +207,6 @@ def test_no_scene_that_nobody_named_heads_an_answer(capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert said.startswith("sheet for MuJoCo") and "No SCENE was named" in said
     assert "one-edge-clamped" not in said and "in this scene" not in said
-    assert run("calibrate", *sheet, "--cell", "bricks") == 2
-    assert "--cell: needs a SCENE" in one_line(capsys)
-
-
-@pytest.mark.parametrize(
-    ("option", "why"),
-    [
-        ("bricks --hinge angle", "hinge: no effect on bricks, which have no hinges"),
-        ("FILE --spacing 1mm", "spacing: no effect on"),
-    ],
-)
-def test_options_without_effect_on_a_cell_are_refused(tmp_path, capsys, option, why):
-    file = tmp_path / "cell.toml"
-    file.write_text("periods = [[1, 0], [0, 1]]\nnodes = [[0, 0]]\nsprings = [[[0, 0, 0], [0, 1, 0], 'k']]")
-    cell, *others = option.replace("FILE", str(file)).split()
-    assert run("calibrate", SCENE.name, "--cell", cell, *others) == 2
-    assert why in one_line(capsys)
-    with pytest.raises(BadInput, match="no effect on a Cell"):
-        sb.calibrate(SCENE, cell=sb.cell("equilateral", 0.01), hinge="angle")
 
 
 @pytest.mark.parametrize(
@@ -251,6 +232,8 @@ def test_a_mesh_that_is_not_there_and_a_foreign_coefficient_are_refused():
         sb.cell("hexagons", 0.01, 0.001)
     with pytest.raises(BadInput, match="coefficient bend"):
         sb.calibrate(SCENE, cell="equilateral", coefficient={"bend": 1.0})
+    with pytest.raises(BadInput, match="no effect on a Cell"):
+        sb.calibrate(SCENE, cell=sb.cell("equilateral", 0.01), hinge="angle")
 
 
 def test_bending_of_codes_that_are_not_run_is_that_of_their_source():

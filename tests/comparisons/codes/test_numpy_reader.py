@@ -7,13 +7,11 @@ import subprocess
 
 import numpy as np
 import pytest
-from cases import CLAMP, GRAVITY
 from exported import BLOWN, READERS, SCENES, spring_set
 
 import lumped
 from comparisons.codes.arrays import arrays
 from comparisons.codes.lattice import export
-from sheetbench.scenes import Material, Scene, Sheet
 
 NUMPY = runpy.run_path(str(READERS / "read_lattice.py"))
 AGREED = 1e-6  # of the largest displacement, as the readers themselves ask
@@ -82,16 +80,6 @@ def test_the_numpy_reader_is_a_program(folders, capsys, name, found, count):
     assert re.fullmatch(rf"(statics of \d+ masses, load in \d+ step\(s\)\n){count}", said.err)
 
 
-@pytest.mark.nightly  # six seconds
-def test_the_numpy_reader_takes_as_many_load_steps_as_a_large_rotation_needs():
-    """A strip that falls by most of its length: Newton alone ends elsewhere."""
-    scene = Scene("strip", Sheet(0.12, 0.04, 0.001), Material(1.5e6, 0.45, 1100.0), GRAVITY, (CLAMP,))
-    lattice = arrays(lumped.describe(scene, spring_set(scene, 2)))
-    u, truth = NUMPY["equilibrium"](lattice, NUMPY["differences"](lattice)), lattice["state_displacement"][-1]
-    assert np.abs(u).max() > 0.1  # of 0.12 m
-    assert np.abs(u - truth).max() < AGREED * np.abs(truth).max()
-
-
 @pytest.mark.skipif(shutil.which("octave") is None, reason="needs Octave: install the Debian package octave")
 def test_octave_finds_our_displacements(folders):
     for place in (folders[name] for name in ("graded", "mooney-rivlin", "gent")):
@@ -118,24 +106,6 @@ def test_cpp_steps_to_our_displacements(folders, tmp_path):
 def test_readers_are_short():
     for path in READERS.glob("read_lattice.*"):  # with rubber, faces, contact, a tangent in groups of masses
         assert len(path.read_text(encoding="utf-8").splitlines()) <= 235, path
-
-
-def test_the_numpy_reader_finds_all_of_a_tangent_from_few_forces():
-    scene = Scene("strip", Sheet(0.12, 0.08, 0.003), Material(1.5e6, 0.45, 1100.0), GRAVITY, (CLAMP,))
-    lattice = arrays(lumped.describe(scene, lumped.calibrate(scene.sheet, scene.material, grid=6)))
-    along, rest = NUMPY["differences"](lattice), lattice["positions"]
-    near, groups = NUMPY["neighbours"](along)
-    assert sorted(mass for group in groups for mass in group) == list(range(len(rest))) and len(
-        groups
-    ) <= 18 < len(rest)
-    gradient, h = NUMPY["gradient"], 1e-8
-    force = gradient(lattice, along, np.zeros_like(rest))[1]
-    found = NUMPY["stiffness"](lattice, along, (near, groups), np.zeros_like(rest), force, h)
-    for column in (0, 50, 3 * len(rest) - 1):
-        moved = np.zeros(rest.size)
-        moved[column] = h
-        alone = (gradient(lattice, along, moved.reshape(-1, 3))[1] - force).ravel() / h
-        np.testing.assert_allclose(found[:, column], alone, atol=1e-9 * np.abs(alone).max())
 
 
 def test_the_numpy_reader_says_what_it_is_too_small_for():

@@ -2,23 +2,20 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Curved, EdgeLoad
 
-BENT = Scene(
-    name="bent", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
-    material=Material(young=1e7, poisson=0.45, density=912.0),
-    gravity=Gravity(acceleration=(0.0, 0.0, -9.81)), supports=(Curved(edge="x0", curvature=-8.0),),
+BENT = sheet(
+    *(0.15, 0.15, 0.002, 1e7, 0.45, 912.0), weight=9.81, supports=(Curved(edge="x0", curvature=-8.0),),
     probes={"P3": (0.15, 0.075)},
 )  # fmt: skip
-COLUMN = Scene(
-    name="column", sheet=Sheet(length_x=0.1, length_y=0.05, thickness=0.001),
-    material=Material(young=5e6, poisson=0.0, density=1100.0), supports=(Clamped(edge="x0"),),
-    loads=(EdgeLoad(edge="x1", force_per_length=(-0.13, 0.0, 0.0)),), probes={"tip": (0.1, 0.025)},
-)  # fmt: skip
+COLUMN = sheet(
+    *(0.1, 0.05, 0.001, 5e6, 0.0, 1100.0), loads=(EdgeLoad(edge="x1", force_per_length=(-0.13, 0.0, 0.0)),)
+)
 
 
 def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch():

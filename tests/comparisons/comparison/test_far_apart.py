@@ -1,6 +1,7 @@
 """Both at rest and more than 100 % apart: a coarse grid is no other branch of equilibria."""
 
 import pytest
+from cases import sheet
 from fake_solutions import solution
 
 from comparisons.comparison.answer import Comparison
@@ -9,15 +10,10 @@ from comparisons.comparison.far_apart import far_apart_note, reasons
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
+from sheetbench.scenes import Clamped, Pressure
 
-SCENE = Scene(
-    name="arch",
-    sheet=Sheet(length_x=0.188, length_y=0.06, thickness=0.001),
-    material=Material(young=54.5e6, poisson=0.4, density=1000.0),
-    support=tuple(Clamped(edge=edge, tilt=0.3) for edge in ("x0", "x1")),
-    load=(Pressure(value=40.0),),
-)
+TILTED = tuple(Clamped(edge=edge, tilt=0.3) for edge in ("x0", "x1"))
+SCENE = sheet(0.188, 0.06, 0.001, 54.5e6, 0.4, supports=TILTED, load=(Pressure(value=40.0),))
 LATTICE = Lattice((5, 3), "consistent")
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import meshio
 import numpy as np
 import pytest
-from commands import json_of, run
+from commands import run
 
 import sheetbench as sb
 from comparisons.comparison.measures import difference, extrema, measured_alike
@@ -17,7 +17,6 @@ from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
 from sheetbench.answers.history import ENERGIES, History
 from sheetbench.answers.solution import Status
-from sheetbench.errors import BadInput
 from sheetbench.scenes import Sphere, load
 from sheetbench.scenes.objects.supports import Motion
 
@@ -145,11 +144,13 @@ def test_the_reference_has_a_bar_by_mesh_and_by_step():
 
 def test_the_command_prints_and_writes_a_motion(tmp_path, capsys):
     command = ["compare", "two-edges-settling", "--duration", "0.02", "--elements", "2", "--lumped", "3"]
-    assert run(*command, "--no-uncertainty", "--out", str(tmp_path), "--no-pictures") == 0
+    command += ["--no-uncertainty", "--every", "0.005", "--no-pictures"]
+    assert run(*command, "--out", str(tmp_path)) == 0
     printed = capsys.readouterr().out
     assert all(word in printed for word in ("first peak", "rms", "generalised-alpha"))
     document = json.loads((tmp_path / "motion.json").read_text())
     motion = document["motion"]
+    assert motion["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])
     assert set(motion["probes"]) == {"lumped", "shell"}
     assert len(motion["probes"]["shell"]["P4"]) == len(motion["time"])
     assert {"of", "against", "largest", "rms", "peak", "period", "decay"} <= set(motion["differences"][0])
@@ -173,15 +174,6 @@ def test_its_picture_has_a_panel_a_probe():
     assert [axis.get_xlabel() for axis in compose(both).axes] == ["", "", "", "", "time [s]"]
 
 
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [({"reference": "beam"}, "beam"), ({"elements": 0}, "elements"), ({"elements": 2000}, "large")],
-)
-def test_what_cannot_be_compared_is_refused(options, said):
-    with pytest.raises(BadInput, match=said):
-        sb.compare("two-edges-settling", duration=0.1, **options)
-
-
 def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
     """A second time every run goes on from its last checkpoint, to the same answer to the last bit."""
     settling, how = load("two-edges-settling"), {"every": 2e-4, "elements": 2, "store": tmp_path}
@@ -192,32 +184,6 @@ def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
         for probe, u in history.probes.items():
             assert np.array_equal(second.histories[name].probes[probe], u)
     assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
-
-
-@pytest.mark.nightly
-def test_both_sheets_move_side_by_side(tmp_path):
-    """A GIF with both in every frame, the lattice's half and the shell's each changing over time."""
-    from PIL import Image
-
-    from comparisons.pictures import offscreen
-
-    if impossible := offscreen.why_not():
-        pytest.skip(impossible)
-    both = compare_motion(
-        "two-edges-settling", 0.05, Lattice(3), elements=2, uncertainty=False, every=0.01, frames=3
-    )
-    film = replace(both, animate=True).figures()[-1]
-    assert film.write(tmp_path) is None
-    with Image.open(tmp_path / "both.gif") as image:
-        assert image.n_frames == 3
-        pages = []
-        for number in (0, 2):
-            image.seek(number)
-            pages.append(np.asarray(image.convert("RGB"), dtype=int))
-    changed = np.abs(pages[1] - pages[0]).sum(axis=2) > 60
-    middle = changed.shape[1] // 2
-    below = slice(changed.shape[0] // 5, None)  # the title and the time
-    assert changed[below, :middle].sum() > 50 and changed[below, middle:].sum() > 50
 
 
 def test_an_obstacle_that_comes_up_is_seen_where_it_is(tmp_path):
@@ -249,9 +215,3 @@ def test_an_undamped_sheet_is_said_not_to_settle():
     swinging = sb.simulate("one-edge-clamped", 0.02, grid=3)
     assert any("does not settle" in note for note in swinging.notes())
     assert not any("settle" in note for note in sb.simulate("two-edges-settling", 0.02, grid=3).notes())
-
-
-def test_samples_lie_as_far_apart_as_requested(capsys):
-    motion = ["compare", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty"]
-    document = json_of(capsys, *motion, "--duration", "0.02", "--every", "0.005")
-    assert document["motion"]["time"] == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02])

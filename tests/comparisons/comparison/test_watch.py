@@ -6,9 +6,8 @@ import pytest
 import fem_reference
 import lumped
 from sheetbench.answers.solution import Status
-from sheetbench.errors import BadInput
 from sheetbench.runs.watch import Watch
-from sheetbench.scenes import Scene, load
+from sheetbench.scenes import Scene
 
 MODELS = ("lumped", "plate", "shell", pytest.param("solid", marks=pytest.mark.nightly))
 SOFT = {
@@ -62,13 +61,6 @@ def test_what_turns_inside_out_ends_a_run(model):
     assert history.status in (Status.INVERTED, Status.DIVERGED)
     assert "inside out" in history.message or model == "solid"
     assert history.time[-1] < 0.2
-
-
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-@pytest.mark.parametrize("error", [0.1, 5.0, -1.0])
-def test_an_error_with_which_nothing_is_left_to_see_is_refused(model, error):
-    with pytest.raises(BadInput, match=f"error = {error:g}: of a step.* lies between 0 and 0.1"):
-        moved(load("two-edges-clamped"), model, 0.01, error=error)
 
 
 def test_a_growth_is_told_from_a_hundredth_and_ends_a_run_from_a_tenth():

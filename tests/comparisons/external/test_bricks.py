@@ -2,20 +2,16 @@
 
 import numpy as np
 import pytest
-import sheetbench_felupe as felupe
-from scipy.sparse import csr_matrix
 
-from comparisons.external.bricks import Bricks, Held, forces, held, materials
+from comparisons.external.bricks import Bricks, forces, held, materials
 from comparisons.external.calculix.deck import deck
 from comparisons.external.kratos.problem import Triangles, problem
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import nodes_of
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Hinged, PointLoad, Pressure, Sheet, load
+from sheetbench.scenes import Clamped, EdgeLoad, Hinged, PointLoad, Sheet, load
 from sheetbench.scenes.meaning.composition import mass_of
 
 SEED = load("two-edges-clamped")
-BELOW = [(0, 1), (1, 2), (2, 3), (3, 0)]  # corners between which the mid-edge nodes lie
-BETWEEN = [*BELOW, *((a + 4, b + 4) for a, b in BELOW), *((a, a + 4) for a in range(4))]
 
 
 def changed(**changes):
@@ -25,15 +21,6 @@ def changed(**changes):
 @pytest.fixture(scope="module")
 def bricks():
     return Bricks.of(SEED, 4, 2, "edges")
-
-
-def test_bricks_are_upright_and_fill_the_sheet(bricks):
-    corners = bricks.positions[bricks.elements]
-    along, across, up = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
-    volume = np.einsum("mc,mc->m", np.cross(along, across), up)
-    assert np.all(volume > 0) and np.sum(volume) == pytest.approx(0.188**2 * 0.003)
-    for middle, (a, b) in zip(range(8, 20), BETWEEN, strict=True):
-        np.testing.assert_allclose(corners[:, middle], 0.5 * (corners[:, a] + corners[:, b]), atol=1e-15)
 
 
 def test_the_mid_surface_of_a_quadratic_field_is_sampled_exactly(bricks):
@@ -127,73 +114,3 @@ def test_a_deck_of_a_drawn_sheet_has_its_parts(drawn):
     inside = len(drawn.inside(DRAWN.loads[1].where))
     assert text.count(", P1, 12.0\n") == text.count(", P2, -12.0\n") == inside > 5
     assert text.count(", P1, 2.0\n") == drawn.plan.nelements - inside
-
-
-def test_a_clamp_lets_a_column_stretch_along_its_director_alone(bricks):
-    curved = changed(supports=(Curved(edge="x0", curvature=4.0),))
-    for scene in (SEED, curved, changed(supports=(Clamped(edge="x0", tilt=0.3),))):
-        rows = held(scene, bricks)
-        assert rows.fixed.shape == rows.value.shape == bricks.positions.shape
-        nodes = bricks.edge("x0")
-        middle = bricks.sites[nodes, 1] == bricks.layers
-        assert np.all(rows.fixed[nodes][:, :2]) and np.all(rows.fixed[nodes, 2] == middle)
-        np.testing.assert_allclose(
-            rows.axes @ np.swapaxes(rows.axes, 1, 2), np.tile(np.eye(3), (len(rows.axes), 1, 1)), atol=1e-12
-        )
-    # where the whole column is put by its middle and director, the held components are met
-    rows, at = held(curved, bricks), bricks.positions[bricks.edge("x0")]
-    s = at[:, 1] - 0.094
-    director = np.column_stack([0 * s, -np.sin(4 * s), np.cos(4 * s)])
-    put = np.column_stack([0 * s, np.sin(4 * s) / 4 - s, (1 - np.cos(4 * s)) / 4])
-    put = put + at[:, 2:] * (director - [0.0, 0.0, 1.0])
-    own = np.einsum("krc,kc->kr", rows.axes[bricks.edge("x0")], put)
-    np.testing.assert_allclose(own, rows.value[bricks.edge("x0")], atol=1e-15)
-
-
-def test_a_hinge_holds_the_mean_of_its_columns(bricks):
-    rows = held(changed(supports=(Hinged(edge="y1"),)), bricks)
-    assert not rows.fixed.any()
-    tied = {(tuple(bricks.positions[tie.nodes[0]]), tie.axis) for tie in rows.tied}
-    middle = bricks.positions[bricks.edge("y1")]
-    assert tied == {(tuple(at), axis) for at in middle[middle[:, 2] == 0.0] for axis in range(3)}
-    for tie in rows.tied:  # a column that turns has its middle for mean, of one that curves it is a third
-        z = bricks.positions[tie.nodes, 2] / bricks.positions[bricks.edge("y1"), 2].max()
-        assert tie.weights.sum() == pytest.approx(1.0) and tie.weights @ z == pytest.approx(0.0, abs=1e-15)
-        assert tie.weights @ z**2 == pytest.approx(1.0 / 3.0 if len(z) > 3 else 0.5)
-
-
-def test_what_is_free_for_felupe_keeps_the_means_at_a_hinge(bricks):
-    rows = held(changed(supports=(Hinged(edge="y1"),)), bricks)
-    free = felupe._free(rows)
-    motion = (free @ np.random.default_rng(2).normal(size=free.shape[1])).reshape(-1, 3)
-    means = [tie.weights @ motion[tie.nodes, tie.axis] for tie in rows.tied]
-    assert len(means) > 20 and np.abs(means).max() < 1e-13
-
-
-@pytest.mark.parametrize(("longest", "reached"), [(1.0, 1.0), (0.3, 1.0), (1 / 64, 1.0), (1 / 128, 0.0)])
-def test_load_steps_for_felupe_are_halved_down_to_a_64th(longest, reached):
-    def spring(u, load_factor):
-        """Of stiffness one; without an answer to a step that is too long."""
-        miss = u.ravel() - load_factor
-        return np.where(-miss > longest, np.nan, miss), csr_matrix(np.eye(3))
-
-    loose = Held(np.eye(3)[None], np.zeros((1, 3), dtype=bool), np.zeros((1, 3)), ())
-    path = felupe._traced(spring, loose)
-    assert path.load_factor == reached and path.displacement == pytest.approx(reached)
-
-
-def test_a_deck_has_a_line_for_all_that_is_asked(bricks):
-    scene = changed(loads=(Pressure(value=20.0), PointLoad(at=(0.188, 0.188), force=(0.0, 0.0, 1.0))))
-    text = deck(scene, bricks, linear=False)
-    assert "*STEP, NLGEOM" in text and "GRAV, 9.81, 0.0" in text and "*TRANSFORM" not in text
-    assert text.count(", P1, 10.0\n") == text.count(", P2, -10.0\n") == 16
-    assert max(map(len, text.splitlines())) < 132
-    assert "NLGEOM" not in deck(scene, bricks, linear=True)
-    assert "*TRANSFORM" in deck(load("curved-edge"), bricks, linear=False)
-
-
-def test_triangles_fill_the_sheet_and_face_up():
-    found = Triangles.of(Sheet(0.2, 0.1, 1e-3), 3)
-    a, b, c = found.positions[found.elements].swapaxes(0, 1)
-    assert np.cross(b - a, c - a) == pytest.approx(np.tile([0.0, 0.0, 0.02 / 18], (36, 1)))
-    assert found.label == "6 × 3 × 2 triangles"

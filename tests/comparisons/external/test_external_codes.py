@@ -212,50 +212,6 @@ def test_two_programs_answer_alike_on_the_same_bricks():
     assert off is not None and off < 2e-6
 
 
-def test_hinges_in_bricks_do_not_give_way_as_bricks_get_smaller():
-    """A line of nodes held in a solid would: 0.6, 1.0 and 1.3 % with 6, 8 and 12 bricks."""
-    needed(CALCULIX)
-    hinged = changed(**WORDS["pressure"])
-    points = hinged.probe_points()
-    truth = fem_reference.solve(hinged, model="shell", elements=12).displacement(points)
-    for elements in (4, 8):
-        bricks = CALCULIX.solve(hinged, {**CALCULIX.settings, "elements": elements})
-        off = error(bricks.displacement(points), truth)
-        assert off is not None and off < (0.02 if elements == 4 else 0.003)
-
-
-def test_without_nlgeom_calculix_is_the_linear_plate():
-    needed(CALCULIX)
-    points = SEED.probe_points()
-    bricks = CALCULIX.solve(SEED, {**CALCULIX.settings, "elements": 6, "linear": True}).displacement(points)
-    off = error(bricks, fem_reference.solve(SEED, model="plate", elements=16).displacement(points))
-    assert off is not None and off < 0.003
-
-
-def test_the_thin_shell_of_kratos_becomes_ours_as_the_sheet_gets_thinner():
-    """Kirchhoff's shell keeps the twist that edges let go within about h: off in proportion to h.
-
-    Weight falls as h² does and is small, so that the deflection is linear and the same; Kratos' triangles are
-    extrapolated from two meshes, error O(h²).
-    """
-    needed(KRATOS)
-    assert SEED.gravity is not None
-    off = []
-    for share in (1.0, 4.0):
-        sheet = SEED.sheet.model_copy(update={"thickness": SEED.sheet.thickness / share})
-        weight = SEED.gravity.model_copy(update={"acceleration": (0.0, 0.0, -9.81e-3 / share**2)})
-        scene = changed(sheet=sheet, gravity=weight)
-        points = scene.probe_points()
-        coarse, fine = (
-            KRATOS.solve(scene, {**KRATOS.settings, "elements": n}).displacement(points) for n in (8, 12)
-        )
-        limit = fine + (fine - coarse) / (1.5**2 - 1.0)
-        off.append(error(limit, fem_reference.solve(scene, model="shell", elements=12).displacement(points)))
-    thick, thin = off
-    assert thick is not None and thin is not None
-    assert thin < 0.004 < 0.006 < thick, off
-
-
 def pulled_rubber(rubber):
     """A clamped strip pulled by some 60 %."""
     sheet = Sheet(length_x=0.1, length_y=0.05, thickness=0.004)

@@ -2,16 +2,14 @@
 
 import json
 
-import numpy as np
 import pytest
-from commands import one_line, run
+from commands import run
 from sheetbench_felupe import MODEL as FELUPE
 
 from comparisons.comparison.motion import compare_motion
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.models.spec import Lattice
-from sheetbench.answers.solution import Status
 from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, load
 
 SWING = load("one-edge-clamped")
@@ -66,14 +64,6 @@ def test_a_model_that_refuses_is_left_out_before_anything_moves(tmp_path):
         compare_motion(SWING, 0.002, models=[model])
 
 
-@pytest.mark.parametrize(
-    "arguments", [("one-edge-clamped", "two-edges-clamped"), ("one-edge-clamped", "--shell", "")]
-)
-def test_a_crosscheck_of_motions_is_of_one_scene_and_with_a_shell(arguments, capsys):
-    assert run("crosscheck", "one-edge-clamped", *arguments, "--duration", "0.1") == 2
-    assert "--duration: one scene, a lattice, and a shell" in one_line(capsys)
-
-
 @pytest.mark.parametrize("code", [CALCULIX, KRATOS])
 def test_a_motion_that_another_code_is_not_given_says_why(code):
     grown = FactorTable(time=(0.0, 1.0), factor=(0.0, 1.0))
@@ -88,16 +78,6 @@ def test_a_motion_that_another_code_is_not_given_says_why(code):
     for why, scene in scenes.items():
         with pytest.raises(BadInput, match=f"{code.name}: .*{why}"):
             code.simulate(scene, code.settings, 0.1, every=0.01)
-
-
-def test_a_program_that_ends_in_the_midst_is_a_status(tmp_path, monkeypatch):
-    file = tmp_path / "ccx"
-    file.write_text("#!/bin/sh\ngrep -q NLGEOM *.inp && exit 201\n", encoding="utf-8")
-    file.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    history = CALCULIX.simulate(SWING, {**CALCULIX.settings, "elements": 2}, 0.1, every=0.01)
-    assert history.status is Status.DIVERGED and "exit status 201" in history.message
-    assert np.isnan(history.balance).all() and len(history.time) == 1
 
 
 def test_a_code_that_does_not_reach_the_end_is_said_and_is_three(tmp_path, monkeypatch, capsys):

@@ -1,11 +1,9 @@
 """Models from outside: the example of the docs in our tables, and what is said of faulty ones."""
 
-import json
 import sys
 import tomllib
 from pathlib import Path
 
-import numpy as np
 import pytest
 from commands import json_of, one_line, run
 
@@ -19,7 +17,7 @@ from sheetbench import face as models
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, Clamped, EdgeLoad, FactorTable, Hinged, PointLoad
+from sheetbench.scenes import Clamped, EdgeLoad
 
 DOCS = Path(__file__).parents[3] / "docs"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
@@ -49,27 +47,6 @@ def test_the_example_of_the_docs_answers_like_a_beam(installed):
     tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
     assert solution.displacement(scene.probe_points())[3, 2] == pytest.approx(tip)
     assert models.solve(scene, "strip").settings == {"plane_strain": False}
-
-
-def test_the_example_takes_a_history_and_refuses_what_it_does_not_know(installed):
-    scene = scenes.load("one-edge-clamped")
-    (clamp,), gravity = scene.supports, scene.gravity
-    assert gravity is not None
-    waning = gravity.model_copy(update={"history": FactorTable(time=(0.0, 1.0), factor=(1.0, 0.5))})
-    whole = models.solve(scene, "strip").displacement(scene.probe_points())
-    half = models.solve(scene.model_copy(update={"gravity": waning}), "strip")
-    np.testing.assert_allclose(half.displacement(scene.probe_points()), 0.5 * whole, rtol=1e-12)
-    chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
-    for update in (
-        {"loads": (PointLoad(at=(0.1, 0.1), force=(0.0, 0.0, 1.0)),)},
-        {"supports": (clamp, Hinged(edge="x1"))},
-        {"supports": (Clamped(edge="x0", tilt=0.1),)},
-        {"actuators": (chain,)},
-        {"gravity": None},
-        {"gravity": gravity.model_copy(update={"acceleration": (1.0, 0.0, -9.81)})},
-    ):
-        with pytest.raises(ValueError, match="strip: knows"):
-            models.solve(scene.model_copy(update=update), "strip")
 
 
 @pytest.mark.usefixtures("in_process")
@@ -197,25 +174,6 @@ def test_mujocos_sheet_at_rest_as_it_is(shipped):
     assert corner[17] == pytest.approx(-6.83e-3, rel=0.02)
 
 
-def test_mujocos_clamps_hinges_and_point_loads(shipped):
-    base = scenes.load("one-edge-clamped")
-    light = base.model_copy(
-        update={"gravity": None, "loads": (PointLoad(at=(0.188, 0.094), force=(0, 0, 1e-3)),)}
-    )
-    clamped = models.solve(light, "mujoco", grid=9)
-    assert np.abs(clamped.displacement(np.array([[0.0, 0.05], [0.0, 0.188]]))).max() == 0.0
-    tip = clamped.displacement(np.array([[0.188, 0.094]]))[0, 2]
-    shell = models.solve(light, "shell", elements=8).displacement(np.array([[0.188, 0.094]]))[0, 2]
-    assert 0.5 * shell < tip < 2.0 * shell
-    middle = np.array([[0.094, 0.094]])
-    sagging = []
-    for kind in (Clamped, Hinged):
-        supports = tuple(kind(edge=edge) for edge in ("x0", "x1"))
-        bridge = base.model_copy(update={"supports": supports})
-        sagging.append(models.solve(bridge, "mujoco", grid=9).displacement(middle)[0, 2])
-    assert sagging[1] < sagging[0] < 0.0
-
-
 def test_mujoco_refuses_what_it_does_not_have(shipped):
     base = scenes.load("one-edge-clamped")
     pulled = base.model_copy(update={"loads": (EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),)})
@@ -240,12 +198,3 @@ def test_mujoco_refuses_what_it_does_not_have(shipped):
 def test_settings_of_our_own_models_are_looked_at_before_solving(model, settings, said):
     with pytest.raises(BadInput, match=said):
         models.solve(scenes.load("one-edge-clamped"), model, **settings)
-
-
-def test_compare_takes_a_plug_in_from_its_file(capsys):
-    arguments = ("one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
-    assert run("compare", *arguments, "--model", f"{DOCS / 'plugin.py'}:Strip") == 0
-    document = json.loads(capsys.readouterr().out)
-    models_shown = [solution["model"] for solution in document["solutions"]]
-    assert models_shown[-1] == "strip" and {"lumped", "shell"} < set(models_shown)
-    assert {"strip"} == {d["of"] for d in document["differences"]} - {"lumped", "lumped-uniform"}

@@ -165,14 +165,6 @@ def test_a_child_that_is_left_behind_holds_nothing_up(program, tmp_path, leaves)
     assert solution.comparable
 
 
-def test_a_child_that_goes_on_to_talk_is_not_listened_to(program, tmp_path):
-    talking = f"setsid sh -c 'echo $$ > {tmp_path / 'left'}; exec yes >&2' 2>&2 &"
-    ready = f"while [ ! -s {tmp_path / 'left'} ]; do sleep 0.01; done"
-    solution = face.solve(SCENE, program("mine", talking, ready, says(ANSWER)), seconds=1e15)
-    assert solution.status is Status.CONVERGED
-    wait_for(lambda: not alive(int((tmp_path / "left").read_text())), 10.0)  # its pipe is closed
-
-
 @pytest.mark.parametrize("limits", ["seconds=1e20", "seconds=1" + 400 * "0", "memory_mb=1e999"])
 def test_limits_without_end_are_refused(program, capsys, limits):
     assert run("tradeoff", "one-edge-clamped", "--model", f"{program('mine', says(ANSWER))}:{limits}") == 2

@@ -13,7 +13,7 @@ from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
 from comparisons.models.spec import Lattice
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Air, Relaxation, load
+from sheetbench.scenes import Relaxation, load
 from sheetbench.scenes.meaning.parameters import parameter, put
 
 TRUTH = load("one-edge-clamped").replace(loss_factor=0.12, frequency=3.0)
@@ -46,17 +46,6 @@ def test_young_and_loss_factor_from_a_decay_with_noise():
             assert high - low < 0.15 * true
             held[name] += low <= true <= high
     assert min(held.values()) >= 18, held
-
-
-@pytest.mark.nightly
-def test_the_drag_of_the_air_from_a_decay():
-    truth = load("one-edge-clamped").replace(air=Air(drag=30.0))
-    measured = decay(lattice_run(truth, 0.4), 0.4, 0.01, 0, 40)
-    found = identify(truth.replace(air=Air(drag=10.0)), measured, "drag", Lattice((3, 3)))
-    low, high = found.unknowns["drag"].interval
-    assert low <= 30.0 <= high and high - low < 0.1 * 30.0
-    with pytest.raises(BadInput, match="'drag': the scene has no"):
-        identify(truth.replace(air=None), measured, "drag")
 
 
 def test_a_reference_follows_a_measured_motion():

@@ -61,17 +61,6 @@ def test_dragging_moves_the_lattice_and_the_shell_follows(page):
     assert watch.troubles == []
 
 
-def test_another_grid_is_another_lattice(page):
-    page, watch = page
-    page.locator("#slider-grid").focus()
-    for _ in range(2):
-        page.keyboard.press("ArrowRight")
-    until(page, ANSWERED)
-    assert len(page.evaluate(PLACES)) == 3 * 5 * 5 * 2
-    assert page.evaluate("live.viewer.sheets.get('lattice').fields.at(-1).values.some((value) => value > 0)")
-    assert watch.troubles == []
-
-
 def test_what_is_beyond_the_bounds_is_refused_in_a_line(page):
     page, _ = page
     box = page.locator(".slider:has(#slider-poisson) input[type=text]")
@@ -134,16 +123,6 @@ def test_springs_and_scene_are_copied(page):
         until(page, f"document.getElementById('copied').textContent.startsWith('Copied: the {of}')")
         assert page.evaluate("navigator.clipboard.readText()").startswith(begins)
     assert watch.troubles == []
-
-
-def test_grading_is_for_springs_cell_by_cell(page):
-    page, _ = page
-    page.select_option("#calibration", "uniform")
-    until(page, ANSWERED)
-    assert page.is_disabled("#slider-grading") and cell(page, "Status", "lattice") == "converged"
-    page.click("#reset")
-    until(page, ANSWERED)
-    assert page.input_value("#calibration") == "consistent" and page.is_enabled("#slider-grading")
 
 
 def test_it_asks_nobody_else(page, address):

@@ -121,22 +121,11 @@ def test_a_scene_file_brings_its_grading(text, tmp_path, capsys):
         assert f"springs.grading = {text}" in one_line(capsys)
 
 
-def test_of_many_lattices_those_are_graded_whose_calibration_takes_it(monkeypatch, capsys):
+def test_of_many_lattices_those_are_graded_whose_calibration_takes_it():
     """The others keep cells of one size: in trade-offs."""
-    seen = []
-
-    def recorded(*_, **settings):
-        seen.append(settings)
-        raise BadInput("enough")
-
-    monkeypatch.setattr("comparisons.tradeoff.statics.tradeoff", recorded)
-    monkeypatch.setattr("comparisons.tradeoff.motion.dynamic_tradeoff", recorded)
-    grids = ("--lumped", "3", "--calibration", "consistent,uniform", "--grading", "auto")
-    assert run("tradeoff", "curved-edge", *grids) == 2
-    assert run("tradeoff", "curved-edge", "--duration", "0.1", "--grading", "0.3") == 2
-    lattices = [candidate for candidate in seen[0]["candidates"] if candidate.model == "lumped"]
-    assert [candidate.settings.get("grading") for candidate in lattices] == [0.3, None]
-    assert seen[1]["lattices"][0].grading == "0.3" and "bent by 4 1/m" in seen[0]["reasons"][0]
+    lattices = [Lattice((3, 3, 2), calibration) for calibration in ("consistent", "uniform")]
+    shown, reasons = resolve_each(load("curved-edge"), lattices, "auto")
+    assert [one.settings.get("grading") for one in shown] == [0.3, None] and "bent by 4 1/m" in reasons[0]
     shown, reasons = resolve_each(load("curved-edge"), lattices[1:], "auto")
     assert shown == lattices[1:] and reasons == ()
     with pytest.raises(BadInput, match="none of these calibrations"):

@@ -8,7 +8,7 @@ from cases import GRAVITY, RUBBER, SHEET
 from commands import json_of, one_line, run
 
 import lumped
-from comparisons.models.grids import parse_grid, scene_grid
+from comparisons.models.grids import parse_grid
 from fem_reference.surface.mesh import divisions
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable, load
@@ -46,15 +46,6 @@ def test_grids_are_read_as_people_write_them():
     for text in ("", "9x", "1", "9x9x1", "3.5", "9x9x2x2", "-4"):
         with pytest.raises(BadInput, match=r"--lumped = .*--grid"):
             parse_grid(LONG, text)
-
-
-def test_python_takes_a_number_too():
-    assert scene_grid(SCENE) == scene_grid(SCENE, 9) == scene_grid(SCENE, "9") == (17, 9, 2)
-    assert lumped.calibrate(LONG, RUBBER).grid == (17, 9, 2)
-    assert lumped.calibrate(LONG, RUBBER, 5).grid == (9, 5, 2)
-    assert lumped.solve(SCENE, linear=True).settings["grid"] == [17, 9, 2]
-    for grid in (3, "3", "5x3"):
-        assert solve(SCENE, "lumped", grid=grid).settings["grid"] == [5, 3, 2]
 
 
 TEXT = """

@@ -1,7 +1,6 @@
 """Which springs a scene gets where the choice is left to it, and how near that brings coarse grids."""
 
 import pytest
-from commands import json_of, run
 
 import fem_reference
 import sheetbench as sb
@@ -63,17 +62,6 @@ def test_it_chooses_where_nothing_but_a_grading_is_asked():
     assert sb.calibrate(scene, grid=3).method == "consistent"
     pair = solve(scene, "lumped-pair", grid=5, coarser=3, calibration="auto").settings
     assert (pair["calibration"], pair["calibration_reason"]) == (MEMBRANE, "x0 alone holds the sheet")
-
-
-def test_commands_say_it(capsys):
-    arguments = ("one-edge-clamped", "--grid", "3")
-    found = json_of(
-        capsys, "compare", *arguments, "--calibration", "auto", "--elements", "2", "--no-uncertainty"
-    )["solutions"][0]
-    assert found["settings"]["calibration"] == MEMBRANE and "expected_error" in found
-    assert run("calibrate", *arguments, "--grading", "auto") == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert f"{MEMBRANE}: ν = 0.48 is above 0.4" in said and "grading 0: " in said
 
 
 @pytest.mark.slow

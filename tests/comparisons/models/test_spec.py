@@ -1,7 +1,6 @@
 """Specs: one noun for a model, in Python, as text and as JSON."""
 
 import json
-from inspect import signature
 
 import numpy as np
 import pytest
@@ -68,13 +67,6 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
 def test_what_does_not_go_with_a_question_is_refused(ask, said):
     with pytest.raises(sb.BadInput, match=said):
         ask("one-edge-clamped")
-
-
-def test_flat_keywords_stand_in_the_signature():
-    for function in (sb.compare, sb.modes, sb.identify, sb.simulate, sb.calibrate, sb.stability):
-        assert {"grid", "calibration", "k", "layer_distance", "grading"} <= signature(
-            function
-        ).parameters.keys()
 
 
 def test_a_context_holds_for_a_block_and_for_a_call():

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from cases import with_material
+from cases import sheet, with_material
 from commands import run
 
 import fem_reference
@@ -15,18 +15,12 @@ from comparisons.models.spec import Lattice
 from comparisons.modes.spectra import spectra
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.scenes import Clamped, Gravity, Material, Pressure, Scene, Sheet, load
+from sheetbench.scenes import Gravity, Pressure, load
 
 
 def hanging():
     """A strip of soft silicone, 250 × 120 × 1.5 mm, hanging down from x0."""
-    return Scene(
-        name="hanging",
-        sheet=Sheet(length_x=0.25, length_y=0.12, thickness=0.0015),
-        material=Material(young=125e3, poisson=0.49, density=1070.0),
-        gravity=Gravity(acceleration=(9.81, 0.0, 0.0)),
-        support=(Clamped(edge="x0"),),
-    )
+    return sheet(0.25, 0.12, 0.0015, 125e3, 0.49, 1070.0, gravity=Gravity(acceleration=(9.81, 0.0, 0.0)))
 
 
 def test_a_hanging_strip_swings_as_a_heavy_string():

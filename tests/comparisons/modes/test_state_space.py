@@ -12,7 +12,7 @@ from scipy.io import loadmat
 import lumped
 from comparisons.models.spec import Lattice
 from comparisons.modes import state_figure as figure
-from comparisons.modes.state_space import linearise, unit_of
+from comparisons.modes.state_space import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
@@ -55,13 +55,8 @@ def test_a_step_answers_as_the_simulation_does_in_the_small(flat):
 def test_a_moved_edge_answers_as_the_simulation_does(flat):
     """A ramp of 1e-6 m of the edge, as steps of its rate: the dampers of the edge's cells take part."""
     rise = Motion(time=(0.0, 0.02), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-6)))
-    scene = Scene(
-        name="shaken",
-        sheet=SHEET,
-        material=DAMPED.material,
-        support=(Clamped(edge="x0", motion=rise),),
-        probes={"P": (0.188, 0.188)},
-    )
+    held, probes = (Clamped(edge="x0", motion=rise),), {"P": (0.188, 0.188)}
+    scene = Scene(name="shaken", sheet=SHEET, material=DAMPED.material, support=held, probes=probes)
     springs = springs_of(scene, 3)
     history = lumped.simulate(scene, springs, 0.1, every=0.001, step=1e-4, integrator="midpoint")
     linear = lumped.linearise(scene, springs, "flat")
@@ -200,11 +195,3 @@ def test_few_modes_need_no_dense_matrices(flat, monkeypatch):
     np.testing.assert_allclose(*at_rest, atol=1e-8 * np.abs(flat.jacobian).max())
     with pytest.raises(BadInput, match="not stable"):
         replace(flat, stiffness=-flat.stiffness).state_space(6)
-
-
-def test_inputs_of_natural_curvature_are_in_1_over_m():
-    assert [unit_of(name) for name in ("patch1.natural.kxx", "natural.kxy", "load 1")] == [
-        "1/m",
-        "1/m",
-        "factor",
-    ]

@@ -253,15 +253,6 @@ def test_damage_costs_a_sentence(tmp_path, capsys):
     assert "data:image/svg+xml;base64" in text
 
 
-def test_a_folder_that_is_none_is_refused(tmp_path, capsys):
-    assert run("report", str(tmp_path / "none")) == 2
-    assert "there is no such folder" in capsys.readouterr().err
-    (tmp_path / "mine.csv").write_text("a,b\n")
-    assert run("report", str(tmp_path)) == 2
-    assert "no verb has written here" in capsys.readouterr().err
-    assert not (tmp_path / "report.html").exists()
-
-
 def test_a_report_of_several_folders_shows_their_numbers_and_tells_them_apart(tmp_path):
     for grid in (3, 5):
         found = compare("two-edges-clamped", Lattice(grid), elements=4, companion=False)

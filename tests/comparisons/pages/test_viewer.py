@@ -175,14 +175,6 @@ def test_views_fields_and_what_is_under_the_pointer(page):
     assert re.search(r"Shell at [\d., ]+ mm: moved 0, 0, −[\d.]+ mm", said)
 
 
-def test_it_is_moved_from_outside(page):
-    page.get_by_label("Show", exact=True).select_option("shell")
-    before = pixels(page, "canvas[tabindex]")
-    page.evaluate("view.update('shell', {displacement: new Float32Array(3 * 81).fill(0.01)})")
-    assert (np.abs(pixels(page, "canvas[tabindex]") - before) > 20).any(axis=2).mean() > 0.01
-    assert page.evaluate("view.picture().slice(0, 22)") == "data:image/png;base64,"
-
-
 def test_masses_without_links_are_not_drawn(page):
     lattice = "{style: 'lattice', points: [0, 0, 0, 1, 0, 0, 2, 0, 0], lines: [0, 1]}"
     assert page.evaluate(f"[...new (view.sheets.get('shell').constructor)({lattice}).linked]") == [0, 1]

@@ -8,7 +8,7 @@ from functools import partial
 import matplotlib
 import numpy as np
 import pytest
-from commands import one_line, run
+from commands import run
 from fake_solutions import solution
 from matplotlib.figure import Figure
 
@@ -170,16 +170,3 @@ def test_the_option(tmp_path, capsys):
     assert f'width="{72.0 * WIDTHS["single"]:f}pt"' in (out / "modes.svg").read_text(encoding="utf-8")
     assert f"/MediaBox [ 0 0 {72.0 * WIDTHS['double']:.8f}".encode() in (out / "modes.pdf").read_bytes()
     capsys.readouterr()
-    assert run(*arguments, "--figure", "svg") == 2
-    assert "--figure: no effect without --out" in one_line(capsys)
-    assert run(*arguments, "--figure", "svg", "--no-pictures", "--out", str(out)) == 2
-    assert "--no-pictures" in one_line(capsys)
-    bare = tmp_path / "bare"
-    assert run(*arguments, "--no-pictures", "--out", str(bare)) == 0
-    assert "drawing" not in capsys.readouterr().err
-    left = {path.suffix for path in bare.iterdir()}
-    assert not left & {".png", ".pdf", ".svg"} and {".json", ".csv", ".vtu"} <= left
-    assert run(*arguments, "--figure", "jpg", "--out", str(out)) == 2
-    assert "--figure" in one_line(capsys)
-    assert run("stability", "one-edge-clamped", "--figure", "pdf:single", "--out", str(tmp_path / "s")) == 2
-    assert "both columns" in one_line(capsys) and not (tmp_path / "s").exists()

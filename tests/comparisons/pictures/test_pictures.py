@@ -50,4 +50,3 @@ def test_many_probes_have_a_dozen_panels_of_those_that_move_most():
     titles = [axis.get_title(loc="left") for axis in figure.axes]
     assert len(figure.axes) == MOST + 1
     assert titles[0] == plain("p238 $") and titles[MOST - 1] == plain("p249 $")
-    figure.draw_without_rendering()

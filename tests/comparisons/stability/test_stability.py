@@ -1,11 +1,8 @@
 """`sheetbench stability SCENE`: what is varied, where each model holds, the largest stable steps."""
 
-import json
-
 import numpy as np
 import pytest
 from campaigns import Here
-from commands import json_of, run
 
 import lumped
 from comparisons.models.resolve import resolve
@@ -14,7 +11,7 @@ from comparisons.stability import extremes
 from comparisons.stability.answer import limits, summary
 from comparisons.stability.extremes import scaled, stability
 from comparisons.stability.limit import rests_flat
-from sheetbench.scenes import BadInput, Clamped, PointLoad, Pressure, load
+from sheetbench.scenes import Clamped, PointLoad, Pressure, load
 
 SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")
 
@@ -109,35 +106,6 @@ def test_the_motions_error_is_of_the_largest_displacement():
     assert extremes._motion_error(still, still) is None
 
 
-@pytest.mark.usefixtures("in_process", "undrawn")
-def test_the_command_writes_maps_and_resumes(tmp_path, capsys, monkeypatch):
-    monkeypatch.setitem(extremes.FACTORS, "young", (1.0,))
-    monkeypatch.setattr(extremes, "CELLS", {"lumped": (2,), "references": (2,)})
-    arguments = [
-        "stability",
-        "two-edges-clamped",
-        "--grid",
-        "3",
-        "--elements",
-        "2",
-        "--vary",
-        "young",
-        "--vary",
-        "grid",
-    ]
-    arguments += ["--workers", "1", "--out", str(tmp_path)]
-    assert run(*arguments) == 0
-    assert "cells along the shorter side" in capsys.readouterr().out
-    document = json.loads((tmp_path / "stability.json").read_text(encoding="utf-8"))
-    assert [row["study"] for row in document["rows"]] == ["young"] * 3 + ["grid"] * 3
-    assert {"study", "cell", "status", "error"} <= document["rows"][0].keys()
-    for name in ("holds.csv", "young.csv", "grid.csv", "stability.md", "stability.png", "stability.pdf"):
-        assert (tmp_path / name).exists(), name
-    before = (tmp_path / "campaign.sqlite").stat().st_mtime_ns
-    assert json_of(capsys, *arguments)["rows"] == document["rows"]
-    assert (tmp_path / "campaign.sqlite").stat().st_mtime_ns == before
-
-
 def test_grids_are_held_against_the_finest_mesh(store, monkeypatch):
     """Also where fewer elements are requested with what else is varied: then a finer one erred."""
     monkeypatch.setattr(extremes, "CELLS", {"lumped": (2, 8), "references": (2, 6)})
@@ -149,8 +117,3 @@ def test_grids_are_held_against_the_finest_mesh(store, monkeypatch):
     }
     assert rows["shell", 6]["error"] is None and rows["shell", 4]["error"] < rows["shell", 2]["error"]
     assert rows["lumped", 8]["error"] < rows["lumped", 2]["error"]
-
-
-def test_what_cannot_be_varied_is_refused(store, capsys):
-    with pytest.raises(BadInput, match="cuboid"):
-        stability(SEED, store, reference="cuboid")

@@ -7,7 +7,7 @@ from typing import Any
 import fake_solutions
 import numpy as np
 import pytest
-from cases import relative
+from cases import relative, sheet
 
 import fem_reference
 from comparisons.comparison.comparison import compare
@@ -16,15 +16,9 @@ from comparisons.sweep.model_error import ModelError, model_error
 from comparisons.tradeoff.advisor import advise
 from fem_reference.pulled_strip import pulled
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, Gravity, Hinged, Material, Pressure, Scene, Sheet, Symmetric, load
+from sheetbench.scenes import Clamped, Hinged, Material, Pressure, Sheet, Symmetric, load
 
-THICK = Scene(
-    name="thick-three",
-    sheet=Sheet(length_x=0.1, length_y=0.1, thickness=0.015),
-    material=Material(young=1e6, poisson=0.45, density=1100.0),
-    support=tuple(Clamped(edge=edge) for edge in ("x0", "y0", "y1")),
-    load=(Pressure(value=-560.0),),
-)
+THICK = sheet(0.1, 0.1, 0.015, 1e6, 0.45, 1100.0, held="x0 y0 y1", load=(Pressure(value=-560.0),))
 
 # h/a, ν, clamped; largest stretch and share of stretching in the energy of the shell of 16 elements; how far
 # the solid of 10 elements is from it with the same clamp, how far that is from the solid whose clamp holds
@@ -47,12 +41,7 @@ MEASURED = {
 
 def of_numbers(slenderness, poisson, clamped, stretch, share):
     edge = Clamped(edge="x0") if clamped else Hinged(edge="x0")
-    scene = Scene(
-        name="numbers",
-        sheet=Sheet(length_x=0.1, length_y=0.2, thickness=0.1 * slenderness),
-        material=Material(young=1e6, poisson=poisson, density=1000.0),
-        support=(edge,),
-    )
+    scene = sheet(0.1, 0.2, 0.1 * slenderness, 1e6, poisson, supports=(edge,))
     answer = fake_solutions.solution(scene, "shell", -0.01)
     energies = {"membrane": share, "bending": 1.0 - share}
     found = model_error(scene, replace(answer, stretch=stretch, energies=energies))
@@ -142,32 +131,16 @@ def test_a_law_that_the_material_states_is_no_part_of_the_error():
         assert found is not None and (found.strain_law > 0.1) is part
 
 
-ARCH = Scene(
-    name="arch",
-    sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.003),
-    material=Material(young=1e6, poisson=0.4, density=1000.0),
-    support=(Clamped(edge="x0", tilt=0.3), Clamped(edge="x1", tilt=0.3)),
-    gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-)
-CORNER = Scene(
-    name="corner",
-    sheet=Sheet(length_x=0.16, length_y=0.16, thickness=0.002),
-    material=Material(young=1e6, poisson=-0.3, density=1000.0),
-    support=(Clamped(edge="x0"), Hinged(edge="y0")),
-    load=(Pressure(value=-60.0),),
-)
-
-
-HANGING = Scene(  # bends far and hardly stretches: the first step alone is five times too far
-    name="hanging",
-    sheet=Sheet(length_x=0.12, length_y=0.08, thickness=0.0025),
-    material=Material(young=8e5, poisson=0.45, density=1100.0),
-    support=(Clamped(edge="x0"),),
-    gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-)
-
-
-LOADED = [ARCH, CORNER, HANGING, load("two-edges-clamped"), load("curved-edge")]
+TILTED = tuple(Clamped(edge=edge, tilt=0.3) for edge in ("x0", "x1"))
+CORNERED = (Clamped(edge="x0"), Hinged(edge="y0"))
+LOADED = [
+    sheet(0.15, 0.15, 0.003, 1e6, 0.4, weight=9.81, supports=TILTED, name="arch"),
+    sheet(0.16, 0.16, 0.002, 1e6, -0.3, supports=CORNERED, loads=[Pressure(value=-60.0)], name="corner"),
+    # bends far and hardly stretches: the first step alone is five times too far
+    sheet(0.12, 0.08, 0.0025, 8e5, 0.45, 1100.0, weight=9.81, name="hanging"),
+    load("two-edges-clamped"),
+    load("curved-edge"),
+]
 
 
 @pytest.mark.sweep(2)
@@ -236,14 +209,9 @@ def test_a_sheet_blown_up_so_far_that_it_turns_within_a_thickness_is_within_it(n
     material, thickness, pressure, strip = INFLATED[name]
     held = ("x0", "y0")[: 1 if strip else 2]
     width, planes = (0.02, ("x1", "y0", "y1")) if strip else (0.05, ("x1", "y1"))
-    scene = Scene(
-        name=name,
-        sheet=Sheet(length_x=0.05, length_y=width, thickness=thickness),
-        material=material,
-        supports=(*(Clamped(edge=edge) for edge in held), *(Symmetric(edge=edge) for edge in planes)),
-        loads=(Pressure(value=pressure),),
-        probes={"top": (0.05, width)},
-    )
+    supports = (*(Clamped(edge=edge) for edge in held), *(Symmetric(edge=edge) for edge in planes))
+    given = {"supports": supports, "loads": (Pressure(value=pressure),), "probes": {"top": (0.05, width)}}
+    scene = sheet(0.05, width, thickness, material=material, **given)
     points = scene.probe_points()
     shell = fem_reference.solve(scene, "shell", elements=(8, 1) if strip else 6)
     solid = fem_reference.solve(scene, "solid", elements=(8, 1) if strip else 5, clamp="mean")

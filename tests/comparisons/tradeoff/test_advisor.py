@@ -8,6 +8,7 @@ from functools import cache
 
 import pytest
 from answers import once
+from cases import sheet
 from commands import json_of, run
 
 import fem_reference
@@ -73,8 +74,7 @@ def test_scales_of_the_seed_sheet():
 
 def test_the_load_number_is_of_the_length_that_hangs():
     """A strip held at a short edge; at a long one, and at both, it reaches over its shorter side."""
-    sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
-    strip = scenes.load("one-edge-clamped").replace(sheet=sheet, supports=[Clamped(edge="x0")], probes={})
+    strip = sheet(0.12, 0.04, 0.002, weight=9.81)
     far = scales(strip)
     assert far.span == 0.12
     assert far.span_load_number == pytest.approx(27.0 * far.load_number)
@@ -276,15 +276,8 @@ def test_models_may_be_named():
 
 def test_grids_without_a_mass_at_a_held_point_are_left_out_and_named():
     """Four lines along a side cannot pass through three points within it."""
-    points = (0.0, 0.02), (0.0, 0.06), (0.03, 0.04)
-    scene = Scene(
-        name="on-points",
-        sheet=Sheet(length_x=0.12, length_y=0.08, thickness=0.003),
-        material=Material(young=1e6, poisson=0.3, density=1e3),
-        gravity=Gravity(acceleration=(0.0, 0.0, -0.1)),
-        supports=tuple(Point(at=at) for at in points),
-        probes={"tip": [0.12, 0.04]},
-    )
+    points = tuple(Point(at=at) for at in ((0.0, 0.02), (0.0, 0.06), (0.03, 0.04)))
+    scene = sheet(0.12, 0.08, 0.003, weight=0.1, supports=points, probes={"tip": [0.12, 0.04]})
     advice = advise(scene, 0.2)
     assert advice.succeeded
     assert any("lumped 4×3×2 left out: support 1.at" in warning for warning in advice.warnings)

@@ -11,6 +11,7 @@ import campaigns
 import numpy as np
 import pytest
 from campaigns import Here, rows_in
+from cases import sheet
 from commands import run
 from matplotlib.figure import Figure
 from verbs import run_here
@@ -26,13 +27,12 @@ from comparisons.sweep.store import FILE
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.answer import Tradeoff, folded
 from comparisons.tradeoff.figure import compose, logarithmic
-from comparisons.tradeoff.motion import SHARES, dynamic_tradeoff
+from comparisons.tradeoff.motion import dynamic_tradeoff
 from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench import scenes
 from sheetbench.answers.figure_style import PLAIN, parse_figure
 from sheetbench.answers.files import to_json
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 
 SMALL = [
     *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),
@@ -160,17 +160,6 @@ def test_killed_and_resumed_tradeoff_has_all_its_rows(finished):
     assert json.loads((finished / "manifest.json").read_text(encoding="utf-8"))["machine"]
 
 
-def test_asked_again_nothing_is_run_and_the_document_is_the_same(finished, capsys):
-    before = rows_in(finished / FILE)
-    written = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
-    assert run(*SMALL, "--json", "--out", str(finished)) == 0
-    printed = capsys.readouterr()
-    assert json.loads(printed.out) == written
-    drawing = {"drawing tradeoff.svg …"}  # said where it lasts, as on a busy machine
-    assert set(printed.err.splitlines()) <= drawing
-    assert rows_in(finished / FILE) == before
-
-
 @pytest.mark.nightly
 def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path):
     scene = scenes.load("two-edges-settling")
@@ -222,38 +211,10 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene):
 
 
 @pytest.mark.nightly
-def test_the_trade_of_a_motion_is_of_one_lattice(tmp_path):
-    """The scene's own springs, four times as stiff: limit, period and runs are all of them."""
-    scene = scenes.load("two-edges-settling")
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=3)
-    stiff = {name: 4.0 * k for name, k in springs.document()["springs"].items() if isinstance(k, float)}
-    table = {**stiff, "layer_distance": springs.layer_distance, "grid": [3, 3, 2]}
-    own = scene.replace(springs=table)
-    names = ("verlet",)
-    options = {"integrators": names, "fine": 400, "pool": Here, "reference": Elements("shell", 2)}
-    with campaign(tmp_path) as store:
-        found = dynamic_tradeoff(own, 0.02, store, **options)
-        k_given = dynamic_tradeoff(scene, 0.02, store, lattices=[Lattice(3, k=800.0)], **options)
-    limit = lumped.explicit_limit(names[0], own, lumped.given(own))
-    assert limit < 0.7 * lumped.explicit_limit(names[0], own, springs)
-    assert [row.step for row in found.rows] == [pytest.approx(share * limit) for share in SHARES]
-    assert all(row.status == "converged" for row in (*found.rows, *k_given.rows))
-    assert k_given.lattices == ("lumped 3×3×2 uniform",)
-
-
-@pytest.mark.nightly
 def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(tmp_path):
     """A soft strip of 120 by 40 mm swings in 1.8 s while it is flat, in a quarter of that where it hangs."""
-    sheet = Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
-    material = Material(young=0.6e6, poisson=0.45, density=1100.0)
-    strip = Scene(
-        name="strip",
-        sheet=sheet,
-        material=material,
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-        support=(Clamped(edge="x0"),),
-    )
-    springs = lumped.calibrate(sheet, material, grid=3)
+    strip = sheet(0.12, 0.04, 0.002, 0.6e6, 0.45, 1100.0, weight=9.81)
+    springs = lumped.calibrate(strip.sheet, strip.material, grid=3)
     flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
     options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 800, "pool": Here}
     with campaign(tmp_path) as store:
@@ -266,13 +227,7 @@ def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until
 @pytest.mark.nightly
 def test_motions_with_strains_beyond_the_model_are_measured_and_say_so(tmp_path):
     """A sheet too heavy for its law: its rows had neither error nor cost."""
-    heavy = Scene(
-        name="heavy",
-        sheet=Sheet(length_x=0.2, length_y=0.1, thickness=0.003),
-        material=Material(young=2e4, poisson=0.3, density=1000.0),
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-        support=(Clamped(edge="x0"),),
-    )
+    heavy = sheet(0.2, 0.1, 0.003, 2e4, weight=9.81)
     options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 400, "pool": Here}
     shell = Elements("shell", 2)
     with campaign(tmp_path) as store:

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
 import lumped
 from sheetbench.errors import BadInput, SceneError
-from sheetbench.scenes import Gravity, Material, Point, Scene, Sheet, free_rigid_motions
+from sheetbench.scenes import Point, free_rigid_motions
 from sheetbench.scenes.objects.natural import Natural
 
 THREE = (
@@ -17,11 +18,7 @@ THREE = (
 
 
 def scene(supports=THREE, weight=0.02, natural=None):
-    return Scene(
-        name="on-three-points", sheet=Sheet(length_x=0.2, length_y=0.2, thickness=0.002),
-        material=Material(young=1e6, poisson=0.3, density=1e3), supports=supports, natural=natural,
-        gravity=Gravity(acceleration=(0.0, 0.0, -weight)) if weight else None, probes={"corner": [0.2, 0.2]},
-    )  # fmt: skip
+    return sheet(0.2, 0.2, 0.002, weight=weight, supports=supports, natural=natural)
 
 
 def solved(of, model):

@@ -7,11 +7,12 @@ the other order is a series of scenes, each begun in the shape of the one before
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
 from comparisons.comparison.branches import shape
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Curved, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Curved
 
 LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX
 SHARES = (0.0, 0.4, 0.65, 0.74, 0.995 * LIMIT, 1.005 * LIMIT)
@@ -20,12 +21,8 @@ P3 = [(0.15, 0.075)]
 
 def bent(share):
     """With a share of the weight, by its density."""
-    return Scene(
-        name="bent", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
-        material=Material(young=1e7, poisson=0.45, density=1200.0 * (share or 1.0)),
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)) if share else None,
-        supports=(Curved(edge="x0", curvature=-8.0),),
-    )  # fmt: skip
+    density, supports = 1200.0 * (share or 1.0), (Curved(edge="x0", curvature=-8.0),)
+    return sheet(0.15, 0.15, 0.002, 1e7, 0.45, density, weight=9.81 if share else 0.0, supports=supports)
 
 
 def sag(found):

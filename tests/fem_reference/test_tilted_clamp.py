@@ -8,7 +8,7 @@ import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import EDGES, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, SceneError, Symmetric
+from sheetbench.scenes import EDGES, Clamped, Curved, Held, Hinged, Scene, SceneError, Symmetric
 
 CUTS = (Symmetric(edge="y0"), Symmetric(edge="y1"))
 
@@ -109,19 +109,6 @@ def test_ends_tilted_opposite_ways_bend_the_strip_to_the_cubic(model, within):
     slope = (w[9] - w[7]) / (x[9] - x[7])  # +τ/2 in the middle, of end slopes −τ
     assert slope == pytest.approx((exact[9] - exact[7]) / (x[9] - x[7]), rel=10 * within)
     assert slope == pytest.approx(SMALL / 2.0, rel=0.02)
-
-
-@pytest.mark.sweep
-@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
-@pytest.mark.parametrize(("edge", "axis"), [("x0", (0.0, 1.0, 0.0)), ("y1", (1.0, 0.0, 0.0))])
-def test_a_tilt_is_the_edge_moved_by_that_rotation(model, edge, axis):
-    """Two ways of saying the same, which share no code."""
-    turned = tuple(0.3 * a for a in axis)
-    motion = EdgeMotion(kind="motion", edge=edge, time=(0.0,), rotation=(turned,))
-    points = points_of(OBLONG)
-    moved = solve(make_scene(gravity=GRAVITY, actuator=(motion,)), model).displacement(points)
-    tilted = solve(make_scene(Clamped(edge=edge, tilt=0.3), gravity=GRAVITY), model).displacement(points)
-    assert relative(tilted, moved) < 1e-7
 
 
 @pytest.mark.sweep(2)

@@ -5,6 +5,7 @@ import json
 import fake_solutions
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
 from comparisons.comparison.comparison import compare
@@ -15,7 +16,6 @@ from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_wit
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Scene
 
 SIZES = [1 / 16, 1 / 12, 1 / 8]
 
@@ -228,15 +228,8 @@ def test_the_layer_is_found_by_small_elements_and_missed_by_large_ones():
 
 
 def hinged(thickness):
-    return Scene.model_validate(
-        {
-            "name": "hinged",
-            "sheet": {"length_x": 1.0, "length_y": 1.0, "thickness": thickness},
-            "material": {"young": 1e9, "poisson": 0.3, "density": 1000.0},
-            "gravity": {"acceleration": [0.0, 0.0, -1e-4]},
-            "support": [{"kind": "hinged", "edge": edge} for edge in ("x0", "x1", "y0", "y1")],
-        }
-    )
+    supports = [{"kind": "hinged", "edge": edge} for edge in ("x0", "x1", "y0", "y1")]
+    return sheet(1.0, 1.0, thickness, 1e9, weight=1e-4, supports=supports)
 
 
 @pytest.mark.sweep(4)
@@ -251,10 +244,7 @@ def test_hinged_plates_are_too_stiff_by_two_thirds_of_what_is_missed(thickness, 
 
 
 def test_clamps_have_no_such_layer_and_even_meshes_miss_more():
-    clamped = scenes.load("two-edges-clamped").model_copy(update={"supports": ()})
-    held = Scene.model_validate(
-        {**clamped.document(), "support": [{"kind": "clamped", "edge": e} for e in ("x0", "x1", "y0", "y1")]}
-    )
+    held = sheet(0.188, 0.188, 0.003, held="x0 x1 y0 y1")
     assert missed(held, (8, 8), True) == NOTHING
     scene = hinged(0.01)
     graded, even = (missed_by(scene, {"elements": [8, 8], "graded": g}) for g in (True, False))

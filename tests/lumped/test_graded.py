@@ -153,16 +153,9 @@ def test_springs_of_a_scene_file_are_the_calibrations(method):
 
 def test_a_force_between_masses_and_an_edges_load_keep_their_moments():
     """A point load's work on a bilinear displacement, an edge's load on a linear one, of unequal cells."""
-    scene = Scene(
-        name="loads",
-        sheet=OBLONG,
-        material=SILICONE,
-        support=(Clamped(edge="x0"),),
-        load=(
-            PointLoad(at=(0.13, 0.031), force=(0.0, 0.0, 1.0)),
-            {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 2.0)},
-        ),
-    )
+    along = {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 2.0)}
+    loads = (PointLoad(at=(0.13, 0.031), force=(0.0, 0.0, 1.0)), along)
+    scene = Scene("loads", OBLONG, SILICONE, supports=(Clamped(edge="x0"),), loads=loads)
     problem = lumped.build_problem(scene, lumped.calibrate(OBLONG, SILICONE, (6, 5), grading=0.5))
     x, y, _ = problem.assembly.lattice.positions.T
     force = problem.loads.dead[:, 2]

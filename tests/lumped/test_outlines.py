@@ -6,7 +6,7 @@ import pytest
 import lumped
 from lumped.assembly import Assembly
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import BadInput, Scene, load
+from sheetbench.scenes import BadInput, Scene
 from sheetbench.scenes.meaning.composition import mass_of
 
 MATERIAL = {"young": 5e6, "poisson": 0.4, "density": 1e3}
@@ -38,17 +38,6 @@ def deflections(scene, across, linear=True):
     solution = lumped.solve(scene, calibrated(scene, across), linear=linear)
     assert solution.status is Status.CONVERGED and solution.balance.holds
     return solution.displacement(scene.probe_points())
-
-
-def test_a_rectangle_as_outline_is_the_plain_sheet():
-    plain = load("two-edges-clamped")
-    (x, y), calibration = plain.sheet.lengths, lumped.calibrate(plain.sheet, plain.material, 9)
-    drawn = plain.replace(outline=[(0.0, 0.0), (x, 0.0), (x, y), (0.0, y)])
-    cut = lumped.calibrate(drawn.sheet, drawn.material, 9, cells=lumped.sections_of(drawn, (9, 9, 2)))
-    first, second = (
-        lumped.solve(*each).mesh.point_data["displacement"] for each in ((plain, calibration), (drawn, cut))
-    )
-    assert np.allclose(first, second, rtol=0.0, atol=1e-9 * np.abs(first).max())
 
 
 def test_absent_cells_have_no_springs_no_mass_and_no_unknowns():

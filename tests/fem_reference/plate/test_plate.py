@@ -4,27 +4,21 @@ import re
 
 import numpy as np
 import pytest
-from cases import WEIGHT
+from cases import WEIGHT, sheet
 from skfem import MeshQuad
 
 from fem_reference.plate import statics as plate
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.surface.location import locate
 from sheetbench import scenes
-from sheetbench.scenes import EDGES, BadInput, Material, Scene, Sheet
+from sheetbench.scenes import EDGES, BadInput, Material, Scene
 
 MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)
 
 
 def square(thickness, kind=None, loads=(), edges=EDGES, **more):
-    return Scene(
-        name="square",
-        sheet=Sheet(length_x=1.0, length_y=1.0, thickness=thickness),
-        material=MATERIAL,
-        supports=[{"edge": edge, "kind": kind} for edge in edges] if kind else (),
-        loads=loads,
-        **more,
-    )
+    held = [{"edge": edge, "kind": kind} for edge in edges] if kind else ()
+    return sheet(1.0, 1.0, thickness, material=MATERIAL, supports=held, loads=loads, **more)
 
 
 def distorted(divisions=3, amount=0.25):
@@ -69,13 +63,8 @@ def test_strip_with_edge_moment_and_forces():
     """A cantilever strip with ν = 0 is a Timoshenko beam: closed form at the tip."""
     length, width, thickness, young = 2.0, 0.5, 0.05, 1.0e6
     moment, (fx, fy, fz) = 0.02, (3.0, 0.0, 0.01)
-    scene = Scene(
-        name="strip",
-        sheet=Sheet(length_x=length, length_y=width, thickness=thickness),
-        material=Material(young=young, poisson=0.0, density=1.0),
-        supports=[{"edge": "x0", "kind": "clamped"}],
-        loads=[{"kind": "edge", "edge": "x1", "force_per_length": (fx, fy, fz), "moment_per_length": moment}],
-    )
+    load = {"kind": "edge", "edge": "x1", "force_per_length": (fx, fy, fz), "moment_per_length": moment}
+    scene = sheet(length, width, thickness, young, 0.0, loads=[load])
     answer = plate.solve(scene, 2)
     bending, shear = young * thickness**3 / 12, 5 / 6 * young / 2 * thickness
     tip = moment * length**2 / (2 * bending) + fz * (length**3 / (3 * bending) + length / shear)

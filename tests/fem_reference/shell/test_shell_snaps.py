@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 
+import cases
 import numpy as np
 import pytest
 from scipy.integrate import simpson
@@ -23,7 +24,7 @@ from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
-from sheetbench.scenes import Chain, Curved, Hinged, Material, Scene, Sheet
+from sheetbench.scenes import Chain, Curved, Hinged
 from sheetbench.scenes.meaning.kinematics import Placed
 from studies.stability import scenes as stability_scenes
 
@@ -96,14 +97,9 @@ def height(shorter):
 def strip(at=0.5, shorter=SHORTER, bent=0.0):
     """Pushed down at x = at, with 1.5 times the limit load at load factor 1; pressed together, bent by so
     much of the buckled shape."""
-    scene = Scene(
-        name="strip",
-        sheet=Sheet(length_x=SIDE, length_y=WIDTH, thickness=THICKNESS),
-        material=Material(young=YOUNG, poisson=0.0, density=1000.0),
-        supports=(Hinged(edge="x0"), Hinged(edge="x1")),
-    )
-    mesh = rectangle(scene.sheet, (12, 1), graded=False)
-    sheet = shell.discretise(mesh, scene)
+    hinges = (Hinged(edge="x0"), Hinged(edge="x1"))
+    scene = cases.sheet(SIDE, WIDTH, THICKNESS, YOUNG, 0.0, supports=hinges)
+    sheet = shell.discretise(rectangle(scene.sheet, (12, 1), graded=False), scene)
     nodes = sheet.plan.nodes
     ends = np.flatnonzero(sheet.supports.position.any(axis=1))
     closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))

@@ -3,14 +3,14 @@ locking."""
 
 import numpy as np
 import pytest
-from cases import CONVERGED, relative, with_material
+from cases import CONVERGED, relative, sheet, with_material
 
 from fem_reference.shell import statics as shell
 from fem_reference.solid import statics as solid
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAWS
-from sheetbench.scenes import Clamped, Material, Pressure, Scene, Sheet
+from sheetbench.scenes import Pressure
 
 
 def with_poisson(name, poisson):
@@ -74,16 +74,10 @@ def test_other_laws_are_close_at_small_strain_and_converge_as_fast(law):
     assert relative(one.displacement(points), other.displacement(points)) < 2e-3
 
 
-def cantilever(**load):
+def cantilever(length, **load):
     """Sze, Liu & Lo (2004): 3.1 is 10 × 1 × 0.1 (here), 3.2 is 12 long."""
-    length = load.pop("length")
-    return Scene(
-        name="cantilever",
-        sheet=Sheet(length_x=length, length_y=1.0, thickness=0.1),
-        material=Material(young=1.2e6, poisson=0.0, density=1.0),
-        supports=[{"edge": "x0", "kind": "clamped"}],
-        loads=[{"kind": "edge", "edge": "x1", **load}],
-    )
+    loads = [{"kind": "edge", "edge": "x1", **load}]
+    return sheet(length, 1.0, 0.1, 1.2e6, 0.0, 1.0, loads=loads)
 
 
 @pytest.mark.sweep(2)
@@ -110,17 +104,10 @@ def test_full_clamp_is_stiffer():
 
 def test_a_compressed_flat_sheet_is_unstable():
     """Beyond Euler's load the flat sheet is an equilibrium, but not a stable one."""
-    sheet = Sheet(length_x=0.2, length_y=0.05, thickness=0.002)
-    material = Material(young=1e6, poisson=0.0, density=1000.0)
-    euler = np.pi**2 * material.young * sheet.thickness**3 / 12 / (2 * sheet.length_x) ** 2
+    euler = np.pi**2 * 1e6 * 0.002**3 / 12 / (2 * 0.2) ** 2
     for share, status in ((0.9, Status.CONVERGED), (1.1, Status.UNSTABLE)):
-        scene = Scene(
-            name="strut",
-            sheet=sheet,
-            material=material,
-            supports=[{"edge": "x0", "kind": "clamped"}],
-            loads=[{"kind": "edge", "edge": "x1", "force_per_length": (-share * euler, 0.0, 0.0)}],
-        )
+        press = {"kind": "edge", "edge": "x1", "force_per_length": (-share * euler, 0.0, 0.0)}
+        scene = sheet(0.2, 0.05, 0.002, poisson=0.0, loads=[press])
         assert solid.solve(scene, (8, 2), grading="uniform").status is status
 
 
@@ -162,13 +149,8 @@ def test_misuse(options, said):
 
 def test_a_clamp_that_holds_the_mean_is_not_dented_by_finer_layers():
     """The shear force on its mid-line alone would dent the face by 6 %."""
-    scene = Scene(
-        name="thick",
-        sheet=Sheet(length_x=0.1, length_y=0.1, thickness=0.012),
-        material=Material(young=1e6, poisson=0.45, density=1100.0),
-        support=tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")),
-        load=(Pressure(value=-200.0),),
-    )
+    load = (Pressure(value=-200.0),)
+    scene = sheet(0.1, 0.1, 0.012, 1e6, 0.45, 1100.0, held="x0 x1 y0 y1", loads=load)
     points = scene.probe_points()
     two, three = (
         solid.solve(scene, 5, layers=layers, clamp="mean").displacement(points) for layers in (2, 3)

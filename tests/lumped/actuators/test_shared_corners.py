@@ -21,15 +21,7 @@ def chain(edge, curvature=5.0, segments=12, **settings):
 
 def make_scene(sheet, *chains, clamps=("x0",), **more):
     supports = tuple(Clamped(edge=edge) for edge in clamps)
-    return Scene(
-        name="shared",
-        sheet=sheet,
-        material=RUBBER,
-        gravity=WEIGHT,
-        supports=supports,
-        actuators=chains,
-        **more,
-    )
+    return Scene("shared", sheet, RUBBER, WEIGHT, supports, actuators=chains, **more)
 
 
 def lattice(scene, grid):
@@ -41,31 +33,6 @@ def lattice(scene, grid):
 
 def points(sheet):
     return np.random.default_rng(0).uniform(0.0, 1.0, (30, 2)) * (sheet.length_x, sheet.length_y)
-
-
-UNLIKE = {
-    "curvatures": (chain("y1", 9.0), chain("x1", 9.0)),
-    "segments and faces": (chain("y1", 3.0, 6, face="top"), chain("x1", -4.0, 5, face="bottom")),
-    "in space": (chain("y1", 4.0, plane="spatial"), chain("x1", 4.0, 6, plane="spatial")),
-    "one with a base": (chain("y1", 4.0, base="start"), chain("x1", 4.0, 6)),
-    "in the plane": (chain("y1", 0.3, plane="inplane"), chain("x1", 4.0, 6)),
-}
-
-
-@pytest.mark.sweep
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-@pytest.mark.parametrize("name", UNLIKE)
-def test_the_order_of_the_actuators_makes_no_difference(model, name):
-    """Both models, displacements and what each chain exerts."""
-    first, second = (make_scene(WIDE, *UNLIKE[name][::way]) for way in (1, -1))
-    if model == "lumped":
-        one, other = (lattice(scene, (9, 5)) for scene in (first, second))
-    else:
-        one, other = (fem_reference.solve(scene, model="shell", elements=(4, 2)) for scene in (first, second))
-    u = one.displacement(points(WIDE))
-    assert_allclose(other.displacement(points(WIDE)), u, atol=1e-6 * np.abs(u).max())
-    for edge, wrench in one.actuators.items():
-        assert_allclose(other.actuators[edge], wrench, atol=1e-6 * np.abs(wrench).max())
 
 
 @pytest.mark.parametrize("planes", [("normal", "normal"), ("inplane", "normal"), ("spatial", "inplane")])

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import lumped
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Clamped, FactorTable, Material, Patch, Scene, Sheet
+from sheetbench.scenes import FactorTable, Material, Patch
 from sheetbench.scenes.objects.natural import Natural
 
 RAMP = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
@@ -14,11 +15,7 @@ BAND = {"rectangle": {"x": (0.05, 0.1), "y": (0.0, 0.1)}}
 
 
 def cantilever(natural=None, **more):
-    return Scene(
-        name="muscle", sheet=Sheet(length_x=0.2, length_y=0.1, thickness=0.002),
-        material=more.pop("material", MATERIAL), supports=(Clamped(edge="x0"),), natural=natural,
-        probes={"tip": [0.2, 0.05]}, **more,
-    )  # fmt: skip
+    return sheet(0.2, 0.1, 0.002, natural=natural, probes={"tip": [0.2, 0.05]}, **more)
 
 
 def springs(scene):

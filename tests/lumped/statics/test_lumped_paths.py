@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeLoad, Held, Material, Pressure, Scene, Sheet, load
+from sheetbench.scenes import EdgeLoad, Held, Pressure, load
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
 RIGIDITY = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)
@@ -23,18 +24,10 @@ CENTRE = [[SIDE / 2, SIDE / 2]]
 
 
 def compressed(times_critical):
-    return Scene(
-        name="compressed",
-        sheet=Sheet(length_x=SIDE, length_y=SIDE, thickness=THICKNESS),
-        material=Material(young=YOUNG, poisson=POISSON, density=1000.0),
-        supports=(
-            Held(edge="x0", components=("x", "z")),
-            Held(edge="x1", components=("z",)),
-            Held(edge="y0", components=("y", "z")),
-            Held(edge="y1", components=("z",)),
-        ),
-        loads=(EdgeLoad(edge="x1", force_per_length=(-times_critical * CRITICAL, 0, 0)),),
-    )
+    held = {"x0": ("x", "z"), "x1": ("z",), "y0": ("y", "z"), "y1": ("z",)}
+    supports = [Held(edge=edge, components=components) for edge, components in held.items()]
+    press = EdgeLoad(edge="x1", force_per_length=(-times_critical * CRITICAL, 0, 0))
+    return sheet(SIDE, SIDE, THICKNESS, YOUNG, POISSON, supports=supports, loads=(press,))
 
 
 def springs(masses):

@@ -14,19 +14,9 @@ ROOT = {"kind": "clamped", "edge": "x0"}
 
 
 def scene(**parts):
-    sheet = {"length_x": SIDE, "length_y": SIDE, "thickness": 0.002}
+    keys = {"sheet": {"length_x": SIDE, "length_y": SIDE, "thickness": 0.002}, "support": [ROOT], **parts}
     material = {"young": 1e6, "poisson": 0.4, "density": 1000.0}
-    gravity = {"acceleration": (0.0, 0.0, -9.81)}
-    return Scene(
-        **{
-            "name": "many",
-            "sheet": sheet,
-            "material": material,
-            "gravity": gravity,
-            "support": [ROOT],
-            **parts,
-        }
-    )
+    return Scene(name="many", material=material, gravity={"acceleration": (0.0, 0.0, -9.81)}, **keys)
 
 
 def circles(count, share, shift=0.0):

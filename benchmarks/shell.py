@@ -26,7 +26,7 @@ from sheetbench.scenes import load  # noqa: E402
 ELEMENTS, REPEATS = (4, 8, 16, 32), 6
 ASSEMBLY = ("forces", "system", "advance", "imbalance", "gap", "length")
 FACTORS = ("factor", "solve")
-OUTSIDE = ("discretise", "_solution")
+OUTSIDE = ("DiscreteShell", "answered")
 
 
 class Clock:

@@ -1,6 +1,6 @@
 """Finite-element references of the sheet on scikit-fem, which the lumped model is held against.
 
-`solve(scene, model="shell", elements=16)` answers with a `scenes.Solution`; a model is a module with
+`solve(scene, model="shell", elements=16)` answers with a `Solution`; a model is a module with
 `solve(scene, elements=…, **options)`, loaded when it is first requested.
 """
 

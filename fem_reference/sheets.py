@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate import statics as plate_statics
 from fem_reference.plate.discrete import DiscretePlate
-from fem_reference.shell import statics as shell_statics
-from fem_reference.solid import statics as solid_statics
+from fem_reference.shell.discrete import DiscreteShell
+from fem_reference.solid.discrete import DiscreteSolid
+from fem_reference.solid.statics import plan_mesh
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.answers.solution import Status
@@ -51,8 +53,7 @@ def shell(
 ) -> Discrete:
     """Return the shell."""
     mesh = mesh_of(scene, elements, graded, reach)
-    made = shell_statics.discretise(mesh, scene, section, law, moving)
-    return _named(made, elements, graded=graded, law=law)
+    return _named(DiscreteShell(mesh, scene, section, law, moving), elements, graded=graded, law=law)
 
 
 def solid(
@@ -69,8 +70,8 @@ def solid(
     """Return the solid, whose mesh is as in statics whatever the reach."""
     if moving:
         _refuse_edge_motions(scene, "solid")
-    mesh = solid_statics.plan_mesh(scene, divisions(scene.sheet, elements), grading)
-    made = solid_statics.discretise(mesh, scene, layers, law, clamp, moving)
+    mesh = plan_mesh(scene, divisions(scene.sheet, elements), grading)
+    made = DiscreteSolid(mesh, scene, layers, law, clamp, moving)
     return _named(made, elements, f" × {layers}", grading=grading, layers=layers, law=law, clamp=clamp)
 
 
@@ -111,7 +112,5 @@ def _equilibrium(sheet: Discrete, scene: Scene) -> tuple[np.ndarray, Status, Seq
     if sheet.model == "plate":
         q, _, _, status, notes = plate_statics.solved(DiscretePlate(mesh, scene))
         return q, status, notes
-    if sheet.model == "shell":
-        return shell_statics.trace_on(shell_statics.discretise(mesh, scene, law=own["law"]))
-    options = own["layers"], own["law"], own["clamp"]
-    return solid_statics.trace_on(solid_statics.discretise(mesh, scene, *options))
+    of_sheet = {name: own[name] for name in ("layers", "law", "clamp") if name in own}
+    return equilibrium((DiscreteShell if sheet.model == "shell" else DiscreteSolid)(mesh, scene, **of_sheet))

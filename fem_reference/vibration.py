@@ -32,10 +32,10 @@ from typing import Any
 import numpy as np
 
 from fem_reference.defaults import with_defaults
+from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.items import Following
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.sheets import SHEETS
-from fem_reference.shell import statics as shell
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.modes import NaturalModes
@@ -174,6 +174,6 @@ def _equilibrium(sheet: Discrete) -> np.ndarray:
     assert isinstance(sheet, DiscreteShell)
     if any(isinstance(item, Following) for item in sheet.items):
         raise BadInput("--about = deformed: pressure and edge moments follow the sheet: it has no modes then")
-    q, status, notes = shell.trace_on(sheet)
+    q, status, notes = equilibrium(sheet)
     require_stable("shell", status, notes)
     return q

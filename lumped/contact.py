@@ -8,13 +8,10 @@ point of area A has
 Points are the columns of masses, with their tributary areas, on a plane. On a sphere or cylinder the masses
 alone sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with
 l as far as it is across a cylinder's axis, and points are at their middles; at their ends, masses among
-them, of a sheet that rests on the obstacle, or nothing would hold it at the start. A point's force is shared
-as its position is made up, by the layers equally.
-
-In motion k is 0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond
-k (d²/2 − δ d/2 + δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996), whose
-derivative by the end has half of ∇n there. A dashpot makes the pressure p (1 + τ ḋ) ≥ 0 (Hunt and Crossley,
-1975), friction is −μ p A v_t/√(v_t² + v₀²). `docs/contact.md` has the reasons, and what energy they take.
+them, of a sheet that rests on the obstacle, or nothing would hold it at the start. In motion k is
+0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 +
+δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). `docs/contact.md` has the
+reasons, and what energy they take.
 """
 
 from __future__ import annotations
@@ -27,14 +24,14 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.items import LatticeItem, Since
+from lumped.items import LatticeItem, Placed, Since
 from lumped.mid_surface import around
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Plane, Scene, free_rigid_motions
 from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
-from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
+from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle
 
 FINEST = 32  # points a side of a cell
 MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where the mass is A ρ h, not at edges
@@ -46,8 +43,7 @@ POINT = ("obstacle", "corners", "weights", "area", "offset", "stiffness")
 
 class _Touching(NamedTuple):
     """Where some patches of points are: which, beside the obstacle, their depth [m], < 0 of one that is
-    clear, A ψ [J], A p [N] and A p' [N/m] (m, p); of a step's mean force its own, along `normal` (m, p, 3),
-    with the part `bent` of ∇n in its derivative."""
+    clear, A ψ [J], A p [N] and A p' [N/m] (m, p), of a step's mean force its own."""
 
     patches: np.ndarray
     near: Near
@@ -55,8 +51,6 @@ class _Touching(NamedTuple):
     energy: np.ndarray
     load: np.ndarray
     slope: np.ndarray
-    normal: np.ndarray
-    bent: float = 1.0
 
 
 def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -74,32 +68,29 @@ def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.nd
 
 class Contact(LatticeItem):
     """Contact of a lattice with an obstacle. Points are in patches of the same masses, cells or columns:
-    nodes (m, q), weights (p, q) of each of the p points of a patch. thin: whether the obstacle is thinner
-    than a cell. Raises BadInput for one too thin."""
+    nodes (m, q), weights (p, q) of each of the p points of a patch. Raises BadInput for one too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
-        self.name, self.obstacle, self.radius = name, obstacle, obstacle.radius
-        self.moved = float(np.linalg.norm(obstacle.displacement(1.0)))
-        self.moves, self.velocity = obstacle.motion is not None, obstacle.velocity
-        self.displacement = partial(obstacle.displacement, 1.0)
+        self.name, self.obstacle = name, obstacle
+        self.displacement, self.velocity = partial(obstacle.displacement, 1.0), obstacle.velocity
+        self.moves = obstacle.motion is not None
         self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
         columns, areas = lattice.columns(), lattice.cell_areas
         across = np.linalg.norm(projector(obstacle)[:2], axis=1)  # how much of a side is across its axis
         sides = across * [line.widths.max() for line in lattice.lines]
         thinnest = 2.0 * sides.max() / FINEST
-        if self.radius < thinnest:
+        if obstacle.radius < thinnest:
             raise BadInput(
-                f"{name}.radius = {self.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
+                f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
                 f"which would step over it; {1e3 * thinnest:.3g} mm or more, or a finer grid"
             )
-        self.thin = self.radius < sides.max()
         if isinstance(obstacle, Plane):
             nodes, weights, area = columns, np.ones((1, 1)), around(areas).reshape(-1, 1)
         else:
             corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
             nodes = np.concatenate(corners, axis=2)
-            weights, shares = points_of_cells(sides, self.radius, bool(free_rigid_motions(scene)))
+            weights, shares = points_of_cells(sides, obstacle.radius, bool(free_rigid_motions(scene)))
             area = areas.reshape(-1, 1) * shares
         self.weights = np.repeat(weights, lattice.grid[2], axis=1) / lattice.grid[2]
         there = area[:, 0] > 0.0
@@ -108,8 +99,7 @@ class Contact(LatticeItem):
         constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
         self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
-        self.slots = assembly.pattern.among(self.nodes)
-        self._eps = assembly.rounding
+        self.slots, self._eps = assembly.pattern.among(self.nodes), assembly.rounding
 
     def _law(self, depth: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return A ψ [J], A p [N] and A p' [N/m] of patches `of` at depths (m, p) [m]."""
@@ -134,7 +124,7 @@ class Contact(LatticeItem):
             which = np.flatnonzero(self._near(middle[:, 0], drive).distance < reach)
         found = self._near(self.weights @ places[which], drive)
         depth = (0.5 + TOUCH) * self.thickness[which] - found.distance
-        now = _Touching(which, found, depth, *self._law(depth, which), found.normal)
+        now = _Touching(which, found, depth, *self._law(depth, which))
         if since is None:
             return now
         then = self._touching(*since, everywhere=True)
@@ -143,7 +133,7 @@ class Contact(LatticeItem):
         _, load, slope = self._law(0.5 * (then.depth + depth), which)
         load = np.where(far, (now.energy - then.energy) / sunk, load)
         slope = np.where(far, (now.load - load) / sunk, 0.5 * slope)
-        return now._replace(load=load, slope=slope, normal=found.mean_normal(then.near), bent=0.5)
+        return now._replace(near=found.mean(then.near), load=load, slope=slope)
 
     def _spread(self, patches: np.ndarray, load: np.ndarray, out: np.ndarray) -> None:
         """Add forces of points (m, p, 3) [N] to those of the masses."""
@@ -159,7 +149,7 @@ class Contact(LatticeItem):
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
         found = self._touching(u, drive, since)
-        self._spread(found.patches, -found.load[..., None] * found.normal, force)
+        self._spread(found.patches, -found.load[..., None] * found.near.normal, force)
         return float(found.energy.sum())
 
     def add_tangent(
@@ -172,48 +162,37 @@ class Contact(LatticeItem):
         since: Since | None = None,
     ) -> None:
         found = self._touching(u, drive, since)
-        points = (scale * found.slope)[..., None, None] * dyad(found.normal)
+        points = (scale * found.slope)[..., None, None] * dyad(found.near.normal)
         if not definite:
-            points -= (scale * found.bent * found.load)[..., None, None] * found.near.curvature
+            points -= (scale * found.load)[..., None, None] * found.near.curvature
         self._spread_blocks(found.patches, points, blocks)
 
-    def _sliding(
+    def _resisted(
         self, u: np.ndarray, v: np.ndarray, drive: Drive
-    ) -> tuple[_Touching, np.ndarray, np.ndarray, np.ndarray]:
-        """Where points are, how fast they leave the obstacle (m, p), slide (m, p, 3), and √(v_t² + v₀²)
-        [m/s]."""
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return patches that may touch, how points move past the obstacle (m, p, 3) [m/s], forces (m, p, 3)
+        [N] of dashpot and friction and their derivatives by that (m, p, 3, 3)."""
         found = self._touching(u, drive)
         speed = self.weights @ (v[self.nodes[found.patches]] - self.obstacle.velocity(drive.time))
-        leaving = (speed * found.normal).sum(axis=-1)
-        sliding = speed - leaving[..., None] * found.normal
-        return found, leaving, sliding, np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
+        return found.patches, speed, *found.near.resistance(found.load, speed)
 
     def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         if not self.resists:
             return 0.0
-        found, leaving, sliding, size = self._sliding(u, v, drive)
-        damped = found.load * np.minimum(self.obstacle.contact_damping * leaving, 1.0)
-        rubbed = self.obstacle.friction * found.load / size
-        self._spread(found.patches, damped[..., None] * found.normal + rubbed[..., None] * sliding, force)
-        return float((damped * leaving).sum() + (rubbed * (size**2 - SLIP_SPEED**2)).sum())
+        patches, speed, pull, _ = self._resisted(u, v, drive)
+        self._spread(patches, -pull, force)
+        return -float((pull * speed).sum())
 
     def add_resistance_tangent(
         self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
     ) -> None:
-        if not self.resists:
-            return
-        found, leaving, sliding, size = self._sliding(u, v, drive)
-        tau, load, across = self.obstacle.contact_damping, scale * found.load, dyad(found.normal)
-        damped, rubbed = tau * load * (tau * leaving < 1.0), self.obstacle.friction * load / size
-        plane = np.eye(3) - across - dyad(sliding / size[..., None])
-        points = damped[..., None, None] * across + rubbed[..., None, None] * plane
-        self._spread_blocks(found.patches, points, blocks)
+        if self.resists:
+            patches, _, _, by_speed = self._resisted(u, v, drive)
+            self._spread_blocks(patches, -scale * by_speed, blocks)
 
-    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
-        """Return the share of a move that takes no point deeper than half a radius, nor through."""
-        start = self._touching(u, since or drive, everywhere=True)
-        end = self._touching(u + move, drive, everywhere=True)
-        return end.near.share_of_way(start.near, 0.5 * self.thickness)
+    def step_share(self, start: Placed, end: Placed) -> float:
+        then, now = (self._touching(*at, everywhere=True).near for at in (start, end))
+        return now.share_of_way(then, 0.5 * self.thickness)
 
     def _of_masses(self, load: np.ndarray) -> np.ndarray:
         """Return sums (n,) of what points (m, p) share among the masses."""
@@ -231,8 +210,8 @@ class Contact(LatticeItem):
         largest = float(np.abs(self._rest).max())
         return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
 
-    def report(self, u: np.ndarray, drive: Drive) -> tuple[ContactState, np.ndarray]:
-        found, area = self._touching(u, drive, everywhere=True), self._of_masses(self.area)
+    def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
+        found, area = self._touching(*at, everywhere=True), self._of_masses(self.area)
         load = self._of_masses(found.load)
         pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
         return ContactState.of(found.depth / self.thickness, self.area), pressure
@@ -241,13 +220,13 @@ class Contact(LatticeItem):
         """Return the way (3,) [m] that takes the nearest point to a depth of a tenth of the thickness."""
         found = self._touching(u, Drive(), everywhere=True)
         least = np.unravel_index(found.depth.argmax(), found.depth.shape)
-        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.normal[least]
+        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.near.normal[least]
         return way
 
 
 def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:
     """Return obstacles and points of contacts of a lattice of so many layers, named as in `lattice.npz`
-    (`comparisons.codes.arrays`): with φ the distance of a point from its obstacle each has the energy
+    (`comparisons.codes.tables`): with φ the distance of a point from its obstacle each has the energy
     ½ stiffness area ⟨offset − φ⟩²."""
     shapes = [one.obstacle for one in contacts]
     parts = [(np.empty(0, int), np.empty((0, 4, layers), int), np.empty((0, 4)), *[np.empty(0)] * 3)]

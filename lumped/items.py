@@ -15,7 +15,8 @@ import numpy as np
 from lumped.actuators import Drive
 from sheetbench.answers.contact import ContactState
 
-Since = tuple[np.ndarray, Drive]  # where a step begins, for the force whose work in it is the energy stored
+Placed = tuple[np.ndarray, Drive]  # where the masses are, and when
+Since = Placed  # where a step begins, for the force whose work in it is the energy stored
 
 
 class LatticeItem(Protocol):
@@ -61,9 +62,8 @@ class LatticeItem(Protocol):
             self.add_resistance(u, v, drive, force)
         return -force
 
-    def step_share(self, u: np.ndarray, move: np.ndarray, drive: Drive, since: Drive | None = None) -> float:
-        """Return the share of a move up to which what the item says holds, 1 for all of it; since: where
-        what it is fixed to is as the move begins."""
+    def step_share(self, start: Placed, end: Placed) -> float:
+        """Return the share of a straight way up to which what the item says holds, 1 for all of it."""
         return 1.0
 
     def stiffest(self, mass: np.ndarray) -> float:
@@ -76,5 +76,5 @@ class LatticeItem(Protocol):
         """Return what rounding of displacements leaves of its forces, as a norm [N]."""
         return 0.0
 
-    def report(self, u: np.ndarray, drive: Drive) -> tuple[ContactState, np.ndarray]:
+    def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it at an equilibrium, and its pressure [Pa] on every column (n,)."""

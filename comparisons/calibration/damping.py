@@ -10,17 +10,17 @@ Sensors 24, 6137.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from itertools import pairwise
 from math import ceil, hypot, log10, pi, prod
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 import lumped
 from comparisons.identification.columns import Columns, read_columns
-from comparisons.modes.damping import ModeDamping, mode_damping
+from comparisons.modes.damping import ModeDamping, damping_table, mode_damping
 from sheetbench.answers.table import MILLISECONDS, NUMBER, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Relaxation, Scene
@@ -32,18 +32,10 @@ FEWEST = 4  # rows of measured moduli
 RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement is πη where η is small"
 
 
-@dataclass(frozen=True)
-class Branch:
-    """A Maxwell branch of a material."""
-
-    share: Annotated[float, NUMBER(".5g")]
-    time: Annotated[float, MILLISECONDS(".5g")]
-
-
-def branches(material: Material) -> list[Branch]:
-    """Return the branches of a material, none of one without."""
+def branches(material: Material) -> list[tuple[float, float]]:
+    """Return share and time [s] of the Maxwell branches of a material, none of one without."""
     own = material.branches
-    return [Branch(float(share), float(time)) for share, time in zip(own.shares, own.times, strict=True)]
+    return [*zip(map(float, own.shares), map(float, own.times), strict=True)]
 
 
 def keys(
@@ -115,11 +107,12 @@ def tables(material: Material, modes: tuple[ModeDamping, ...]) -> tuple[Table, .
     """Return what the modes get, and the branches."""
     if not modes:
         return ()
-    fields = ("number", "frequency_hz", "asked", "got", "miss")
     text = f"{RELATION}. {_how(material)}"
-    shown = [Table.of(ModeDamping, modes, "Damping of the lowest modes", "damping", fields=fields, text=text)]
+    shown = [damping_table(modes, "Damping of the lowest modes", "damping", text)]
     if known := branches(material):
-        shown.append(Table.of(Branch, known, "Maxwell branches, as [[material.relaxation]]", "branches"))
+        columns = (NUMBER(".5g", "share"), MILLISECONDS(".5g", "time"))
+        caption = "Maxwell branches, as [[material.relaxation]]"
+        shown.append(Table.listed(caption, columns, known, "branches"))
     return tuple(shown)
 
 
@@ -147,7 +140,7 @@ def document(material: Material, modes: tuple[ModeDamping, ...]) -> dict[str, An
         "damping": {
             "loss_factor": material.loss_factor,
             "damping_time": material.dashpot_time,
-            "relaxation": [asdict(branch) for branch in branches(material)],
+            "relaxation": [{"share": share, "time": time} for share, time in branches(material)],
             "modes": [asdict(mode) for mode in modes],
         }
     }
@@ -157,8 +150,8 @@ def to_toml(material: Material) -> str:
     """Return what to paste into a scene beside its [springs]: the branches, or a comment with the one
     damper."""
     text = "".join(
-        f"\n[[material.relaxation]]\nshare = {one.share!r}\ntime = {one.time!r}\n"
-        for one in branches(material)
+        f"\n[[material.relaxation]]\nshare = {share!r}\ntime = {time!r}\n"
+        for share, time in branches(material)
     )
     if text:
         return f"\n# in [material]: young = {material.young!r}{text}"

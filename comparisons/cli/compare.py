@@ -8,6 +8,7 @@ from typing import Any
 from comparisons.cli.options import LatticeOptions, Seconds
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
+from sheetbench.answers.solution import Solution
 from sheetbench.choices import REFERENCE
 
 FRAMES = 100  # of a motion
@@ -54,7 +55,7 @@ def command(
     from comparisons.models.context import running
     from comparisons.models.grids import parse_elements
     from comparisons.models.resolve import resolve
-    from comparisons.pictures.vtk import write_mesh
+    from comparisons.pictures.array_files import write_mesh
     from sheetbench import scenes
 
     named = reference if isinstance(reference, str) else reference.label
@@ -84,7 +85,7 @@ def command(
     models |= {"--calibration": "open" if spec.calibration is None and spec.k is None else "named"}
     with output.open(scene=loaded, variant=models) as out:
 
-        def keep(solution: scenes.Solution) -> None:
+        def keep(solution: Solution) -> None:
             out.keep(f"{solution.model}.vtu", lambda path: write_mesh(path, solution.mesh))
 
         with running(solved=keep):

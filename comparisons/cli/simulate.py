@@ -45,7 +45,6 @@ def command(
     from comparisons.comparison.simulation import Simulation
     from comparisons.models.resolve import resolve
     from comparisons.models.solve import simulate
-    from comparisons.pictures.work import Pace, Work
     from sheetbench.scenes import scene_of
 
     loaded = scene_of(scene)
@@ -58,13 +57,6 @@ def command(
     run |= {f"--{name}": value for name, value in lattice.spec.settings.items()}
     chosen = {} if error is None else {"error": error}
     with output.open(scene=loaded, variant=run, alone=True) as out:
-        pace = Pace(duration)
-
-        def reached(time: float) -> None:
-            share = 100 * time / duration
-            out.progress(f"simulated {time:.3g} of {duration:g} s ({share:.0f} %{pace.remaining(time)})")
-
-        out.progress(Work("setting up", model.size))
         history = simulate(
             model,
             duration,
@@ -73,7 +65,6 @@ def command(
             every=every,
             store=out.reserve("run/"),
             frames=FRAMES if output.out is not None else 0,
-            progress=reached,
             **chosen,
         )
         out.reserve("frames/")

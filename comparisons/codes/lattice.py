@@ -10,11 +10,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.codes.arrays import arrays
-from comparisons.codes.files import script
+from comparisons.codes.files import script, to_sofa
 from comparisons.codes.page import page
-from comparisons.codes.sofa import to_sofa
-from comparisons.codes.tables import natural, plan, tables
+from comparisons.codes.tables import arrays, natural, plan, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import write_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from comparisons.codes.arrays import NAMES
+from comparisons.codes.tables import NAMES
 from sheetbench.answers.escape import markdown
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.words import in_words

@@ -1,12 +1,15 @@
-"""A code's parameters for a scene's sheet, as they are shown."""
+"""A code's parameters for a scene's sheet, and the base of answers about a cell in a scene."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
+from comparisons.codes.cell import Cell
 from comparisons.codes.table import CODES, Code, Numbers
-from sheetbench.answers.table import Column
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import NUMBER, Column
 from sheetbench.scenes import Material, Scene
 
 
@@ -15,10 +18,31 @@ class Parameter:
     """A parameter of a code, as it is shown."""
 
     code: str
-    parameter: str
-    value: Annotated[float, Column("value", form=".6g")]
+    name: Annotated[str, Column("parameter")]
+    value: Annotated[float, NUMBER(".6g")]
     unit: str
     convention: Annotated[str, Column("meaning in this code", prose=True)]
+
+
+@dataclass(frozen=True, repr=False)
+class CellInScene(Answer):
+    """Base of answers about a cell in a scene. coefficients: of the cell; limit_error: of however fine a mesh
+    with them, None where the scene has no answer at rest; missing: why that is not known where it should
+    be."""
+
+    scene: Scene
+    cell: Cell
+    coefficients: Mapping[str, float]
+    limit_error: float | None
+    missing: str
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the error in the scene is known, or needs not be."""
+        return not self.missing
+
+    def complaints(self) -> list[str]:
+        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
 
 
 def parameters(hinge: str, coefficients: Numbers, scene: Scene) -> list[Parameter]:

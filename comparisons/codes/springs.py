@@ -13,10 +13,8 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import brentq
 
-from comparisons.codes.cell import Cell, Place
-from comparisons.codes.cell_meshes import cell_of
-from comparisons.codes.coefficients import TURNED, least_error
-from comparisons.codes.homogenise import Moduli, moduli_of
+from comparisons.codes.cell import Cell, Place, cell_of
+from comparisons.codes.coefficients import TURNED, Moduli, least_error, moduli_of
 from fem_reference.surface.materials import section_of
 from sheetbench.scenes import Scene
 

@@ -1,12 +1,8 @@
-"""The sheet in motion, at true scale: frames with their time and a colour bar, as GIF or MP4.
-
-An MP4 is of a talk's size, 640 pixels wide, and written by the system's ffmpeg, where there is one; a GIF is
-of a README's, 480 pixels wide and below a megabyte.
-"""
+"""The sheet in motion, at true scale: frames with their time and a colour bar, as a GIF of a README's size,
+480 pixels wide and below a megabyte."""
 
 from __future__ import annotations
 
-import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -35,15 +31,15 @@ PER_SECOND, MOST = 8, 34  # frames a second, and at most
 
 
 def animate(scene: Scene, histories: Sequence[History], paths: Sequence[Path]) -> None:
-    """Write the frames of runs, several side by side in one view under their labels, to every path, as GIF or
-    MP4 by its suffix; an MP4 needs ffmpeg. Raises NoPicture without off-screen drawing."""
+    """Write the frames of runs, several side by side in one view under their labels, to every path, as
+    GIF. Raises NoPicture without off-screen drawing."""
     if impossible := offscreen.why_not():
         raise NoPicture(impossible)
     labels = [history.label for history in histories] if len(histories) > 1 else [""]
     images = _images(scene, [frames(history) for history in histories], labels)
     for path in paths:
         with whole(path) as partial:
-            (_write_mp4 if path.suffix == ".mp4" else _write_gif)(partial, images)
+            _write_gif(partial, images)
 
 
 def _images(
@@ -82,8 +78,7 @@ def _view(
         stage.surface(held, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
     for rest, u in frame.axes:
         stage.chain(rest + u)
-    corners = [stage.obstacle(obstacle, time) for obstacle in scene.obstacles]
-    return stage.take(np.vstack([seen, *corners]), np.empty((0, 3)))[0]
+    return stage.take(np.vstack([seen, stage.obstacles(time)]), np.empty((0, 3)))[0]
 
 
 def _page(
@@ -132,12 +127,3 @@ def _write_gif(path: Path, images: list[Image.Image]) -> None:
         optimize=True,
         format="GIF",
     )
-
-
-def _write_mp4(path: Path, images: list[Image.Image]) -> None:
-    width, height = (size - size % 2 for size in images[0].size)  # the codec wants even sizes
-    command = ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24"]
-    command += ["-s", f"{width}x{height}", "-r", str(PER_SECOND), "-i", "-"]
-    command += ["-pix_fmt", "yuv420p", "-movflags", "faststart", "-f", "mp4", str(path)]
-    raw = b"".join(image.crop((0, 0, width, height)).tobytes() for image in images)
-    subprocess.run(command, input=raw, check=True, capture_output=True)

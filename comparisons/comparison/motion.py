@@ -10,22 +10,16 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from comparisons.comparison.measures import largest
 from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.external import plugins
-from comparisons.models import sizes
-from comparisons.models.context import context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
-from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
@@ -33,9 +27,6 @@ from sheetbench.scenes import AnyScene, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
 LONGER = 8.0  # error of a step: steps twice as long
-STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
-SOLVES = 0.08  # of a static solve's time that a step takes
-EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
 
 
 def compare_motion(
@@ -74,22 +65,12 @@ def compare_motion(
 
     def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
         """A run, kept in a folder of its own by its settings where there is a store."""
-        spec, pace, size = of.spec, Pace(duration), None
-        if isinstance(spec, Elements):
-            steps, each = _expected_steps(scene, duration), sizes.size(scene, spec)
-            size = each and replace(each, seconds=steps * SOLVES * each.seconds)
-        context().progress(Work(doing, size))
-
-        def reached(time: float) -> None:
-            soon = pace.remaining(time) if time >= EVEN * duration else ""
-            context().progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
-
-        if not isinstance(spec, External):
-            question = [scene.document(), duration, spacing, spec.model, of.settings, settings]
+        if not isinstance(of.spec, External):
+            question = [scene.document(), duration, spacing, of.spec.model, of.settings, settings]
             text = json.dumps(question, sort_keys=True, default=str)
-            kept = store and store / f"{spec.model}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
-            settings |= {"progress": reached, "store": kept}
-        return simulate(of, duration, every=spacing, **settings)
+            kept = store and store / f"{of.spec.model}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
+            settings |= {"store": kept}
+        return simulate(of, duration, doing, every=spacing, **settings)
 
     own = moved(model, "simulating the lattice", every, frames=frames)
     histories, spacing = {model.spec.model: own}, own.settings["every"]
@@ -112,15 +93,6 @@ def compare_motion(
 
 def _largest(one: History, other: History) -> float | None:
     return largest(one, other) if one.succeeded else None
-
-
-def _expected_steps(scene: Scene, duration: float) -> int:
-    """Steps that a reference takes, roughly."""
-    import fem_reference
-
-    lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
-    each = STEPS_PER_PERIOD[scene.material.dashpot_time == 0.0]
-    return int(np.ceil(each * max(duration * lowest, 0.5)))
 
 
 def require_motion(scene: Scene, spec: Spec) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -48,9 +47,8 @@ class Simulation(History):
         of = (self, self.subject.title or self.subject.name, self.measured)
         pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
         if self.animate:
-            formats = ("gif", "mp4") if shutil.which("ffmpeg") else ("gif",)
             film = "comparisons.comparison.animation:animate"
-            pictures.append(Film("animation", film, (self.subject, [self]), formats=formats))
+            pictures.append(Film("animation", film, (self.subject, [self])))
         return tuple(pictures)
 
     def files(self) -> dict[str, Write]:

@@ -4,7 +4,7 @@ It is named `exec:PATH`, with settings after it: `exec:./mysim:seconds=5,n=9` ru
 five seconds at most. On standard input it gets the scene, as "scene" in `compare --json` has it, its probes
 always there; on standard output it answers with one JSON object:
 
-    status    "converged", or another of `scenes.Status`
+    status    "converged", or another of `Status`
     probes    {name: [ux, uy, uz]} in metres, of every probe of the scene
     and, if it likes, solve_seconds (else the whole run counts), unknowns, iterations, load_factor, reactions
     {edge: [Fx, Fy, Fz]} of what the scene holds, label, message

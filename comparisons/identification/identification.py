@@ -29,14 +29,11 @@ import numpy as np
 
 from comparisons.identification import remarks
 from comparisons.identification.answer import Estimate, Identification
-from comparisons.identification.fit import Fit, Nearest
+from comparisons.identification.fit import Fit, Nearest, nearest
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
-from comparisons.identification.model import lattice_model, reference_model
-from comparisons.identification.outliers import Outlier, outliers
-from comparisons.identification.prediction import NotReached, set_in
+from comparisons.identification.model import NotReached, lattice_model, reference_model, set_in
 from comparisons.identification.refinement import GRID_ERROR, mesh_error, refined
-from comparisons.identification.residual_test import explained, runs
-from comparisons.identification.starts import nearest
+from comparisons.identification.residual_test import Outlier, explained, outliers, runs
 from comparisons.identification.unknowns import DAMPING, VISCOUS, Unknown
 from comparisons.identification.unknowns import unknown as unknown_of
 from comparisons.models.context import context

@@ -17,8 +17,7 @@ from math import prod
 import numpy as np
 
 from comparisons.identification.fit import Fit, Nearest
-from comparisons.identification.model import lattice_model, reference_model
-from comparisons.identification.prediction import NotReached
+from comparisons.identification.model import NotReached, lattice_model, reference_model
 from comparisons.models.context import context
 from comparisons.models.resolve import resolve
 from comparisons.models.sizes import has_room
@@ -81,7 +80,7 @@ def mesh_error(scene: Scene, reference: Elements, fit: Fit, best: Nearest) -> np
         return np.full(len(best.x), np.nan)
     context().progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
     other = reference_model(resolve(scene, reference.but(count=coarse)))
-    step = _step(replace(fit, model=replace(fit.model, predictor=other.predictor)), best.x)
+    step = _step(replace(fit, model=replace(fit.model, predict=other.predict)), best.x)
     return np.abs(step) / (longer - 1.0)
 
 

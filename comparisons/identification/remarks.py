@@ -8,8 +8,7 @@ import numpy as np
 
 from comparisons.identification.answer import Estimate
 from comparisons.identification.fit import Fit, Nearest
-from comparisons.identification.outliers import Outlier
-from comparisons.identification.residual_test import POOR, Runs, explained
+from comparisons.identification.residual_test import POOR, Outlier, Runs, explained
 from fem_reference.pulled_strip import curving, laws_of
 from sheetbench.answers.table import quantity
 from sheetbench.choices import STRAIN_LAW
@@ -18,6 +17,7 @@ from sheetbench.scenes.language.summary import few
 
 NOTED = 0.01  # share of the force from which on it is reported
 RUBBERS = "neo-hookean"
+CELLS = "cells half as large"
 
 
 def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list[str]:
@@ -65,16 +65,18 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
 def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str]:
     """Return what the lattice's cells, or the elements of another model, do to the values."""
     lattice = model == "lumped"
-    other, error = ("cells half as large", "grid's") if lattice else ("elements twice as large", "mesh's")
+    other, error = (CELLS, "grid's") if lattice else ("elements twice as large", "mesh's")
     seen = [u for u in found.values() if u.determined]
     if looked and seen and all(u.interval == u.noise_interval for u in seen):
         return [f"{other} could not be solved: the {error} error is not known, nor in the interval"]
     more = "masses (--lumped), or leave the grid to the fit" if lattice else "--elements"
-    return [
-        f"{name}{_finer(u)}: most of its interval is the {error} error; take more {more}"
+    finer = {
+        name: "" if u.refined is None else f" would be {quantity(u.refined, u.unit)} on {CELLS}"
         for name, u in found.items()
         if u.determined and _wide(u)
-    ]
+    }
+    rest = f"most of its interval is the {error} error; take more {more}"
+    return [f"{name}{value}: {rest}" for name, value in finer.items()]
 
 
 def on_law(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
@@ -87,22 +89,12 @@ def on_law(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
     off = differences[other] * (stretch or 0.0)
     if off <= NOTED:
         return []
-    remedy = (
-        ""
-        if own in (RUBBERS, material.law)
-        else f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
-    )
+    remedy = f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
+    remedy = "" if own in (RUBBERS, material.law) else remedy
     return [
         f"values are those of the law {own}: at {few(100.0 * (stretch or 0.0))} % stretch, as here, the "
         f"force of {other} is some {few(100.0 * off)} % another{remedy}"
     ]
-
-
-def _finer(found: Estimate) -> str:
-    """Where finer cells would put a value, as far as that is known."""
-    if found.refined is None:
-        return ""
-    return f" would be {quantity(found.refined, found.unit)} on cells half as large"
 
 
 def _wide(found: Estimate) -> bool:

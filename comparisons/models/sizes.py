@@ -6,6 +6,7 @@ size of all that it is about to solve.
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Callable
 from math import prod
 
@@ -13,10 +14,12 @@ from comparisons.external import memory
 from comparisons.models.context import context
 from comparisons.models.spec import Spec
 from comparisons.models.symmetry import cut_axes
-from comparisons.pictures import amounts
+from comparisons.pictures import work
 from sheetbench.answers.size import Size
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
+
+MOST = 10**6  # masses or elements along a side
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
@@ -55,9 +58,9 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
 
     fitting = _largest(2 if spec.MASSES else 1, fits)
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"
-    taken, free = amounts.memory(needed.memory), amounts.memory(room)
+    taken, free = work.memory(needed.memory), work.memory(room)
     raise BadInput(
-        f"{spec.model} {counts}: {amounts.count(needed.unknowns)} unknowns take about {taken} of "
+        f"{spec.model} {counts}: {work.count(needed.unknowns)} unknowns take about {taken} of "
         f"memory, and {free} are free here; {instead or advice}, or give --large (in Python large=True) to "
         "try all the same"
     )
@@ -81,13 +84,4 @@ def _estimate(spec: Spec, counts: list[int]) -> Size:
 
 def _largest(least: int, fits: Callable[[int], bool]) -> int:
     """Return the largest number that fits, 0 if none does."""
-    if not fits(least):
-        return 0
-    above = 2 * least
-    while fits(above):
-        above *= 2
-    below = above // 2
-    while above - below > 1:
-        middle = (below + above) // 2
-        below, above = (middle, above) if fits(middle) else (below, middle)
-    return below
+    return bisect(range(MOST), False, least, key=lambda number: not fits(number)) - 1 if fits(least) else 0

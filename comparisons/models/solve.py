@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from math import ceil
 from typing import Any, Literal
 
 from comparisons.external import plugins
@@ -19,8 +20,9 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice, LatticePair
 from comparisons.models.symmetry import by_parts, cut_axes
-from comparisons.pictures.work import Work
+from comparisons.pictures.work import Pace, Work, silent
 from sheetbench.answers.history import History
+from sheetbench.answers.size import Size
 from sheetbench.answers.solution import FieldMesh, Iteration, Solution
 from sheetbench.choices import REFERENCES
 from sheetbench.clock import now
@@ -30,6 +32,9 @@ from sheetbench.scenes.meaning.region import share_of
 from sheetbench.scenes.objects.grading import mirrored
 
 Watch = Callable[[Iteration], None]  # called once an iteration
+STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
+SOLVES = 0.08  # of a static solve's time that a step takes
+EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
 COARSE = (Lattice((3, 3, 2)), LatticePair((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
@@ -121,24 +126,44 @@ def _elements(scene: Scene, spec: Elements, watch: Watch | None) -> Solution:
     return by_parts(scene, axes, answer)
 
 
-def simulate(model: Resolved[Any], duration: float, **settings: Any) -> History:
-    """Return a model's motion over `duration` [s]; settings: those of its own `simulate`.
+def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings: Any) -> History:
+    """Return a model's motion over `duration` [s]; doing: what progress calls it; settings: those of its own
+    `simulate`.
 
     Raises BadInput for a plug-in that does not move.
     """
-    spec, scene = model.spec, model.scene
+    spec, scene, progress = model.spec, model.scene, context().progress
+    doing, pace = doing or f"simulating {plugins.shown_name(spec.model)}", Pace(duration)
+    progress(Work(doing, None if progress is silent else _size_of_motion(model, duration)))
+
+    def reached(time: float) -> None:
+        soon = pace.remaining(time) if time >= EVEN * duration else ""
+        progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
+
     if isinstance(spec, Elements):
         import fem_reference
 
-        counts = tuple(spec.counts(scene)[:2])
-        return fem_reference.simulate(scene, spec.kind, duration, elements=counts, **spec.options, **settings)
+        settings |= {"elements": tuple(spec.counts(scene)[:2]), **spec.options, "progress": reached}
+        return fem_reference.simulate(scene, spec.kind, duration, **settings)
     if isinstance(spec, Lattice):
         import lumped
 
-        history = lumped.simulate(scene, model.springs, duration, **settings)
+        history = lumped.simulate(scene, model.springs, duration, progress=reached, **settings)
         return replace(history, settings={**history.settings, **model.reasons})
     outside = plugins.moving(spec.model)
     return outside.simulate(scene, plugins.settings_of(outside, spec.settings), duration, **settings)
+
+
+def _size_of_motion(model: Resolved[Any], duration: float) -> Size | None:
+    """Return what the motion of a reference takes, its steps by the period of its lowest mode."""
+    scene, size = model.scene, model.size
+    if size is None or not isinstance(model.spec, Elements):
+        return None
+    import fem_reference
+
+    lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
+    steps = STEPS_PER_PERIOD[scene.material.dashpot_time == 0.0] * max(duration * lowest, 0.5)
+    return replace(size, seconds=ceil(steps) * SOLVES * size.seconds)
 
 
 @cache

@@ -10,6 +10,8 @@ and the part cannot tell.
 
 from __future__ import annotations
 
+import json
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import isclose
@@ -112,45 +114,33 @@ def by_parts(scene: Scene, axes: Sequence[int], answer: Callable[[Scene], Soluti
 
 
 def _mirrors(scene: Scene, axis: int) -> bool:
+    """Return whether every support and load has its mirror image among them, itself perhaps."""
     across = scene.gravity.acceleration[axis] if scene.gravity is not None else 0.0
-    supports = {_support_key(support) for support in scene.supports}
-    mirrored = {_support_key(s.replace(edge=_image(s.edge, axis))) for s in scene.supports}
-    return across == 0.0 and supports == mirrored and _loads_mirror(scene, axis)
+    edge_loads = [load for load in scene.loads if isinstance(load, EdgeLoad) and load.moment_per_length]
+    turned = any(EDGES[load.edge].normal_axis != axis for load in edge_loads)
+    parts = (*scene.supports, *scene.loads)
+    images = (_image_of(part, scene, axis) for part in parts)
+    return across == 0.0 and not turned and Counter(map(_key, parts)) == Counter(map(_key, images))
 
 
-def _support_key(support: AnySupport) -> str:
-    return str(sorted(support.model_dump(mode="json").items()))
+def _key(part: AnySupport | Load) -> str:
+    """Return a support or a load as text, its numbers to twelve digits."""
+    rounded = json.loads(part.model_dump_json(), parse_float=lambda text: f"{float(text) + 0.0:.11e}")
+    return json.dumps(rounded, sort_keys=True)
 
 
-def _image(edge: str, axis: int) -> str:
-    return OTHER_END[edge] if EDGES[edge].normal_axis == axis else edge
-
-
-def _loads_mirror(scene: Scene, axis: int) -> bool:
-    """Return whether every load has its mirror image among the loads, itself perhaps."""
-    left = list(scene.loads)
-    for load in scene.loads:
-        crossing = isinstance(load, EdgeLoad) and EDGES[load.edge].normal_axis != axis
-        if crossing and load.moment_per_length:  # type: ignore[union-attr]
-            return False
-        image = _image_of(load, scene, axis)
-        found = next((other for other in left if _same(other, image)), None)
-        if found is None:
-            return False
-        left.remove(found)
-    return True
-
-
-def _image_of(load: Load, scene: Scene, axis: int) -> Load:
+def _image_of(part: Any, scene: Scene, axis: int) -> Any:
+    """Return the mirror image of a support or a load."""
     flip = [-1.0 if i == axis else 1.0 for i in range(3)]
-    if isinstance(load, PointLoad):
-        at = list(load.at)
+    if isinstance(part, PointLoad):
+        at = list(part.at)
         at[axis] = scene.sheet.lengths[axis] - at[axis]
-        return load.replace(at=(at[0], at[1]), force=_times(load.force, flip))
-    if isinstance(load, EdgeLoad):
-        force = _times(load.force_per_length, flip)
-        return load.replace(edge=_image(load.edge, axis), force_per_length=force)
-    return load
+        return part.replace(at=(at[0], at[1]), force=_times(part.force, flip))
+    if isinstance(part, EdgeLoad):
+        part = part.replace(force_per_length=_times(part.force_per_length, flip))
+    edge = getattr(part, "edge", None)
+    crosses = edge is None or EDGES[edge].normal_axis != axis
+    return part if crosses else part.replace(edge=OTHER_END[edge])
 
 
 def _half_load(load: Load, scene: Scene, axis: int) -> Load | None:
@@ -166,16 +156,6 @@ def _half_load(load: Load, scene: Scene, axis: int) -> Load | None:
         force = _times(load.force, [0.5, 0.5, 0.5])
         return load.replace(at=(on_plane[0], on_plane[1]), force=force)
     return load if load.at[axis] < middle else None
-
-
-def _same(a: Load, b: Load) -> bool:
-    return type(a) is type(b) and all(_equal(x, y) for (_, x), (_, y) in zip(a, b, strict=True))
-
-
-def _equal(a: Any, b: Any) -> bool:
-    if isinstance(a, tuple):
-        return len(a) == len(b) and all(map(_equal, a, b))
-    return isclose(a, b, rel_tol=1e-12, abs_tol=1e-300) if isinstance(a, float) else bool(a == b)
 
 
 def _times(vector: tuple[float, float, float], factors: list[float]) -> tuple[float, float, float]:

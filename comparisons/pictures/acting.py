@@ -1,7 +1,7 @@
 """What acts on a sheet, on the stage of its picture: chains and moved edges in red, loads as blue arrows,
 payloads at points as dark balls, obstacles pale.
 
-An arrow starts where its force acts and points along it (`comparisons.pictures.arrows`). A turned arrow is an
+An arrow starts where its force acts and points along it (`comparisons.pictures.plan`). A turned arrow is an
 edge's moment.
 """
 
@@ -12,8 +12,7 @@ from functools import partial
 import numpy as np
 import pyvista
 
-from comparisons.pictures.arrows import ALONG, edge_plan, load_arrows
-from comparisons.pictures.plan import on_sheet
+from comparisons.pictures.plan import ALONG, edge_plan, load_arrows, on_sheet
 from comparisons.pictures.stage import Stage
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import EDGES, Chain, EdgeLoad
@@ -25,7 +24,7 @@ ASIDE = 0.012  # of the longer side: how far a chain on a face is drawn from the
 
 def draw(stage: Stage, solution: Solution) -> np.ndarray:
     """Put actuators, loads and payloads on the stage; places (n, 3) [m] that must be seen."""
-    seen = [np.empty((0, 3))]
+    seen = [stage.obstacles()]
     scene = stage.scene
     for actuator in scene.actuators:
         if isinstance(actuator, Chain):
@@ -39,7 +38,6 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
     plan, arrows = load_arrows(scene, partial(_normals, stage, solution))
     if len(plan):
         seen.append(_arrows(stage, stage.deformed(solution, plan), arrows))
-    seen += map(stage.obstacle, scene.obstacles)
     bodies = np.array([payload.at for payload in scene.masses if payload.at is not None]).reshape(-1, 2)
     if len(bodies):
         stage.payloads(stage.deformed(solution, bodies))

@@ -16,7 +16,6 @@ from comparisons.pictures.plan import eye_heading, held_lines, plan_lines, plan_
 from sheetbench.answers.solution import FieldMesh, Solution
 from sheetbench.answers.style import DARK, GREY
 from sheetbench.scenes import Cylinder, Plane, Scene, holds_director
-from sheetbench.scenes.objects.obstacles import AnyObstacle
 
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
@@ -63,22 +62,25 @@ class Stage:
         balls = at.glyph(geom=ball, scale=False, orient=False)
         self.plotter.add_mesh(balls, smooth_shading=True, **shown)
 
-    def obstacle(self, obstacle: AnyObstacle, time: float | None = None) -> np.ndarray:
-        """The part of an obstacle that is near the sheet, at a time [s] or its last place; corners (n, 3) [m]
-        of it."""
-        at, along = np.array(obstacle.position) + obstacle.displacement(1.0, time), obstacle.direction
-        middle = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0])
-        way, round_ = ((middle - at) @ along) * along, obstacle.radius
-        if isinstance(obstacle, Plane):
-            side = 1.3 * self.size
-            body = pyvista.Plane(center=middle - way, direction=along, i_size=side, j_size=side)
-        elif isinstance(obstacle, Cylinder):
-            long, way = 1.2 * self.size, at + way
-            body = pyvista.Cylinder(center=way, direction=along, radius=round_, height=long, resolution=80)
-        else:
-            body = pyvista.Sphere(radius=round_, center=at, theta_resolution=60, phi_resolution=60)
-        self.plotter.add_mesh(body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=True)
-        return np.array([*product(*np.reshape(body.bounds, (3, 2)))])
+    def obstacles(self, time: float | None = None) -> np.ndarray:
+        """The parts of obstacles that are near the sheet, at a time [s] or in their last places; corners
+        (n, 3) [m] of them."""
+        middle, shown = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0]), list[Any]()
+        for one in self.scene.obstacles:
+            at, along, radius = one.position + one.displacement(1.0, time), one.direction, one.radius
+            way, side = ((middle - at) @ along) * along, 1.3 * self.size
+            if isinstance(one, Plane):
+                body = pyvista.Plane(center=middle - way, direction=along, i_size=side, j_size=side)
+            elif isinstance(one, Cylinder):
+                size = {"radius": radius, "height": 1.2 * self.size}
+                body = pyvista.Cylinder(center=at + way, direction=along, resolution=80, **size)
+            else:
+                body = pyvista.Sphere(radius=radius, center=at, theta_resolution=60, phi_resolution=60)
+            self.plotter.add_mesh(
+                body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=True
+            )
+            shown += product(*np.reshape(body.bounds, (3, 2)))
+        return np.array(shown).reshape(-1, 3)
 
     def chain(self, points: np.ndarray) -> None:
         """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""

@@ -8,8 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from comparisons.reproduction.answers import ReproducedTest, of_model
-from comparisons.reproduction.published import published
+from comparisons.reproduction.answers import ReproducedTest, of_model, published
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling
 from sheetbench.answers.habibi import PROBES, published_inputs
 from sheetbench.answers.solution import Status

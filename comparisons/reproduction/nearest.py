@@ -9,11 +9,9 @@ the commit that has the searches.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from importlib import resources
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +25,10 @@ SOUGHT = {
     "tilt": TableUnit("rad", "°", 180.0 / np.pi)(".2g", "tilt"),
     "curvature": TableUnit("1/m", "1/m")(".3g", "κ"),
 }
+COLUMNS = (
+    *("tests", "rod", "of", Column("table", detail=True), *SOUGHT.values(), "by"),
+    *(PERCENT(".3g", "rms"), PERCENT(".3g", "error"), "met"),
+)
 RODS = {0: "–", 1: "ends up", -1: "ends down"}
 TEXT = (
     "sheet: a plate (consistent springs), of the published experiment; lattice: equal springs, of the "
@@ -35,22 +37,6 @@ TEXT = (
     "met. rms and error: of the differences, over the largest published component. met: entries within 10 % "
     "of themselves. Stored results of {}."
 )
-
-
-@dataclass(frozen=True)
-class Fit:
-    """The sheet of a kind that comes nearest to a published table; sought: the values found (SI) of the
-    numbers that were free; met: how many components of the table it has."""
-
-    tests: Annotated[str, Column("tests")]
-    rod: str
-    kind: Annotated[str, Column("of")]
-    table: Annotated[str, Column("table", detail=True)]
-    sought: Mapping[Column, float | None]
-    by: str
-    rms: Annotated[float, PERCENT(".3g")]
-    error: Annotated[float, PERCENT(".3g")]
-    met: str
 
 
 @cache
@@ -67,19 +53,15 @@ def findings() -> list[Finding]:
 
 
 def table() -> Table:
-    """Return a row per fit: what was sought, what was found, how near."""
+    """Return a row per fit, the sheet of a kind that comes nearest to a published table: what was sought,
+    what was found (SI), how near, and how many components of the table it has."""
     rows = [
-        Fit(
+        (
             " and ".join(map(str, fit["tests"])),
             "sought" if "curvature" in fit["sought"] else RODS[fit["sense"]],
-            fit["kind"],
-            fit["table"],
-            {column: fit["sought"].get(name) for name, column in SOUGHT.items()},
-            fit["by"],
-            fit["rms"],
-            fit["error"],
-            f"{fit['met']} of {fit['entries']}",
+            *(fit["kind"], fit["table"], *(fit["sought"].get(name) for name in SOUGHT), fit["by"]),
+            *(fit["rms"], fit["error"], f"{fit['met']} of {fit['entries']}"),
         )
         for fit in stored()["fits"]
     ]
-    return Table.of(Fit, rows, "The nearest sheets", "nearest", text=TEXT.format(stored()["made"]))
+    return Table.listed("The nearest sheets", COLUMNS, rows, "nearest", text=TEXT.format(stored()["made"]))

@@ -14,8 +14,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from comparisons.reproduction.answers import COMPONENTS, printed
 from comparisons.reproduction.findings import Finding
-from comparisons.reproduction.published import COMPONENTS, printed
 from sheetbench.answers.habibi import PROBES, published_errors, published_inputs
 from sheetbench.answers.table import PERCENT, Column, Table, percent
 

@@ -27,7 +27,7 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any, TypedDict
 
-from comparisons.pictures.amounts import duration
+from comparisons.pictures.work import duration
 from comparisons.sweep import interrupts
 from comparisons.sweep.executors import Pool, Watched, processes, single_threaded
 from comparisons.sweep.store import FILE, Finished, Store

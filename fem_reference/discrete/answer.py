@@ -8,18 +8,25 @@ are the scene's own (see `surface.balance`).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
+from fem_reference.surface.rubber import limit_notes
 from sheetbench.answers.solution import Solution, Status
+from sheetbench.clock import now
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.path import Path
+from sheetbench.numerics.continuation.newton import Start
+from sheetbench.numerics.continuation.path import Fault, Inspect, Path
+from sheetbench.numerics.continuation.pseudo_transient import relax
+from sheetbench.numerics.continuation.trace import trace_path
 
 EPSILON = float(np.finfo(float).eps)
 
@@ -27,6 +34,45 @@ EPSILON = float(np.finfo(float).eps)
 def shape_of(path: Path[StaticState, Forces]) -> SheetShape:
     """Return the shape of a sheet at the last equilibrium of a path."""
     return cast(Static, path.structure).shape(path.state, path.load_factor)
+
+
+class Traced(NamedTuple):
+    """A path of a sheet at rest to its full load, with the seconds that setting up and solving took."""
+
+    sheet: DiscreteElements
+    path: Path[StaticState, Forces]
+    setup_seconds: float
+    solve_seconds: float
+
+
+def inspected(path: Path[StaticState, Forces]) -> Fault | None:
+    """Return why a step of a path is given up: an element that has turned inside out."""
+    found = shape_of(path).sheet.inside_out(path.state.q)
+    return Fault(Status.INVERTED, found) if found else None
+
+
+def traced(
+    make: Callable[[], DiscreteElements],
+    inspect: Inspect[StaticState, Forces] = inspected,
+    near: Callable[[Any], Start[StaticState]] | None = None,
+    **options: Any,
+) -> Traced:
+    """Return the run of a sheet that is made here. near: where it is to begin; options: of `trace_path`."""
+    begin = now()
+    sheet = make()
+    ready = now()
+    start, slenderness = near and near(sheet), sheet.scene.sheet.thickness / sheet.lever
+    settle = relax if sheet.creeps else None
+    options |= {"near": start, "slenderness": slenderness}
+    path = trace_path(Static(sheet), sheet.solver(), inspect, settle, **options)
+    path.factor = None  # a run is kept longer than that
+    return Traced(sheet, path, ready - begin, now() - ready)
+
+
+def equilibrium(sheet: DiscreteElements) -> tuple[np.ndarray, Status, list[str]]:
+    """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
+    path = traced(lambda: sheet).path
+    return path.state.q, *judge(path)
 
 
 def judge(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
@@ -38,16 +84,34 @@ def judge(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
     return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]
 
 
-def answered(path: Path[StaticState, Forces], **own: Any) -> Solution:
-    """Return the answer at the end of a path; own: the fields of it that are the model's own."""
+def answered(runs: Sequence[Traced], label: str, settings: dict[str, Any], fallback: str = "") -> Solution:
+    """Return the answer of the first of these runs, which took the others too, the last of them first."""
+    path = runs[0].path
     shape, share = shape_of(path), path.load_factor
     sheet, forces = shape.sheet, path.structure.forces(path.state, share)
     left = max(Limits.tolerance * forces.size, path.structure.imbalance(path.state, forces))
     if sheet.norm == 2:  # a sum of n numbers is at most √n times their norm
         left *= np.sqrt(sheet.unknowns)
     allowed = float(left + EPSILON * sheet.summed(shape))
-    own = {"iterations": path.factorisations, "load_factor": share, "stretch": shape.stretch} | own
-    return answer(shape, forces.residual, forces.size, allowed, **own)
+    status, notes = judge(path)
+    return answer(
+        shape,
+        forces.residual,
+        forces.size,
+        allowed,
+        label=label,
+        settings=settings,
+        status=status,
+        iterations=sum(one.path.factorisations for one in runs),
+        setup_seconds=sum(one.setup_seconds for one in runs),
+        solve_seconds=sum(one.solve_seconds for one in runs),
+        history=tuple(entry for one in runs[::-1] for entry in one.path.history),
+        load_factor=share,
+        snaps=tuple(path.snaps),
+        fallback=fallback,
+        remarks=(*notes, *limit_notes(settings.get("law"), sheet.scene.material, status)),
+        stretch=shape.stretch,
+    )
 
 
 def answer(
@@ -59,16 +123,15 @@ def answer(
     **own: Any,
 ) -> Solution:
     """Return the answer in a shape under its share of the load, with a residual (N,). size, allowed: of the
-    balance (`scenes.Balance`), which there is only where `balanced`."""
+    balance (`Balance`), which there is only where `balanced`."""
     sheet, q, share = shape.sheet, shape.q, shape.at
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     edges, wrenches, line = sheet.wrenches(shape, residual)
     reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(shape)
     held = sheet.holding(q, residual, share)
-    for item in sheet.items:
-        for name, (places, forces) in item.holds(shape).items():
-            reactions[name] = forces.reshape(-1, 3).sum(axis=0)
-            held.append((places.reshape(-1, 3), forces.reshape(-1, 3)))
+    by_items = sheet.held_by_items(shape)
+    reactions |= {name: forces.sum(axis=0) for name, (_, forces) in by_items.items()}
+    held += by_items.values()
     mesh = sheet.drawn(q, line if scene.actuators else None)
     contacts = {one.name: one.report(shape) for one in sheet.contacts}
     if contacts:

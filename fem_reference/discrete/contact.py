@@ -23,7 +23,7 @@ from fem_reference.surface.mesh import Plan
 from sheetbench.answers.contact import ContactState
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.distances import Near, dyad, near
-from sheetbench.scenes.objects.obstacles import SLIP_SPEED, TOUCH, AnyObstacle
+from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle
 
 SOFTER, ROUNDED = 0.01, 0.3  # in motion: of k, and over which part of the thickness the law is rounded
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (faces, m, 9)
@@ -32,11 +32,8 @@ Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p
 class Touching(SheetItem):
     """Contact with one obstacle. share: of its stiffness; levers: ζ (faces, m, 9) [m] of elements' nodes."""
 
-    thin = False  # soft contact first, of all obstacles
-
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
-        self.name, self.obstacle, self.moving, self.radius = name, obstacle, moving, obstacle.radius
-        self.moved, self.on = float(np.linalg.norm(obstacle.displacement(1.0))), plan.elements
+        self.name, self.obstacle, self.moving, self.on = name, obstacle, moving, plan.elements
         constants, shape = constants_of(scene, plan.corners), areas(plan.corners)
         self.area = shape @ AT_GAUSS[0]
         self.thickness = (shape * constants.thickness) @ AT_GAUSS[0] / self.area
@@ -52,8 +49,7 @@ class Touching(SheetItem):
 
     def _near(self, shape: SheetShape) -> Near:
         """Return where points (faces, m, 9) are beside the obstacle as it is then."""
-        drive = (1.0, shape.at) if self.moving else (shape.at, None)
-        return near(self.obstacle, self._points(shape.vectors), *drive)
+        return near(self.obstacle, self._points(shape.vectors), *shape.sheet.instant(shape.at))
 
     def _sunk(self, shape: SheetShape) -> tuple[Near, np.ndarray, Pressed]:
         """Return where points are, and how deep (faces, m, 9) [m], < 0 of one that is clear."""
@@ -72,7 +68,7 @@ class Touching(SheetItem):
     def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, m, 9, 3) [N]."""
         found, _, (_, load, _) = self._sunk(shape)
-        return load[..., None] * found.normal + self._rubbed(shape)[0]
+        return load[..., None] * found.normal + self._resisted(shape)[0]
 
     def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
@@ -96,25 +92,16 @@ class Touching(SheetItem):
         out[:, :, at, :, :, at] = np.einsum("rfen,cfen,fenij->nericj", by, by, blocks[:, on])
         return (on, out.reshape(-1, 18, 3, 18, 3)) if len(on) else None
 
-    def _rubbed(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray]:
-        """Return forces (faces, m, 9, 3) [N] of the dashpot and of friction, in motion, and their derivatives
-        by points' velocities (faces, m, 9, 3, 3)."""
+    def _resisted(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray]:
+        """Return forces (faces, m, 9, 3) [N] of dashpot and friction, in motion, and their derivatives by
+        points' velocities (faces, m, 9, 3, 3)."""
         if not self.resists:
             return np.zeros((*self.levers.shape, 3)), np.zeros((*self.levers.shape, 3, 3))
         found, _, (_, load, _) = self._sunk(shape)
-        across, tau = dyad(found.normal), self.obstacle.contact_damping
-        speed = self._points(shape.rates) - self.obstacle.velocity(shape.at)
-        sinking = -(speed * found.normal).sum(axis=-1)
-        sliding = speed + sinking[..., None] * found.normal
-        slip = np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)
-        rubbed = (self.obstacle.friction * load / slip)[..., None]
-        pressed = (load * np.maximum(tau * sinking, -1.0))[..., None]
-        damped = (tau * load * (tau * sinking > -1.0))[..., None, None]
-        along = np.eye(3) - across - dyad(sliding / slip[..., None])
-        return pressed * found.normal - rubbed * sliding, -damped * across - rubbed[..., None] * along
+        return found.resistance(load, self._points(shape.rates) - self.obstacle.velocity(shape.at))
 
     def damping(self, shape: SheetShape) -> Tangent | None:
-        return self._between(self._rubbed(shape)[1])
+        return self._between(self._resisted(shape)[1])
 
     def potential(self, shape: SheetShape) -> float:
         return float(self._sunk(shape)[2][0].sum())
@@ -125,7 +112,7 @@ class Touching(SheetItem):
         if shape.v is None or not shape.v.any():
             return 0.0, 0.0
         moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
-        rubbed = self._rubbed(shape)[0]
+        rubbed = self._resisted(shape)[0]
         taken = rubbed.sum(axis=(0, 1, 2)) @ moved - self._onto(shape, rubbed) @ step
         return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ moved)
 
@@ -133,7 +120,6 @@ class Touching(SheetItem):
         return {self.name: (self._points(shape.vectors), self._pulled(shape))}
 
     def step_share(self, start: SheetShape, end: SheetShape) -> float:
-        """Return the share of a straight way that leads no point deeper than half a radius, nor through."""
         return self._near(end).share_of_way(self._near(start), self.offset)
 
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:

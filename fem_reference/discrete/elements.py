@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from copy import copy
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -31,6 +31,7 @@ class DiscreteElements(Discrete):
     per_vector: 1 of an element's positions (a,), of its directors 1 over the lever."""
 
     element: Element | Bricks
+    creeps: ClassVar[bool] = False
     pattern: Pattern
     per_vector: np.ndarray
 

@@ -200,6 +200,11 @@ class Discrete(Output):
         """Forces (N,) of all items."""
         return sum((item.force(shape) for item in self.items), np.zeros(self.size))
 
+    def held_by_items(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Where (k, 3) [m], and with which forces (k, 3) [N], items hold the sheet, by their names."""
+        held = {name: both for item in self.items for name, both in item.holds(shape).items()}
+        return {name: (at.reshape(-1, 3), force.reshape(-1, 3)) for name, (at, force) in held.items()}
+
     def internal(self, shape: SheetShape) -> np.ndarray:
         """Forces (N,) of the sheet's elements and of its rods."""
         out = self.elements_internal(shape)

@@ -144,16 +144,11 @@ class Static(Creeping[StaticState, Forces]):
         flat = self.sheet.shape(np.zeros(self.sheet.size), 1.0)
         return float(np.abs(self.sheet.displacement(self.sheet.external(flat))).sum())
 
-    def passes(self, start: StaticState, since: float, end: StaticState, load_factor: float) -> bool:
-        ends = self.sheet.shape(start.q, since), self.sheet.shape(end.q, load_factor)
-        return any(one.step_share(*ends) < 1.0 for one in self.sheet.contacts)
+    def placed(self, state: StaticState, load_factor: float) -> SheetShape:
+        return self.sheet.shape(state.q, load_factor)
 
     def restarted(self, state: StaticState) -> tuple[StaticState, float]:
         return state, self.potential(state, 1.0)[1]
-
-    def touching(self, state: StaticState) -> np.ndarray:
-        shape = self.sheet.shape(state.q, 1.0)
-        return np.array([one.report(shape)[1] > 0.0 for one in self.sheet.contacts])
 
     def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)

@@ -24,13 +24,14 @@ class ReferenceObserver:
         self._model, self._points = model, scene.probe_points()
         nothing = np.zeros(model.size)
         self._reactions = list(model.reactions(nothing))
-        wrenches = model.wrenches(model.shape(nothing, 0.0), nothing)[1]
+        flat = model.shape(nothing, 0.0)
+        wrenches = model.wrenches(flat, nothing)[1]
         self.columns: list[Part] = [
             ("time", "", ()),
             *(("energy", name, ()) for name in ENERGIES),
             *(("probe", name, (3,)) for name in scene.probes),
             *(("reaction", name, (3,)) for name in self._reactions),
-            *(("reaction", one.name, (3,)) for one in model.contacts),
+            *(("reaction", name, (3,)) for name in model.held_by_items(flat)),
             *(("actuator", name, wrench.shape) for name, wrench in wrenches.items()),
         ]
 
@@ -43,8 +44,7 @@ class ReferenceObserver:
             reactions = model.reactions(motion.exerted)
             forces = [reactions[name] for name in self._reactions]
             shape = model.shape(motion.q, motion.time, motion.v)
-            holds = (one.holds(shape)[one.name][1] for one in model.contacts)
-            forces += [force.reshape(-1, 3).sum(axis=0) for force in holds]
+            forces += [force.sum(axis=0) for _, force in model.held_by_items(shape).values()]
             wrenches = model.wrenches(shape, motion.exerted, motion.a)[1]
             forces += [wrench.ravel() for wrench in wrenches.values()]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))

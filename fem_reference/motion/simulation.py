@@ -1,4 +1,4 @@
-"""Motion of a reference from rest: a scene in, a `scenes.History` out.
+"""Motion of a reference from rest: a scene in, a `History` out.
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
 rest; with a curved support or a tilted clamp, in the shape that supports alone give it; with `[initial]` in

@@ -19,12 +19,14 @@ from typing import ClassVar
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
+from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
+from fem_reference.shell.hyperelastic import elements_of
 from fem_reference.shell.mass import mass_matrix, products
 from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import inverted, membrane_strain
@@ -34,8 +36,10 @@ from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, on_edge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
-from fem_reference.surface.mesh import Plan, field_mesh
+from fem_reference.surface.materials import Section
+from fem_reference.surface.mesh import field_mesh, plan_of
 from sheetbench.answers.solution import FieldMesh
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks, pattern_of
 from sheetbench.scenes import Scene
@@ -44,16 +48,25 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class DiscreteShell(DiscreteElements):
-    """A scene's shell on a plan; number: of the unknowns (n, 5) of every node, turns (n + p, 2) of every
-    director, −1 where held."""
+    """A scene's shell on a flat mesh, at rest unless it is moving; number: of the unknowns (n, 5) of every
+    node, turns (n + p, 2) of every director, −1 where held."""
 
     model = "shell"
     norm: ClassVar[int] = 1
+    creeps: ClassVar[bool] = True
     element: Element
 
-    def __init__(self, plan: Plan, scene: Scene, element: Element, moving: bool = False):
+    def __init__(
+        self,
+        mesh: MeshQuad,
+        scene: Scene,
+        section: Section | None = None,
+        law: str = STRAIN_LAW,
+        moving: bool = False,
+    ):
         super().__init__(scene, moving)
-        self.plan, self.element = plan, element
+        self.plan = plan = plan_of(mesh)
+        self.element = element = elements_of(plan, scene, section, law)
         self.natural = natural_strains(scene, plan.corners)
         self.any_strain = element.stands_any_strain
         n = self.nodes
@@ -241,12 +254,7 @@ class DiscreteShell(DiscreteElements):
         return np.bincount(self._components, pull.ravel(), self.size)
 
     def of_held_positions(self, force: np.ndarray) -> np.ndarray:
-        return force[self._held_components]
-
-    @cached_property
-    def _held_components(self) -> np.ndarray:
-        """Where held components of positions are among those of all vectors."""
-        return np.flatnonzero(self.supports.position)
+        return force[: self.supports.position.size][self.supports.position.ravel()]
 
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float

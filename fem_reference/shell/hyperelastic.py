@@ -19,11 +19,16 @@ from typing import Self
 import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, cartesian
-from fem_reference.shell.laws import Law, Response
+from fem_reference.shell.laws import LAWS, Law, Response
+from fem_reference.shell.natural import grown
 from fem_reference.shell.slant import Slant, linear, slant
 from fem_reference.surface.biquadratic import integrated
-from fem_reference.surface.materials import section_of, transverse_shear_stiffness
-from sheetbench.scenes import Material
+from fem_reference.surface.materials import Section, section_at, section_of, transverse_shear_stiffness
+from fem_reference.surface.mesh import Plan
+from fem_reference.surface.rubber import require_law
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Material, Scene, require_uniform
 
 _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
 
@@ -166,3 +171,17 @@ def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 def _applied(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
     return np.asarray((matrix @ vector[..., None])[..., 0])
+
+
+def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
+    """Return the elements of a scene's shell on a plan, of a law of strain and, unless that is another than
+    the default, of a section."""
+    nodes = plan.corners
+    require_law(law, LAWS, scene)
+    if law == STRAIN_LAW:
+        own = section or section_at(scene, nodes)
+        return Element.build(nodes, grown(own, scene, nodes))
+    require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
+    if section is not None:
+        raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
+    return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law])

@@ -8,36 +8,25 @@ and follower loads. Rotations may be large; the weight has no couple on the dire
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, cast
 
-import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.discrete.answer import answered, judge
-from fem_reference.discrete.static import Forces, Static, StaticState
+from fem_reference.discrete.answer import Traced, answered, inspected, traced
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.shell.element import Element
-from fem_reference.shell.hyperelastic import HyperelasticElement
-from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import grown
-from fem_reference.shell.validity import STRETCHED, inspector
+from fem_reference.shell.validity import STRETCHED, stretched
 from fem_reference.surface.borders import borders_of
-from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import Elements, Plan, divisions, has_lines, mesh_of, plan_of
-from fem_reference.surface.rubber import limit_notes, require_law
-from sheetbench.answers.solution import Solution, Status
+from fem_reference.surface.materials import Section
+from fem_reference.surface.mesh import Elements, divisions, has_lines, mesh_of
+from sheetbench.answers.solution import Solution
 from sheetbench.choices import BRANCHES, STRAIN_LAW
-from sheetbench.clock import now
-from sheetbench.errors import BadInput, require_choice
+from sheetbench.errors import require_choice
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.newton import Start
-from sheetbench.numerics.continuation.path import Path, Progress
-from sheetbench.numerics.continuation.pseudo_transient import relax
-from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.scenes import Scene, require_uniform
+from sheetbench.numerics.continuation.path import Progress
+from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.rigid_motions import require_static
 
 LIMITS = Limits()
@@ -67,22 +56,23 @@ def solve(
     """
     require_static(scene)
     require_choice("branch", branch, BRANCHES)
-    buckled = branch == "buckled"
-    counts = divisions(scene.sheet, elements)
+    counts, of_sheet = divisions(scene.sheet, elements), {"section": section, "law": law}
+    options = {"progress": progress, "buckled": branch == "buckled"}
     if near is None:
-        run, *spent = _runs(scene, counts, section, law, graded, progress, buckled=buckled)
+        runs = _runs(scene, counts, graded, of_sheet, **options)
     else:
-        run, spent = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress, near), []
+        begin = partial(coarse_start.shaped, near)
+        runs = [_run(scene, counts, graded, of_sheet, near=begin, progress=progress)]
     fallback = ""
-    if run.path.fault is STRETCHED:
-        fallback, spent, graded = "divided evenly, for it bends much", [run, *spent], False
-        run = _run(mesh_of(scene, counts, graded), scene, section, law, graded, progress, buckled=buckled)
+    if runs[0].path.fault is STRETCHED:
+        fallback, graded = "divided evenly, for it bends much", False
+        runs = [_run(scene, counts, graded, of_sheet, **options), *runs]
     settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
     if section is not None:
         settings["section"] = section._asdict()
-    if buckled:
+    if branch == "buckled":
         settings["branch"] = branch
-    return _solution(scene, run, f"shell {counts[0]} × {counts[1]}", settings, fallback, spent)
+    return answered(runs, f"shell {counts[0]} × {counts[1]}", settings, fallback)
 
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
@@ -91,121 +81,29 @@ def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
     Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
     anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
     """
-    run = _run(mesh, scene)
-    run.sheet.own = True
-    return _solution(scene, run, "shell", {"elements": mesh.nelements})
-
-
-class _Run(NamedTuple):
-    """A traced path on a mesh, with the seconds that setting up and solving took."""
-
-    sheet: DiscreteShell
-    path: Path[StaticState, Forces]
-    setup_seconds: float
-    solve_seconds: float
+    found = traced(lambda: DiscreteShell(mesh, scene))
+    found.sheet.own = True
+    return answered([found], "shell", {"elements": mesh.nelements})
 
 
 def _runs(
-    scene: Scene,
-    counts: tuple[int, int],
-    section: Section | None,
-    law: str,
-    graded: bool,
-    progress: Progress | None,
-    limits: Limits | None = None,
-    buckled: bool = False,
-) -> list[_Run]:
+    scene: Scene, counts: tuple[int, int], graded: bool, of_sheet: dict[str, Any], **options: Any
+) -> list[Traced]:
     """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
     few = None if scene.obstacles else coarse_start.coarse(counts, scene)
     rows = graded and has_lines(borders_of(scene))  # those along an outline are half of a coarse mesh
-    begun = [] if few is None else _runs(scene, few, section, law, rows, progress, coarse_start.LIMITS)
-    near = begun[0] if begun and coarse_start.plain(begun[0].path) else None
-    mesh = mesh_of(scene, counts, graded)
-    return [_run(mesh, scene, section, law, graded, progress, near, limits, buckled), *begun]
+    on_coarse = {"progress": options["progress"], "limits": coarse_start.LIMITS}
+    begun = [] if few is None else _runs(scene, few, rows, of_sheet, **on_coarse)
+    near = None
+    if begun and coarse_start.plain(begun[0].path):
+        near = partial(coarse_start.start, cast(DiscreteShell, begun[0].sheet), begun[0].path.state.q)
+    return [_run(scene, counts, graded, of_sheet, near=near, **options), *begun]
 
 
 def _run(
-    mesh: MeshQuad,
-    scene: Scene,
-    section: Section | None = None,
-    law: str = STRAIN_LAW,
-    graded: bool = False,
-    progress: Progress | None = None,
-    near: _Run | Shape | None = None,
-    limits: Limits | None = None,
-    buckled: bool = False,
-) -> _Run:
-    """graded: give up where stretched elements bend too much (see `validity`); near: where to begin;
-    limits and buckled: as `trace_path` has them."""
-    begin = now()
-    sheet = discretise(mesh, scene, section, law)
-    ready = now()
-    begin_at: Start[StaticState] | None = None
-    if callable(near):
-        begin_at = coarse_start.shaped(near, sheet)
-    elif near is not None:
-        begin_at = coarse_start.start(near.sheet, near.path.state.q, sheet)
-    slenderness = scene.sheet.thickness / sheet.lever
-    options = progress, begin_at, slenderness, limits or LIMITS, buckled
-    path = trace_path(Static(sheet), sheet.solver(), inspector(graded), relax, *options)
-    path.factor = None  # a run is kept longer than that
-    return _Run(sheet, path, ready - begin, now() - ready)
-
-
-def trace_on(sheet: DiscreteShell) -> tuple[np.ndarray, Status, list[str]]:
-    """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
-    path = trace_path(Static(sheet), sheet.solver(), inspector(False), relax)
-    return path.state.q, *judge(path)
-
-
-def _solution(
-    scene: Scene,
-    run: _Run,
-    label: str,
-    settings: dict[str, Any],
-    fallback: str = "",
-    spent: Sequence[_Run] = (),
-) -> Solution:
-    """The answer of a run; spent: those before it, the last first."""
-    status, notes = judge(run.path)
-    runs = [*reversed(spent), run]
-    return answered(
-        run.path,
-        label=label,
-        settings=settings,
-        status=status,
-        iterations=sum(one.path.factorisations for one in runs),
-        setup_seconds=sum(one.setup_seconds for one in runs),
-        solve_seconds=sum(one.solve_seconds for one in runs),
-        history=tuple(entry for one in runs for entry in one.path.history),
-        snaps=tuple(run.path.snaps),
-        fallback=fallback,
-        remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
-    )
-
-
-def discretise(
-    mesh: MeshQuad,
-    scene: Scene,
-    section: Section | None = None,
-    law: str = STRAIN_LAW,
-    moving: bool = False,
-) -> DiscreteShell:
-    """The discrete shell of a scene, at rest unless it is moving, on a mesh."""
-    plan = plan_of(mesh)
-    return DiscreteShell(plan, scene, _elements_of(plan, scene, section, law), moving)
-
-
-def _elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
-    """The elements of a scene's shell on a plan, of a law of strain and, unless that is another than the
-    default, of a section."""
-    nodes = plan.corners
-    material, thickness = scene.material, scene.sheet.thickness
-    require_law(law, LAWS, scene)
-    if law == STRAIN_LAW:
-        own = section or section_at(scene, nodes)
-        return Element.build(nodes, grown(own, scene, nodes))
-    require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
-    if section is not None:
-        raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
-    return HyperelasticElement.of(nodes, material, thickness, LAWS[law])
+    scene: Scene, counts: tuple[int, int], graded: bool, of_sheet: dict[str, Any], **options: Any
+) -> Traced:
+    """The run on one mesh; options: as of `discrete.answer.traced`."""
+    mesh = mesh_of(scene, counts, graded)
+    inspect = stretched if graded else inspected
+    return traced(lambda: DiscreteShell(mesh, scene, **of_sheet), inspect, **{"limits": LIMITS, **options})

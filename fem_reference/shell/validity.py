@@ -20,12 +20,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.discrete.answer import shape_of
+from fem_reference.discrete.answer import inspected, shape_of
 from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.shell.element import BENDING, MEMBRANE, Element
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
 from sheetbench.answers.solution import Status
-from sheetbench.numerics.continuation.path import Fault, Inspect, Path
+from sheetbench.numerics.continuation.path import Fault, Path
 from sheetbench.numerics.continuation.stability import stability
 
 STRETCH_LIMIT = 5.0
@@ -33,20 +33,14 @@ STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much 
 FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
 
 
-def inspector(graded: bool) -> Inspect[StaticState, Forces]:
-    """What `trace_path` is to look at; graded: elements are stretched, and may be without harm."""
-
-    def inspect(path: Path[StaticState, Forces]) -> Fault | None:
-        shape = shape_of(path)
-        sheet = shape.sheet
-        if found := sheet.inside_out(shape.q):
-            return Fault(Status.INVERTED, found)
-        assert isinstance(sheet.element, Element)
-        thickness = sheet.scene.sheet.thickness
-        bent = stretch(sheet.element, shape.strain, thickness) if graded else 0.0
-        return STRETCHED if bent > STRETCH_LIMIT and stability(path)[0] is not Status.CONVERGED else None
-
-    return inspect
+def stretched(path: Path[StaticState, Forces]) -> Fault | None:
+    """Return why a step of a path on stretched elements is given up, which may be stretched without harm."""
+    shape = shape_of(path)
+    element, thickness = shape.sheet.element, shape.sheet.scene.sheet.thickness
+    fault = inspected(path)
+    if fault is not None or stretch(element, shape.strain, thickness) <= STRETCH_LIMIT:
+        return fault
+    return STRETCHED if stability(path)[0] is not Status.CONVERGED else None
 
 
 def inverted(element: Element, change: np.ndarray) -> str:

@@ -16,13 +16,14 @@ from typing import ClassVar
 
 import numpy as np
 from scipy.sparse import block_diag, bsr_matrix, csc_matrix, csr_matrix, identity
+from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.rods import components_of
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.solid.element import Bricks, tangent
 from fem_reference.solid.materials import LAWS
-from fem_reference.solid.mesh import Columns
+from fem_reference.solid.mesh import columns_of
 from fem_reference.solid.natural import at_rest
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
@@ -32,12 +33,14 @@ from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal
 from fem_reference.surface.stretch import largest_stretch
 from sheetbench.answers.solution import FieldMesh
+from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import Constants, Material, Scene
+from sheetbench.scenes import Scene
 
 
 class DiscreteSolid(DiscreteElements):
-    """A scene's solid on columns of bricks, layer by layer over the plan's elements."""
+    """A scene's solid on columns of bricks, layer by layer over the elements of a plan mesh of straight-sided
+    quadrilaterals, at rest unless it is moving."""
 
     model = "solid"
     norm: ClassVar[int] = 2
@@ -45,14 +48,16 @@ class DiscreteSolid(DiscreteElements):
 
     def __init__(
         self,
-        columns: Columns,
+        mesh: MeshQuad,
         scene: Scene,
-        law: str,
-        material: Material | Constants,
-        clamp: str,
+        layers: int = 1,
+        law: str = STRAIN_LAW,
+        clamp: str = "shell-like",
         moving: bool = False,
     ):
+        """Raise BadInput for an unknown law or clamp, no layers or a folded element."""
         super().__init__(scene, moving)
+        columns, material = columns_of(mesh, scene, layers, law)
         self.columns, self.plan = columns, columns.plan
         self.any_strain = LAWS[law].stands_any_strain
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]

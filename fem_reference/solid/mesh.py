@@ -13,14 +13,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from skfem import Basis, ElementHex2, ElementQuad2, MeshQuad
 
+from fem_reference.solid.materials import LAWS
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Plan, quarters
+from fem_reference.surface.mesh import Plan, quarters, require_upright
+from fem_reference.surface.rubber import require_law
 from sheetbench.answers.solution import FieldMesh
-from sheetbench.scenes import Sheet
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, Sheet, require_uniform
+from sheetbench.scenes.meaning.composition import constants_at, of_sheet
+from sheetbench.scenes.objects.orthotropy import Ply, impossible_in_space
+
+MOST_BRICKS = 12  # through the thickness of a laminate
 
 
 @dataclass(frozen=True)
@@ -116,3 +125,71 @@ class Columns:
             [("hexahedron", np.concatenate(cells))],
             {"displacement": displacement.reshape(-1, 3)},
         )
+
+
+def _require_meshable(scene: Scene, law: str) -> None:
+    """Raise BadInput for a sheet with a step in its thickness, or one that is not the same all over and has
+    another law, or loads that follow it."""
+    if scene.uniform:
+        return
+    for ply in of_sheet(scene).plies:
+        if wrong := impossible_in_space(ply):
+            raise BadInput(f"{'layer' if scene.layers else 'material'}.{wrong}")
+    taper = scene.sheet.taper_x or scene.sheet.taper_y
+    for number, patch in enumerate(scene.patches, start=1):
+        if patch.thickness is not None and (taper or patch.thickness != scene.sheet.thickness):
+            raise BadInput(
+                f"patch {number}.thickness = {patch.thickness:g} m: the solid has no steps in its thickness; "
+                "the shell and the plate have"
+            )
+    if law != STRAIN_LAW:
+        require_uniform(scene, f"the solid's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
+    if taper and (scene.actuators or any(isinstance(load, Pressure | EdgeLoad) for load in scene.loads)):
+        raise BadInput(
+            "sheet.taper_x, sheet.taper_y: the solid has tapered sheets under weight and point loads alone; "
+            "the shell has others too"
+        )
+
+
+def bricks_through(scene: Scene, layers: int) -> int:
+    """Return how many bricks there are through the thickness: as many as requested, of a laminate at least so
+    many, with faces between all plies. Raises BadInput where those are too many."""
+    if not scene.layers:
+        return layers
+    plies = of_sheet(scene).plies
+    between = np.array([ply.low - plies[0].low for ply in plies])
+    for count in range(layers, MOST_BRICKS + 1):
+        if np.allclose(count * between, np.rint(count * between), rtol=0.0, atol=1e-6):
+            return count
+    raise BadInput(
+        f"layer: the solid has {MOST_BRICKS} bricks of one height at most through its thickness, and no such "
+        "number has a face between all layers; plate, shell and lattice have them"
+    )
+
+
+def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Constants:
+    """Return the constants of bricks, of a laminate each those of its ply; middles (layers · m, 1, 2) [m]: of
+    their plan elements, layer by layer."""
+    found = constants_at(scene, middles)
+    if not scene.layers:
+        return found
+    heights = (np.arange(layers) + 0.5) / layers + found.plies[0].low
+    own = [next(ply for ply in found.plies if ply.low <= at <= ply.high) for at in heights]
+    values: list[Any] = [np.repeat(each, len(middles) // layers)[:, None] for each in zip(*own, strict=True)]
+    ply = Ply(*values)
+    return found.replace(plies=(ply._replace(low=-0.5, high=0.5),), density=ply.density)
+
+
+def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
+    """The columns of a scene's solid over a mesh, and what its bricks are made of."""
+    require_upright(mesh)
+    require_law(law, LAWS, scene)
+    if layers < 1:
+        raise BadInput(f"layers = {layers}: at least one through the thickness")
+    _require_meshable(scene, law)
+    layers = bricks_through(scene, layers)
+    columns = Columns.on(mesh, scene.sheet, layers)
+    if scene.uniform:
+        return columns, scene.material
+    middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]
+    return columns, _constants_of_bricks(scene, middles, layers)

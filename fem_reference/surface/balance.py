@@ -111,7 +111,7 @@ def left_over(
     share: float = 1.0,
 ) -> Balance:
     """The balance of a model under a share of the load: what its supports exert, by name, and where and with
-    which forces it is held, pairs (…, 3); size and allowed: as `scenes.Balance` has them."""
+    which forces it is held, pairs (…, 3); size and allowed: as `Balance` has them."""
     force, moment = applied(scene, surface, edges)
     turning = [cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
     return Balance(

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 import numpy as np
 from skfem import ElementHex2, MeshQuad, MeshQuad2
 
-from fem_reference.solid import statics as solid
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
 from fem_reference.solid.mesh import Columns
@@ -48,7 +48,7 @@ def rows(case: str) -> Iterator[Row]:
 def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     """Stress (3, 3) [Pa] at D."""
     scene = Scene(name="LE10", sheet=Sheet(length_x=3.25, length_y=2.75, thickness=0.6), material=STEEL)
-    sheet = solid.discretise(_quarter(radial, around), scene, layers=layers)
+    sheet = DiscreteSolid(_quarter(radial, around), scene, layers=layers)
     columns, rest = sheet.columns, np.zeros(sheet.size)
     free = np.ones(sheet.free.shape, dtype=bool)
     free[columns.edge("x0"), :, 0] = False

@@ -22,7 +22,7 @@ from skfem import Basis, ElementQuad2, Functional, LinearForm
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static
 from fem_reference.plate.discrete import DiscretePlate
-from fem_reference.shell import statics as shell
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import THEORY, Row, absolutely
@@ -72,7 +72,7 @@ def _of_plate(scene: Scene, elements: int) -> tuple[float, float]:
 
 def _of_shell(scene: Scene, elements: int) -> tuple[float, float]:
     """Errors of deflection and tilt of the shell's first linear step from the flat sheet."""
-    sheet = shell.discretise(rectangle(scene.sheet, elements), scene)
+    sheet = DiscreteShell(rectangle(scene.sheet, elements), scene)
     basis, static = Basis(sheet.plan.mesh, ElementQuad2()), Static(sheet)
     force = np.outer(share(basis, pressure(scene)), [0.0, 0.0, 1.0])
     sheet.items.append(Dead(sheet.on_coordinates(force), None))

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fem_reference.solid import statics as solid
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import reference, shape
 from fem_reference.solid.materials import lame
 from fem_reference.surface.mesh import rectangle
@@ -49,7 +49,7 @@ def error(poisson: float, elements: int) -> float:
     waves = WAVES[poisson]
     material = Material(young=1.0, poisson=poisson, density=1.0)
     scene = Scene(name="manufactured", sheet=SHEET, material=material)
-    sheet = solid.discretise(rectangle(SHEET, elements), scene, layers=elements // 2)
+    sheet = DiscreteSolid(rectangle(SHEET, elements), scene, layers=elements // 2)
     columns, bricks, rest = sheet.columns, sheet.element, np.zeros(sheet.size)
     nodes = np.concatenate([columns.stacks[:, place] for place in columns.places])  # (m, 27) of the bricks
     values, _ = shape(reference().points)

@@ -17,8 +17,8 @@ from skfem import MeshQuad
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.plate.discrete import DiscretePlate
-from fem_reference.shell import statics as shell
-from fem_reference.solid import statics as solid
+from fem_reference.shell.discrete import DiscreteShell
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.outlined import quadrilaterals
 from fem_reference.verification.rows import EXACT, Row, absolutely
@@ -97,7 +97,7 @@ def _residual(sheet: DiscreteElements, q: np.ndarray) -> np.ndarray:
 
 
 def _shell_stretch(mesh: MeshQuad) -> float:
-    sheet = shell.discretise(mesh, SCENE)
+    sheet = DiscreteShell(mesh, SCENE)
     turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
     flat = np.pad(sheet.plan.nodes, ((0, 0), (0, 1)))
     moved = (flat + np.pad(sheet.plan.nodes @ STRETCH.T, ((0, 0), (0, 1)))) @ turn.T - flat
@@ -107,7 +107,7 @@ def _shell_stretch(mesh: MeshQuad) -> float:
 
 
 def _shell_curvature(mesh: MeshQuad) -> float:
-    sheet = shell.discretise(mesh, SCENE)
+    sheet = DiscreteShell(mesh, SCENE)
     nodes, (moved, turned) = sheet.plan.nodes, np.zeros((2, sheet.nodes, 3))
     moved[:, 2] = -0.5 * SMALL * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
     turned[:, :2] = SMALL * nodes @ CURVATURE
@@ -116,7 +116,7 @@ def _shell_curvature(mesh: MeshQuad) -> float:
 
 
 def _solid_deformation(mesh: MeshQuad) -> float:
-    sheet = solid.discretise(mesh, SCENE)
+    sheet = DiscreteSolid(mesh, SCENE)
     gradient = np.eye(3)
     gradient[:2, :2] += STRETCH
     gradient[2, 2] = 1.05

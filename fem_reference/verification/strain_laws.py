@@ -24,8 +24,8 @@ from scipy.optimize import brentq
 from fem_reference import solve
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
-from fem_reference.shell import statics as shell
-from fem_reference.solid import statics as solid
+from fem_reference.shell.discrete import DiscreteShell
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.mesh import mesh_of
 from fem_reference.verification.rows import EXACT, Row, relatively
 from sheetbench.choices import STRAIN_LAWS
@@ -112,7 +112,7 @@ def _pull(material: Material, stretches: list[float], axis: int) -> float:
 
 def _of_shell(material: Material, stretches: list[float]) -> float:
     scene = pulled((0.0, 0.0), SHEET, material)
-    sheet = shell.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
+    sheet = DiscreteShell(mesh_of(scene, (1, 1)), scene, law=str(material.law))
     nodes = sheet.plan.nodes
     moved = np.pad(nodes * (np.array(stretches[:2]) - 1.0), ((0, 0), (0, 1)))
     residual = Static(sheet).forces(StaticState(sheet.of_vectors(moved, np.zeros_like(moved))), 0.0).residual
@@ -122,7 +122,7 @@ def _of_shell(material: Material, stretches: list[float]) -> float:
 
 def _of_solid(material: Material, stretches: list[float]) -> float:
     scene = pulled((0.0, 0.0), SHEET, material)
-    sheet = solid.discretise(mesh_of(scene, (1, 1)), scene, law=str(material.law))
+    sheet = DiscreteSolid(mesh_of(scene, (1, 1)), scene, law=str(material.law))
     positions = sheet.columns.positions
     displacement = positions * (np.array(stretches) - 1.0)
     residual = Static(sheet).forces(StaticState(displacement.ravel()), 0.0).residual.reshape(positions.shape)

@@ -1,4 +1,4 @@
-"""What a static solve answers with: how it ended, and the `scenes.Solution` of that."""
+"""What a static solve answers with: how it ended, and the `Solution` of that."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def solution(
         reactions |= coupling.reactions(exerted)
     drive = Drive(state.load_factor)
     reactions |= {item.name: item.exerted(u, drive).sum(axis=0) for item in problem.items}
-    contacts = {item.name: item.report(u, drive) for item in problem.items}
+    contacts = {item.name: item.report((u, drive)) for item in problem.items}
     pressures = [pressure for _, pressure in contacts.values()]
     pressed = {"contact_pressure": np.sum(pressures, axis=0)} if pressures else {}
     nx, ny, layers = lattice.grid

@@ -1,4 +1,4 @@
-"""What a lattice's forces leave over: supports, motions, held bases and loads summed (`scenes.Balance`).
+"""What a lattice's forces leave over: supports, motions, held bases and loads summed (`Balance`).
 
 Springs and joints are central or turn with what they join, so that their forces on masses and rows cancel,
 and so do their moments: what is left over is the residual of the free unknowns, and what rounding leaves of

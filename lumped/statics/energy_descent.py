@@ -52,7 +52,7 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
 
 
 def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
-    wait = 0
+    wait, drive = 0, Drive(load_factor)
     for _ in range(STEPS):
         residual = problem.residual(u, load_factor)
         factor, wait = _definite_factor(path, problem, u, load_factor, wait)
@@ -69,9 +69,8 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
             raise _failed("no direction of descent: the projected tangent is not positive definite")
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
-        share *= min(
-            (one.step_share(u, share * move, Drive(load_factor)) for one in problem.items), default=1.0
-        )
+        ends = (u, drive), (u + share * move, drive)
+        share *= min((one.step_share(*ends) for one in problem.items), default=1.0)
         start = problem.potential(u, load_factor)
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= start + 1e-4 * share * slope:

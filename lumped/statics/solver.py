@@ -1,4 +1,4 @@
-"""Statics of a lattice: a scene and springs in, a `scenes.Solution` out."""
+"""Statics of a lattice: a scene and springs in, a `Solution` out."""
 
 from __future__ import annotations
 

@@ -14,6 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.actuators import Drive
+from lumped.items import Placed
 from lumped.statics.faults import broken
 from lumped.statics.problem import LatticeState, Problem, Residual
 from sheetbench.numerics.continuation.limits import Limits
@@ -147,15 +148,11 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         problem = self.problem
         return float(np.abs(problem.external(np.zeros_like(problem.loads.dead), 1.0)).sum())
 
-    def passes(self, start: LatticeState, since: float, end: LatticeState, load_factor: float) -> bool:
-        ways = start.u, end.u - start.u, Drive(load_factor), Drive(since)
-        return any(one.step_share(*ways) < 1.0 for one in self.problem.items)
+    def placed(self, state: LatticeState, load_factor: float) -> Placed:
+        return state.u, Drive(load_factor)
 
     def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
         return state._replace(residual=None), 0.0
-
-    def touching(self, state: LatticeState) -> np.ndarray:
-        return np.array([one.report(state.u, Drive(1.0))[1] > 0.0 for one in self.problem.contacts])
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
         return self.problem.system.factor(blocks, more)

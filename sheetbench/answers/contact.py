@@ -30,15 +30,12 @@ class ContactState:
         and areas."""
         over, touching = depth - TOUCH, depth > 0.0
         deepest = float(over.max(initial=0.0))
-        undecided = int((np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)).sum())
-        return cls(float(area[touching].sum()), deepest, int(touching.sum()), undecided)
+        near = np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)
+        return cls(float(area[touching].sum()), deepest, int(touching.sum()), int(near.sum()))
 
     @property
     def notes(self) -> list[str]:
         """What is doubtful, a clause each."""
-        deep = (
-            f"the sheet is pressed in by {self.penetration:.2g} of its thickness, where a point's force is "
-        )
+        deep = f"the sheet is pressed in by {self.penetration:.2g} of its thickness, where a point's force is"
         near = f"{self.undecided} points are about to touch or to leave: stability undecided"
-        doubts = (self.penetration > DEEP, deep + "spread by the grid"), (self.undecided > 0, near)
-        return [words for there, words in doubts if there]
+        return [f"{deep} spread by the grid"] * (self.penetration > DEEP) + [near] * (self.undecided > 0)

@@ -1,6 +1,6 @@
 """What a dynamic run answers with: probes, energies and forces over time, and how it ended.
 
-Part of the question's language, as `scenes.Solution` is for statics: it holds no mechanics.
+Part of the question's language, as `Solution` is for statics: it holds no mechanics.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class History(Answer):
     time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
     dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
     and by supports and commands that move), none of a program that does not tell them; reactions: as those
-    of a `scenes.Solution`, (n, 3) [N] each; actuators: name → force and moment about the
+    of a `Solution`, (n, 3) [N] each; actuators: name → force and moment about the
     segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
     integrator; status `converged` means that the run reached its end; resumed_from: what lies
     before is an earlier run's, which this one took up [s].

@@ -12,7 +12,7 @@ import sheetbench as sb
 from comparisons.external import memory
 from comparisons.models import sizes
 from comparisons.models.spec import spec_of
-from comparisons.pictures import amounts
+from comparisons.pictures import work
 from comparisons.sweep.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
@@ -218,7 +218,7 @@ def test_without_any_word_of_memory_nothing_is_refused(monkeypatch):
 
 
 def test_amounts_as_people_say_them():
-    assert [amounts.memory(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]
+    assert [work.memory(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]
 
 
 def test_an_export_too_large_for_the_memory_is_refused_before_its_first_array(tmp_path, capsys):

@@ -7,8 +7,9 @@ from dynamic_cases import make_scene
 import fem_reference
 import lumped
 from fem_reference.discrete.static import Static
-from fem_reference.shell.statics import discretise
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid import statics as solid
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.mesh import mesh_of
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.direct import SymmetricPartFactor
@@ -95,7 +96,7 @@ def test_lattice_and_shell_agree_under_pressure(supports):
 @pytest.mark.parametrize("supports, symmetric", [(CLAMPED, True), (ACROSS, True), (FREE, False)])
 def test_the_shells_tangent_is_symmetric_where_its_pressure_has_a_potential(supports, symmetric):
     scene = pressed(supports)
-    sheet = discretise(mesh_of(scene, (3, 2)), scene)
+    sheet = DiscreteShell(mesh_of(scene, (3, 2)), scene)
     structure = Static(sheet)
     assert structure.symmetric is symmetric
     state = structure.rest()
@@ -137,7 +138,7 @@ def test_a_solid_knows_that_a_closed_pressure_has_a_potential():
             name="pressed", sheet=Sheet(0.1, 0.1, 0.005), material=Material(1e6, 0.45, 1000.0),
             supports=supports, loads=(Pressure(value=500.0),),
         )  # fmt: skip
-        structure = Static(solid.discretise(solid.plan_mesh(scene, (2, 2), "edges"), scene))
+        structure = Static(DiscreteSolid(solid.plan_mesh(scene, (2, 2), "edges"), scene))
         assert structure.symmetric is closed
         rest = structure.rest()
         shape = 1e-4 * np.random.default_rng(2).standard_normal(structure.unknowns)

@@ -9,7 +9,7 @@ from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 
 import fem_reference
 import lumped
-from fem_reference.shell.statics import discretise
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification import heavy_elastica
 from sheetbench.answers.solution import Status
@@ -100,7 +100,7 @@ def test_modes_are_those_of_the_sheet_alone(model):
 
 def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes():
     """½ EI κ₀² L at full load, a quarter at half; EI and the length are 1."""
-    sheet = discretise(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
+    sheet = DiscreteShell(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
     for share, stored in ((1.0, 2.0), (0.5, 0.5)):
         assert sheet.rods.energy(np.zeros(sheet.size), share) == pytest.approx(stored, rel=1e-9)
 

@@ -6,7 +6,7 @@ import pytest
 import fem_reference
 import lumped
 from comparisons.stability.limit import start, system
-from fem_reference.shell.statics import discretise
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import rectangle
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.integrator import LatticeSamples
@@ -136,7 +136,7 @@ def test_a_stagnating_integrator_stops(monkeypatch):
 
 def test_the_shell_knows_its_mid_surface_s_stretch_and_its_inverted_elements():
     scene = sheet(0.016, 1.0)
-    shell = discretise(rectangle(scene.sheet, (2, 3)), scene)
+    shell = DiscreteShell(rectangle(scene.sheet, (2, 3)), scene)
     q = np.zeros(shell.size)
     shell.displacement(q)[:, 0] = 0.6 * shell.plan.nodes[:, 0]
     assert shell.shape(q, 1.0).stretch == pytest.approx(0.6, rel=1e-9)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import shutil
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,20 +17,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.external.answer import (
-    BRICK_MOMENTS,
-    SUBSTEPS,
-    moved,
-    refusal,
-    refusal_of_motion,
-    require,
-    solution,
-)
-from comparisons.external.bricks import GRADINGS, Bricks
+from comparisons.external.answer import BRICK_MOMENTS, SUBSTEPS, MovingCode, Reached, Sampled, refusal
+from comparisons.external.bricks import Bricks
 from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
-from sheetbench.answers.history import History
-from sheetbench.answers.solution import Solution, Status
-from sheetbench.errors import BadInput
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.fields import SHAPED
@@ -46,19 +34,16 @@ DRAWN = (*SHAPED, FIBRES, "sheet.taper_x", "sheet.taper_y", "patch")
 CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
 
 
-@dataclass(frozen=True)
-class CalculiX:
+class CalculiX(MovingCode):
     """The plug-in.
 
     settings: elements along the shorter side, near-square; layers of bricks, an even number; grading "edges"
     or "uniform"; linear: without NLGEOM; time_limit [s].
     """
 
-    name: str = "calculix"
-    called: str = "CalculiX"
-    needs: str = "the program ccx on the PATH (Debian: calculix-ccx)"
-    meshes: tuple[int, ...] = (6, 8, 12)
-    layered: bool = True
+    name, called = "calculix", "CalculiX"
+    needs = "the program ccx on the PATH (Debian: calculix-ccx)"
+    meshes, layered, integrator = (6, 8, 12), True, "HHT"
     settings: ClassVar[dict[str, Any]] = {
         "elements": 8,
         "layers": 2,
@@ -71,65 +56,50 @@ class CalculiX:
         """Return the program's, None where it is not there."""
         return _version(shutil.which(PROGRAM))
 
-    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """Return the static answer. Raises BadInput without the program or for settings it cannot use."""
-        began, bricks = perf_counter(), self._bricks(scene, settings)
-        note = _refusal(scene, settings["linear"])
-        displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
-        ready, status = began, Status.REFUSED
-        if not note:
-            text = deck(scene, bricks, settings["linear"])
-            ready = perf_counter()
-            times, found, iterations, note = _carried_out(text, settings["time_limit"], bricks)
-            status = Status.CONVERGED if not note and times[-1] == 1.0 else Status.DIVERGED
-            if len(found):
-                load_factor, displacement = float(times[-1]), found[-1]
-            if not np.isfinite(displacement).all():
-                status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
-        seconds = (ready - began, perf_counter() - ready)
-        return solution(self, settings, bricks, displacement, status, load_factor, note, iterations, seconds)
+    def installed(self) -> bool:
+        return shutil.which(PROGRAM) is not None
+
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
+        text = deck(scene, mesh, settings["linear"])
+        began = perf_counter()
+        times, found, iterations, note = _carried_out(text, settings["time_limit"], mesh)
+        factor, u = (float(times[-1]), found[-1]) if len(found) else (0.0, np.zeros_like(mesh.positions))
+        return Reached(u, factor, iterations, note, perf_counter() - began)
+
+    def in_motion(
+        self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks, duration: float, count: int
+    ) -> Sampled:
+        nodes, _ = mesh.weights(scene.probe_points())
+        steps = Steps(duration / count / SUBSTEPS, duration, SUBSTEPS, np.unique(nodes))
+        text = deck(scene, mesh, False, steps)
+        began = perf_counter()
+        times, found, _, note = _carried_out(text, settings["time_limit"], mesh)
+        return Sampled(times, found, note, perf_counter() - began)
 
     def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
-        """Return why it does not move a scene, "" if it does."""
         of_statics = "linear = true: is for statics" if settings["linear"] else ""
-        return _refusal(scene, settings["linear"]) or of_statics or refusal_of_motion(scene)
+        return self.refusal(scene, settings) or of_statics or super().refusal_of_motion(scene, settings)
 
-    def simulate(
-        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
-    ) -> History:
-        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
-
-        Raises BadInput without the program, and for scenes and settings that it does not take.
-        """
-        if note := self.refusal_of_motion(scene, settings):
-            raise BadInput(f"calculix: {note}")
-        began, bricks = perf_counter(), self._bricks(scene, settings)
-        nodes, _ = bricks.weights(scene.probe_points())
-        count = max(1, round(duration / every))
-        steps = Steps(float(duration) / count / SUBSTEPS, float(duration), SUBSTEPS, np.unique(nodes))
-        text = deck(scene, bricks, False, steps)
-        ready = perf_counter()
-        times, found, _, note = _carried_out(text, settings["time_limit"], bricks)
-        ended = perf_counter()
-        return moved(
-            self,
-            "HHT",
-            scene,
-            {**settings, "every": duration / count},
-            bricks,
-            times,
-            found,
-            note if note or len(found) == count else "it stopped before the end",
-            bricks.positions.size,
-            (ready - began, ended - ready),
+    def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
+            return note
+        material, linear = scene.material, settings["linear"]
+        for number, patch in enumerate(scene.patches, start=1):
+            if patch.thickness not in (None, scene.sheet.thickness):
+                thickness = f"patch {number}.thickness = {patch.thickness:g} m"
+                return f"{thickness}: its bricks have no steps in thickness"
+        if material.law is not None and scene.varied_by:
+            return f"{scene.varied_by}: it is given rubbers that are the same all over"
+        if material.kind == "orthotropic":
+            return impossible_in_space(material.ply)
+        if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
+            return ""
+        if linear:
+            return f"linear = true: the law '{material.law}' is not linear"
+        return (
+            f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near "
+            f"ν = ½ only; from {INCOMPRESSIBLE:g} on it is given them"
         )
-
-    def _bricks(self, scene: Scene, settings: Mapping[str, Any]) -> Bricks:
-        """Return the mesh. Raises BadInput without the program or for settings it cannot use."""
-        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
-        if shutil.which(PROGRAM) is None:
-            raise BadInput(f"model = 'calculix': needs {self.needs}")
-        return Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
 
 
 def _carried_out(deck: str, seconds: float, bricks: Bricks) -> tuple[np.ndarray, np.ndarray, int, str]:
@@ -145,28 +115,6 @@ def _carried_out(deck: str, seconds: float, bricks: Bricks) -> tuple[np.ndarray,
         except Failed as error:
             why = f"CalculiX: {error}"
         return times, found, iterations(_read(folder, "sta")), why
-
-
-def _refusal(scene: Scene, linear: bool) -> str:
-    """Return why it cannot solve a scene, "" if it can."""
-    if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
-        return note
-    material = scene.material
-    for number, patch in enumerate(scene.patches, start=1):
-        if patch.thickness not in (None, scene.sheet.thickness):
-            return f"patch {number}.thickness = {patch.thickness:g} m: its bricks have no steps in thickness"
-    if material.law is not None and scene.varied_by:
-        return f"{scene.varied_by}: it is given rubbers that are the same all over"
-    if material.kind == "orthotropic":
-        return impossible_in_space(material.ply)
-    if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
-        return ""
-    if linear:
-        return f"linear = true: the law '{material.law}' is not linear"
-    return (
-        f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near ν = ½ "
-        f"only; from {INCOMPRESSIBLE:g} on it is given them"
-    )
 
 
 def _read(folder: Path, ending: str) -> str:

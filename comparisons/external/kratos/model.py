@@ -11,20 +11,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
 from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.external.answer import SUBSTEPS, moved, refusal, refusal_of_motion, require_count, solution
+from comparisons.external.answer import SUBSTEPS, MovingCode, Reached, Sampled, refusal, require_count
 from comparisons.external.kratos.problem import Triangles, problem
-from sheetbench.answers.history import History
-from sheetbench.answers.solution import Solution, Status
-from sheetbench.errors import BadInput
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import Scene
 
@@ -40,20 +35,18 @@ CHAINS = "actuators are not supported: Kratos' shell has no joint with a rest an
 MOMENTS = "moments on Kratos' nodes do not follow the edge"
 
 
-@dataclass(frozen=True)
-class Kratos:
+class Kratos(MovingCode):
     """The plug-in.
 
     settings: elements along the shorter side, near-square, each two triangles; time_limit [s] of every
     attempt.
     """
 
-    name: str = "kratos"
-    called: str = "Kratos' thin shell"
-    needs: str = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
-    meshes: tuple[int, ...] = (8, 12, 16)
-    layered: bool = False
+    name, called = "kratos", "Kratos' thin shell"
+    needs = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
+    meshes, layered, integrator = (8, 12, 16), False, "Bossak"
     settings: ClassVar[dict[str, Any]] = {"elements": 16, "time_limit": 600.0}
+    unknowns = 6
 
     def version(self) -> str | None:
         """Of the wheels, None where one is missing."""
@@ -62,49 +55,36 @@ class Kratos:
         except metadata.PackageNotFoundError:
             return None
 
-    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """Return the static answer. Raises BadInput without Kratos or for settings it cannot use."""
-        mesh = self._mesh(scene, settings["elements"])
-        note = refusal(scene, CHAINS, MOMENTS)
-        displacement, load_factor, iterations = np.zeros_like(mesh.positions), 0.0, 0
-        began, seconds, status = perf_counter(), 0.0, Status.REFUSED
-        for steps in () if note else STEPS:
+    def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        return refusal(scene, CHAINS, MOMENTS)
+
+    def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Triangles:
+        require_count(settings["elements"])
+        self.require_installed()
+        return Triangles.of(scene.sheet, settings["elements"])
+
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles) -> Reached:
+        found = Reached(np.zeros_like(mesh.positions))
+        for steps in STEPS:
             given = problem(scene, mesh, np.arange(1, steps + 1) / steps)
             try:
                 answer = _solved(given, settings["time_limit"])
             except Failed as error:
-                status, note = Status.DIVERGED, f"Kratos: {error}"
+                return found._replace(note=f"Kratos: {error}")
+            found = Reached(
+                answer["displacement"],
+                float(answer["load_factor"]),
+                found.iterations + int(answer["iterations"]),
+                seconds=found.seconds + float(answer["seconds"]),
+                held=int(given["held"].sum()),
+            )
+            if found.load_factor == 1.0 and np.isfinite(found.displacement).all():
                 break
-            displacement, load_factor = answer["displacement"], float(answer["load_factor"])
-            iterations += int(answer["iterations"])
-            seconds += float(answer["seconds"])
-            status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
-            if not np.isfinite(displacement).all():
-                status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
-            if status is Status.CONVERGED:
-                break
-        held = 0 if note else int(given["held"].sum())
-        spent = (perf_counter() - began - seconds, seconds)
-        unknowns = 2 * displacement.size - held
-        return solution(
-            self, settings, mesh, displacement, status, load_factor, note, iterations, spent, unknowns
-        )
+        return found
 
-    def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
-        """Return why it does not move a scene, "" if it does."""
-        return refusal(scene, CHAINS, MOMENTS) or refusal_of_motion(scene)
-
-    def simulate(
-        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
-    ) -> History:
-        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
-
-        Raises BadInput without Kratos, and for scenes and settings that it does not take.
-        """
-        if note := self.refusal_of_motion(scene, settings):
-            raise BadInput(f"kratos: {note}")
-        mesh = self._mesh(scene, settings["elements"])
-        began, count = perf_counter(), max(1, round(duration / every))
+    def in_motion(
+        self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles, duration: float, count: int
+    ) -> Sampled:
         even = duration / (count * SUBSTEPS) * np.arange(1, count * SUBSTEPS + 1)
         times = np.concatenate([[BEGINS * even[0]], even])
         given = problem(scene, mesh, np.ones(len(times)), times)
@@ -114,25 +94,8 @@ class Kratos:
             found, seconds = answer["displacement"][SUBSTEPS::SUBSTEPS], float(answer["seconds"])
         except Failed as error:
             note = f"Kratos: {error}"
-        return moved(
-            self,
-            "Bossak",
-            scene,
-            {**settings, "every": duration / count},
-            mesh,
-            times[SUBSTEPS::SUBSTEPS][: len(found)],
-            found,
-            "" if len(found) == count else note,
-            2 * mesh.positions.size - int(given["held"].sum()),
-            (perf_counter() - began - seconds, seconds),
-        )
-
-    def _mesh(self, scene: Scene, elements: Any) -> Triangles:
-        """Return the mesh. Raises BadInput without Kratos, and for what is no number of elements."""
-        require_count(elements)
-        if self.version() is None:
-            raise BadInput(f"model = 'kratos': needs {self.needs}")
-        return Triangles.of(scene.sheet, elements)
+        reached = times[SUBSTEPS::SUBSTEPS][: len(found)]
+        return Sampled(reached, found, "" if len(found) == count else note, seconds, int(given["held"].sum()))
 
 
 def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:

@@ -1,4 +1,4 @@
-"""Dynamics of a lattice from rest: a scene and springs in, a `scenes.History` out.
+"""Dynamics of a lattice from rest: a scene and springs in, a `History` out.
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
 rest; with a curved support or a tilted clamp it starts in the shape that the supports alone give it, with

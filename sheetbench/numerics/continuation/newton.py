@@ -79,7 +79,7 @@ def newton(
     correction has left the same points touching obstacles. Raises StepFailed."""
     structure, limits = path.structure, path.limits
     state, target, before = first.state, first.target, np.inf
-    touching = np.empty(0, bool)
+    touching: list[np.ndarray] = []
     factor: Factor | None = None
     off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
     works, lengths = [first.work], [first.length]
@@ -95,7 +95,14 @@ def newton(
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
             settled = imbalance <= structure.imbalance_floor(state, forces)
-        touched, touching = touching, structure.touching(state) if close > 0.0 else touching
+        touched, touching = (
+            touching,
+            [
+                one.report(structure.placed(state, target))[1] > 0.0
+                for one in structure.contacts
+                if close > 0.0
+            ],
+        )
         loose = relative <= close and np.array_equal(touched, touching)
         if loose or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None

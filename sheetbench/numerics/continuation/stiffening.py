@@ -1,15 +1,15 @@
 """An equilibrium with penalties of obstacles, soft first and then stiff.
 
 Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
-method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. With soft
-ones the usual path leads to the full load, where they are raised in stages of equal factors, each Newton's
-method from the last shape with the stresses that it extrapolated: 30 factorisations in place of 292 on a
-strip of 41 masses laid on a plane. Only the last stage is brought to the tolerance; one before ends at a
-small residual, of a correction that has left the same points in contact: while points come and go residuals
-are small now and then, and lead nowhere. One that fails takes the square root of its factor. What is said of
-the end is that of the last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins
-again from rest with stiff ones, in so many load steps that no obstacle moves by more than a quarter of its
-radius in one.
+method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. So soft
+ones are raised at the full load in stages of equal factors, each Newton's method from the last shape with the
+stresses that it extrapolated; all but the last end at a small residual of a correction that has left the same
+points in contact. One that fails takes the square root of its factor. What is said of the end is that of the
+last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins again from rest with
+stiff ones, in so many load steps that no obstacle moves by more than a quarter of its radius in one.
+
+A penalty has the `obstacle`, the `share` of its stiffness that acts, and of its points the whole, `full` (…)
+[Pa/m], `thickness` (…) [m] and `area` (…) [m²]; it says `step_share` and `report` of what is `placed`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 
@@ -32,21 +32,7 @@ WAY = 0.25  # of the radius, by which obstacles and supports come in between des
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
-class Penalty(Protocol):
-    """The penalty of an obstacle. share: of its stiffness; full (…) [Pa/m], thickness (…) [m] and area (…)
-    [m²] of its points; radius [m], infinite of a plane; moved [m], how far the obstacle goes in all; thin:
-    whether it is thinner than a cell."""
-
-    share: float
-    full: np.ndarray
-    thickness: np.ndarray
-    area: np.ndarray
-    radius: float
-    moved: float
-    thin: bool
-
-
-def soften(penalties: Sequence[Penalty], share: float) -> None:
+def soften(penalties: Sequence[Any], share: float) -> None:
     """Give penalties a share of their stiffness, 1 for all of it."""
     for one in penalties:
         one.share = share
@@ -60,8 +46,8 @@ def softest(structure: Structure[State, Forces]) -> float:
     force, travel = structure.loading(), size * structure.gap(structure.rest(), 1.0)
     for one in structure.contacts:
         bending = float((one.full * one.thickness**4).max()) / 12.0
-        bent = 8.0 * bending * max(travel, one.moved) / size**4
-        deep = DEPTH * min(size, 0.2 * one.radius) * float(one.full.min())
+        bent = 8.0 * bending * max(travel, float(np.linalg.norm(one.obstacle.displacement()))) / size**4
+        deep = DEPTH * min(size, 0.2 * one.obstacle.radius) * float(one.full.min())
         shares.append(max(force / float(one.area.sum()), bent) / deep)
     return min(share for share in shares if share > 0.0)
 
@@ -81,14 +67,14 @@ def stiffened(
         nonlocal last
         start = last if last[1] <= path.load_factor else (structure.rest(), 0.0)
         last = path.state, path.load_factor
-        if structure.passes(*start, *last):
+        ends = structure.placed(*start), structure.placed(*last)
+        if any(one.step_share(*ends) < 1.0 for one in contacts):
             return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
         return inspect(path)
 
     down = settle if structure.symmetric else None
-    thin = any(one.thin for one in contacts)  # whether soft ones would be walked through
-    share, ended = 1.0 if thin else softest(structure), None
-    while not (thin and down is not None):  # what leads nowhere is too soft, where nothing else is left
+    share = softest(structure)
+    while True:  # what leads nowhere is too soft, where nothing else is left
         soften(contacts, share)
         path.begin(replace(limits.direct, tolerance=LOOSE))
         last = path.state, 0.0
@@ -101,29 +87,20 @@ def stiffened(
             break
         share = min(1.0, 30.0 * share)
     soften(contacts, 1.0)
-    if down is not None and (thin or ended is not None):
-        path.begin(limits)
-        last = path.state, 0.0
-        ended = _settled(path, kept_out, down)
-    return ended
-
-
-def _settled(
-    path: Path[State, Forces], inspect: Inspect[State, Forces], settle: Settle[State, Forces]
-) -> Fault | None:
-    """Lead a path from rest by descents, load step by load step: what has ended it before, if anything."""
-    structure = path.structure
+    if ended is None or down is None:
+        return ended
+    path.begin(limits)
+    last = path.state, 0.0
     travel = structure.size * structure.gap(path.state, 1.0)
-    ways = ((one.moved + travel) / (WAY * one.radius) for one in structure.contacts)
-    steps = max(1, *map(math.ceil, ways))
-    for step in range(1, steps + 1):
-        path.limit = path.factorisations + path.limits.factorisations
+    bodies = [one.obstacle for one in contacts]
+    ways = ((travel + np.linalg.norm(body.displacement())) / (WAY * body.radius) for body in bodies)
+    for load_factor in np.linspace(0.0, 1.0, max(1, *map(math.ceil, ways)) + 1)[1:].tolist():
+        path.limit = path.factorisations + limits.factorisations
         try:
-            path.state, path.load_factor = settle(path, step / steps), step / steps
+            path.state, path.load_factor, path.factor = down(path, load_factor), load_factor, None
         except LoadStepFailed as failure:
             return Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
-        path.factor = None
-        if (fault := inspect(path)) is not None:
+        if (fault := kept_out(path)) is not None:
             return fault
     return None
 

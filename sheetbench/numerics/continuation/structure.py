@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
 from sheetbench.numerics.direct import Count, Factor
-
-if TYPE_CHECKING:
-    from sheetbench.numerics.continuation.stiffening import Penalty
 
 
 class BalancedForces(Protocol):
@@ -41,20 +38,15 @@ class Structure(Protocol[State, Forces]):
     """What `trace_path` needs. A structure that inherits this leaves out what has a default here."""
 
     prestrained: bool = False  # whether a natural strain loads it, which may stress it where it does not move
-    contacts: Sequence[Penalty] = ()  # with obstacles; of a structure with some the rest here is of interest
+    contacts: Sequence[Any] = ()  # penalties (`stiffening`), with which the rest here is of interest
     size: float = 1.0  # [m]
 
     def loading(self) -> float:
         """Sum of the full loads on the structure at rest [N]."""
         return 0.0
 
-    def passes(self, start: State, since: float, end: State, load_factor: float) -> bool:
-        """Whether a straight way between two states at two load factors leads through an obstacle."""
-        return False
-
-    def touching(self, state: State) -> np.ndarray:
-        """Which points touch obstacles at full load."""
-        return np.empty(0, bool)
+    def placed(self, state: State, load_factor: float) -> Any:
+        """A state at a load factor as its contacts take it."""
 
     def restarted(self, state: State) -> tuple[State, float]:
         """A state at full load without forces that are of other penalties, and the size of its energy [J]."""

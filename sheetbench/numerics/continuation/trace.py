@@ -23,7 +23,6 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 from __future__ import annotations
 
 from sheetbench.answers.solution import Status
-from sheetbench.numerics.continuation.arc import limit_point
 from sheetbench.numerics.continuation.careful import UnknownInertia, careful_budget, continuous, negatives
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Predictor, Start, newton
@@ -261,7 +260,4 @@ def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str) -> 
         status, note = stability(path)
         if status is not Status.CONVERGED:
             message += f"; {note} there: the answer is not unique on this grid"
-        elif (ends := limit_point(path)) is not None:
-            message += f"; a limit point between load factors {ends[0]:.5g} and {ends[1]:.5g}: from there on "
-            message += "the load falls as the sheet gives way"
     return Fault(failure.status, message)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.objects.fields import SceneFields
-from sheetbench.scenes.objects.obstacles import AnyObstacle, Plane
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle, Plane
 from sheetbench.scenes.objects.supports import Clamped, Hinged
 
 INSIDE = 1e-6  # of the thickness: the depth from which on a sheet begins inside an obstacle
@@ -38,13 +38,29 @@ class Near(NamedTuple):
         length = (self.distance + self.obstacle.radius)[..., None, None]
         return np.asarray((projector(self.obstacle) - dyad(self.normal)) / length)
 
-    def mean_normal(self, start: Near) -> np.ndarray:
-        """Return n̄ (…, 3) with n̄·Δy = Δφ exactly since a start: n, or (y₀ + y₁)/(|y₀| + |y₁|) as
-        Δ|y|² = (y₀ + y₁)·Δy."""
+    def mean(self, start: Near) -> Near:
+        """Return points y₀ + y₁, whose n̄ = (y₀ + y₁)/(|y₀| + |y₁|) has n̄·Δy = Δφ exactly since a start, as
+        Δ|y|² = (y₀ + y₁)·Δy, and whose ∇n is half as large."""
         if isinstance(self.obstacle, Plane):
-            return self.normal
-        lengths = start.distance + self.distance + 2.0 * self.obstacle.radius
-        return np.asarray((start.across + self.across) / lengths[..., None])
+            return self
+        across, length = start.across + self.across, start.distance + self.distance + self.obstacle.radius
+        return Near(self.obstacle, across, length, across / (length + self.obstacle.radius)[..., None])
+
+    def resistance(self, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return forces (…, 3) [N] of dashpot and friction on points that a load p (…) [N] presses and that
+        move at a speed v (…, 3) [m/s] past the obstacle, and their derivatives (…, 3, 3) by it: −p τ v_n, but
+        nothing pulls, and −μ p v_t/√(v_t² + v₀²)."""
+        tau, across = self.obstacle.contact_damping, dyad(self.normal)
+        leaving = (speed * self.normal).sum(axis=-1)
+        sliding = speed - leaving[..., None] * self.normal
+        slip = np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)[..., None]
+        damped, rubbed = (
+            load * np.minimum(tau * leaving, 1.0),
+            (self.obstacle.friction * load)[..., None] / slip,
+        )
+        normal = (tau * load * (tau * leaving < 1.0))[..., None, None] * across
+        tangential = rubbed[..., None] * (np.eye(3) - across - dyad(sliding / slip))
+        return -damped[..., None] * self.normal - rubbed * sliding, -normal - tangential
 
     def share_of_way(self, start: Near, offset: np.ndarray) -> float:
         """Return up to which share straight ways of points from a start, which touch at a distance

@@ -35,6 +35,10 @@ FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23"
 BRANCH = ("share", "time")
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
 NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY"]
+NUMBERED = {  # keys of the tables of a list, "" that of their own name
+    "patch": (CONSTANTS, "patches"), "mass": (("",), "masses"),
+    "obstacle": (("x", "y", "z", "radius", "friction"), "obstacles"),
+}  # fmt: skip
 UNITS = {  # none of other keys
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
     **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
@@ -111,30 +115,20 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
         if scene.air is None:
             raise BadInput("'drag': the scene has no [air]; give a first guess there")
         return [("air", name)]
-    if (patch := re.fullmatch(r"patch(\d+)\.(\w+)", name)) and patch[2] in CONSTANTS:
-        number, key = int(patch[1]), patch[2]
-        if not 1 <= number <= len(scene.patches):
-            raise BadInput(f"'{name}': the scene has {len(scene.patches)} patches")
-        if key not in scene.patches[number - 1].own:
-            raise BadInput(f"'{name}': patch {number} has no {key} of its own; give a first guess there")
-        return [("patches", number - 1, key)]
+    if (at := re.fullmatch(r"([a-z]+)(\d+)\.?(\w*)", name)) and at[3] in NUMBERED.get(at[1], ((), ""))[0]:
+        (_, tables), number, key = NUMBERED[at[1]], int(at[2]), at[3] or at[1]
+        if not 1 <= number <= len(listed := getattr(scene, tables)):
+            raise BadInput(f"'{name}': the scene has {len(listed)} {tables}")
+        place: Path = ("position", "xyz".index(key)) if key in "xyz" else (key,)
+        if getattr(listed[number - 1], str(place[0]), None) is None:
+            raise BadInput(f"'{name}': {at[1]} {number} has no {key} of its own; give a first guess there")
+        return [(tables, number - 1, *place)]
     if natural := re.fullmatch(r"(?:patch(\d+)\.)?natural\.([ek])(xx|yy|xy)", name):
         if (whose := name.rpartition(".")[0]) not in scene.natural_states:
             raise BadInput(f"'{name}': the scene has no {whose}; give a first guess there")
         own: Path = ("patches", int(natural[1]) - 1) if natural[1] else ()
         part = "strain" if natural[2] == "e" else "curvature"
         return [(*own, "natural", part, ("xx", "yy", "xy").index(natural[3]))]
-    if payload := re.fullmatch(r"mass(\d+)", name):
-        if not 1 <= int(payload[1]) <= len(scene.masses):
-            raise BadInput(f"'{name}': the scene has {len(scene.masses)} masses")
-        return [("masses", int(payload[1]) - 1, "mass")]
-    if touched := re.fullmatch(r"obstacle(\d+)\.(x|y|z|radius|friction)", name):
-        number, key = int(touched[1]), touched[2]
-        known = type(scene.obstacles[number - 1]).model_fields if 1 <= number <= len(scene.obstacles) else {}
-        if ("position" if key in "xyz" else key) not in known:
-            raise BadInput(f"'{name}': the scene has {len(scene.obstacles)} obstacles, or not this key of it")
-        place: Path = ("position", "xyz".index(key)) if key in "xyz" else (key,)
-        return [("obstacles", number - 1, *place)]
     key, _, of = name.partition("_")
     if key in BRANCH and of.isdecimal():
         if not 1 <= int(of) <= len(material.relaxation):

@@ -48,15 +48,11 @@ class _Obstacle(Frozen):
 
     def displacement(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
         """Return a share of how far the obstacle has moved, (3,) [m]: at a time [s], or at last."""
-        if self.motion is None:
-            return np.zeros(3)
-        return np.asarray(load_factor * self.motion.course.at(self.motion.time[-1] if time is None else time))
+        return np.zeros(3) if self.motion is None else load_factor * self.motion.course.at(time)
 
     def velocity(self, time: float | None) -> np.ndarray:
         """Return its velocity (3,) [m/s] at a time [s], 0 without one."""
-        if self.motion is None or time is None:
-            return np.zeros(3)
-        return np.asarray(self.motion.course.slope(time))
+        return np.zeros(3) if self.motion is None or time is None else self.motion.course.slope(time)
 
 
 class Plane(_Obstacle):

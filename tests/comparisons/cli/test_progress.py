@@ -18,7 +18,7 @@ from comparisons.cli.lines import BETWEEN, QUIET, Lines
 from comparisons.models.context import running
 from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
-from comparisons.pictures import amounts, work
+from comparisons.pictures import work
 from comparisons.pictures.work import Pace, Work
 from comparisons.sweep.campaign import GOING, Progress, campaign, carry_out
 from sheetbench.answers.size import Size
@@ -172,4 +172,4 @@ def test_an_even_pace_tells_what_is_left(monkeypatch):
     assert pace.left(0.5) is None
     now[0] += 3.0
     assert pace.left(1.0) == pytest.approx(6.0)
-    assert [amounts.duration(s) for s in (4.2, 120.0, 7200.0)] == ["4 s", "2 min", "2.0 h"]
+    assert [work.duration(s) for s in (4.2, 120.0, 7200.0)] == ["4 s", "2 min", "2.0 h"]

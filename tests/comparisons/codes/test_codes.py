@@ -12,8 +12,8 @@ import pytest
 from commands import run
 
 from comparisons.codes.cell import HINGES, _hinge, _triangle
+from comparisons.codes.coefficients import moduli_of
 from comparisons.codes.files import OWN_MASSES, WRITERS
-from comparisons.codes.homogenise import moduli_of
 from comparisons.codes.parameters import undamped
 from comparisons.codes.setup import setup
 from comparisons.codes.sheet_mesh import sheet_mesh
@@ -151,7 +151,7 @@ def test_the_script_gets_the_numbers_that_are_shown(code, tmp_path):
     """With the membrane's C11, which bounds its steps, and the factor of hinges on a clamp."""
     made = written(code, tmp_path)
     read = json.loads((tmp_path / "sheet.json").read_text())
-    assert read["parameters"] == {key.parameter: key.value for key in made.keys}
+    assert read["parameters"] == {key.name: key.value for key in made.keys}
     assert read["stretching"] == pytest.approx(54.5e6 * 0.003 / (1.0 - 0.48**2))
     assert read["hinges"] == made.mesh.hinges.tolist() and read["clamp"] == 1.0
     scripts = [path.name for path in tmp_path.glob("run_*.py")]
@@ -222,7 +222,7 @@ DAMPED = SCENE.replace(material=SCENE.material.replace(damping_time=0.01))
 @pytest.mark.parametrize("code", WRITERS)
 def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
     made = setup(DAMPED, code, 4, best=False)
-    keys = {key.parameter: key.value for key in made.keys}
+    keys = {key.name: key.value for key in made.keys}
     times = {"damping": 0.01}
     if code == "pybullet":
         times = {"springDampingStiffness": 0.01 * keys["springElasticStiffness"]}

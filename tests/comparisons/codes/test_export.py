@@ -11,8 +11,8 @@ from exported import BLOWN, DRAWN, HALF, spring_set
 from scipy.io import loadmat
 
 import lumped
-from comparisons.codes.arrays import NAMES, arrays
 from comparisons.codes.lattice import export, lattice_files
+from comparisons.codes.tables import NAMES, arrays
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, Scene

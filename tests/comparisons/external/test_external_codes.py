@@ -11,7 +11,7 @@ from sheetbench_felupe import MODEL as FELUPE
 
 import fem_reference
 from comparisons.comparison.comparison import error
-from comparisons.external import installed
+from comparisons.external import answer as external
 from comparisons.external.answer import ExternalCode
 from comparisons.external.calculix import model as results
 from comparisons.external.calculix.deck import LAWS as CALCULIX_LAWS
@@ -151,12 +151,12 @@ def test_settings_that_make_no_mesh_are_refused(judge):
 
 def test_judges_are_found_among_the_plug_ins():
     assert all(isinstance(judge, ExternalCode) for judge in JUDGES)
-    looked = {one.code.name: one.version for one in installed.find_codes()}
+    looked = {one.code.name: one.version for one in external.find_codes()}
     assert {"calculix", "kratos"} <= looked.keys()
     for name, version in looked.items():
-        assert version == installed.known_codes()[name].version()
+        assert version == external.known_codes()[name].version()
     with pytest.raises(BadInput, match="--judges"):
-        installed.find_codes(["mujoco"])
+        external.find_codes(["mujoco"])
 
 
 PROBES = {"A": (0.094, 0.094), "B": (0.15, 0.05), "C": (0.05, 0.15), "D": (0.188, 0.188)}

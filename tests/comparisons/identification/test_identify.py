@@ -11,7 +11,7 @@ import lumped
 from comparisons.identification import surface
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface, read
-from comparisons.identification.prediction import NotReached
+from comparisons.identification.model import NotReached
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice

@@ -5,8 +5,7 @@ import pytest
 
 from comparisons.identification.fit import Fit
 from comparisons.identification.measurements import Displacements
-from comparisons.identification.model import Model
-from comparisons.identification.prediction import Prediction
+from comparisons.identification.model import Model, Prediction
 from sheetbench.errors import BadInput
 
 POINTS = np.array([[0.1, 0.0], [0.1, 0.05], [0.1, 0.1]])
@@ -16,7 +15,7 @@ AXES = (np.linspace(0.0, 0.1, 3), np.linspace(0.0, 0.1, 3))
 
 def misfit(displacement):
     """Of no unknown, for what does not ask the model."""
-    return Fit(Displacements(POINTS, np.asarray(displacement)), (), Model({}, AXES, lambda measured: None))
+    return Fit(Displacements(POINTS, np.asarray(displacement)), (), Model({}, AXES, lambda *_: None))
 
 
 def test_residuals_are_shares_of_the_largest_measurement_and_come_back_in_metres():

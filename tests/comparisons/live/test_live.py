@@ -17,7 +17,7 @@ from live_server import got, posted, serving
 from terminals import COMMAND, Terminal
 
 import sheetbench as sb
-from comparisons.live import answers, server
+from comparisons.live import server
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
@@ -160,9 +160,9 @@ def test_answers_are_those_of_compare(address, panel):
 
 def test_there_is_no_error_where_the_lattice_has_no_answer(panel, monkeypatch):
     question = panel.first()
-    found = replace(answers.solved(SCENE, question), status=Status.DIVERGED)
-    monkeypatch.setattr(answers, "solved", lambda *_: found)
-    assert answers.shell(SCENE, question)["error"] is None
+    found = replace(server.solved(SCENE, question), status=Status.DIVERGED)
+    monkeypatch.setattr(server, "solved", lambda *_: found)
+    assert server.shell(SCENE, question)["error"] is None
 
 
 def test_a_pressure_has_a_slider_of_its_own():
@@ -192,7 +192,7 @@ def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, pane
 
 
 def test_a_fault_of_the_program_is_told_and_the_page_goes_on(address, panel, monkeypatch, capsys):
-    monkeypatch.setattr(answers, "lattice", lambda *_: 1 / 0)
+    monkeypatch.setitem(server.WAYS, "lattice", lambda *_: 1 / 0)
     status, document = posted(address, "lattice", query_of(panel, 4))
     assert status == 500 and "a fault of the program" in document["said"]
     assert "ZeroDivisionError" in capsys.readouterr().err
@@ -267,4 +267,4 @@ def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is
     turned = {**question.values, "angle": 0.5, "loads": 2.0}
     moved = panel.scene_of(question.model_copy(update={"values": turned}))
     assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0
-    assert answers.shell(moved, question)["error"] < 0.2
+    assert server.shell(moved, question)["error"] < 0.2

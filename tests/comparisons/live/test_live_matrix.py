@@ -5,7 +5,7 @@ import json
 import pytest
 from matrix_rows import pairwise, require_balanced
 
-from comparisons.live import answers
+from comparisons.live import server
 from comparisons.live.panel import Panel
 from comparisons.models.spec import Lattice
 from sheetbench import load
@@ -28,10 +28,10 @@ def test_every_pair_of_ends_has_an_answer_or_a_reason(row):
     question = PANEL.read(message)
     try:
         scene = PANEL.scene_of(question)
-        solution = answers.solved(scene, question)
+        solution = server.solved(scene, question)
     except BadInput as error:
         assert 0 < len(str(error)) < 300
         return
     require_balanced({**solution.document(scene), "label": solution.label})
-    said = json.dumps(answers.lattice(scene, question), allow_nan=False)
+    said = json.dumps(server.lattice(scene, question), allow_nan=False)
     assert f'"status": "{solution.status}"' in said

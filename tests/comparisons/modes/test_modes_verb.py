@@ -9,8 +9,7 @@ from cases import sheet
 from commands import run
 
 from comparisons.models.spec import Lattice
-from comparisons.modes.kinds import kinds
-from comparisons.modes.pairing import CELLS, assurance, cell_centres, matched
+from comparisons.modes.pairing import CELLS, assurance, cell_centres, kinds, matched
 from comparisons.modes.spectra import spectra
 from sheetbench import scenes
 from sheetbench.scenes import Clamped

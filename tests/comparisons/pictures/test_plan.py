@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 
 from comparisons.models.check import check
-from comparisons.pictures.arrows import load_arrows
-from comparisons.pictures.plan import edge_ends, held_lines, on_sheet, plan_lines, plan_mesh, rims
+from comparisons.pictures.plan import (
+    edge_ends,
+    held_lines,
+    load_arrows,
+    on_sheet,
+    plan_lines,
+    plan_mesh,
+    rims,
+)
 from sheetbench.scenes import load
 
 DISC = {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}

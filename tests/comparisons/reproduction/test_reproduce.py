@@ -9,9 +9,8 @@ import pytest
 from commands import run
 
 from comparisons.reproduction import figure, nearest
-from comparisons.reproduction.answers import answer
+from comparisons.reproduction.answers import answer, published, scene
 from comparisons.reproduction.printed_errors import Cell, cells, means
-from comparisons.reproduction.published import published, scene
 from comparisons.reproduction.reproduction import Reproduction, reproduce
 from comparisons.reproduction.settling import settling
 from sheetbench.answers.habibi import published_inputs

@@ -5,8 +5,8 @@ import pytest
 from rod_cases import SHEET, chain, driven
 
 from fem_reference.discrete.static import Static, StaticState
-from fem_reference.shell import statics as shell
-from fem_reference.solid import statics as solid
+from fem_reference.shell.discrete import DiscreteShell
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.mesh import rectangle
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.scenes import Curved, Hinged, Material, Scene, Sheet
@@ -43,15 +43,15 @@ def chained():
 def sheets():
     for law in STRAIN_LAWS:
         mesh = rectangle(loaded(law).sheet, (2, 2), graded=True)
-        yield f"shell, {law}", lambda mesh=mesh, law=law: shell.discretise(mesh, loaded(law), law=law)
+        yield f"shell, {law}", lambda mesh=mesh, law=law: DiscreteShell(mesh, loaded(law), law=law)
         for layers in (1, 2):
             name = f"solid, {law}, {layers}"
-            yield name, lambda mesh=mesh, law=law, n=layers: solid.discretise(mesh, loaded(law), n, law)
+            yield name, lambda mesh=mesh, law=law, n=layers: DiscreteSolid(mesh, loaded(law), n, law)
     mesh = rectangle(SHEET, 2)
-    yield "shell, chains", lambda: shell.discretise(mesh, chained())
-    yield "shell, free chains", lambda: shell.discretise(mesh, CHAINS.model_copy(update={"supports": ()}))
+    yield "shell, chains", lambda: DiscreteShell(mesh, chained())
+    yield "shell, free chains", lambda: DiscreteShell(mesh, CHAINS.model_copy(update={"supports": ()}))
     for layers in (1, 2):
-        yield f"solid, chains, {layers}", lambda n=layers: solid.discretise(mesh, chained(), n)
+        yield f"solid, chains, {layers}", lambda n=layers: DiscreteSolid(mesh, chained(), n)
 
 
 SHEETS = dict(sheets())

@@ -16,7 +16,7 @@ from contact_cases import (
 )
 
 import fem_reference
-from fem_reference.shell.statics import discretise
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import divisions, mesh_of
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere
@@ -31,7 +31,7 @@ OBSTACLES = {
 @pytest.mark.parametrize("name", OBSTACLES)
 def test_force_is_the_potential_s_and_tangent_the_force_s_derivative(name):
     scene = laid_strip(0.1, obstacles=(OBSTACLES[name],))
-    sheet = discretise(mesh_of(scene, divisions(scene.sheet, (6, 2)), False), scene)
+    sheet = DiscreteShell(mesh_of(scene, divisions(scene.sheet, (6, 2)), False), scene)
     item, rng = sheet.contacts[0], np.random.default_rng(1)
     q, step, h = np.zeros(sheet.size), rng.normal(size=sheet.size), 1e-7
     sheet.displacement(q)[:] = 0.01 * rng.normal(size=(sheet.nodes, 3)) - [0.0, 0.0, 0.02]

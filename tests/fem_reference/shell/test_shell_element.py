@@ -10,8 +10,8 @@ from fem_reference.discrete.static import Static, StaticState
 from fem_reference.plate import statics as plate
 from fem_reference.shell import statics as shell
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
-from fem_reference.shell.statics import discretise
 from fem_reference.solid import statics as solid
 from fem_reference.surface.loads import area_force
 from fem_reference.surface.materials import section_of
@@ -69,7 +69,7 @@ LOADS = {
 
 
 def test_the_linear_step_honours_constraints_and_extrapolates_the_stress():
-    sheet = discretise(distorted(), make_scene(supports=(Clamped(edge="x0"),), loads=LOADS["pressure"]))
+    sheet = DiscreteShell(distorted(), make_scene(supports=(Clamped(edge="x0"),), loads=LOADS["pressure"]))
     static, stretched = Static(sheet), StaticState(random_state(sheet, 0.01).q * 1.01)
     forces = static.forces(stretched, 1.0)
     matrix, rows = static.system(stretched, forces, 1.0)
@@ -94,7 +94,7 @@ def test_rigid_motions_cost_nothing():
 @pytest.mark.parametrize("thickness", [0.003, 0.03])
 def test_the_free_sheet_has_exactly_six_zero_modes(mesh, thickness):
     thick = Scene(name="t", sheet=Sheet(length_x=0.188, length_y=0.188, thickness=thickness), material=RUBBER)
-    sheet = discretise(mesh, thick)
+    sheet = DiscreteShell(mesh, thick)
     matrix = at_rest(sheet)
     scale = np.where(
         np.arange(sheet.unknowns) % 5 < 3, 1.0, 1.0 / thickness
@@ -110,7 +110,7 @@ def test_no_spurious_mode_when_held(support):
     hinged = (support, Hinged(edge="y1")) if support.kind == "hinged" else (support,)
     lowest = []
     for elements in (3, 6):
-        sheet = discretise(rectangle(SHEET, elements), make_scene(supports=hinged))
+        sheet = DiscreteShell(rectangle(SHEET, elements), make_scene(supports=hinged))
         matrix = at_rest(sheet)
         areas = area_force(sheet.element.areas, sheet.plan.elements, sheet.nodes, np.ones(1))
         mass = np.concatenate(

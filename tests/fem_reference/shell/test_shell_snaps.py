@@ -14,6 +14,7 @@ from fem_reference.discrete.course import Ramp
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell import statics as shell
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
@@ -99,7 +100,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     much of the buckled shape."""
     hinges = (Hinged(edge="x0"), Hinged(edge="x1"))
     scene = cases.sheet(SIDE, WIDTH, THICKNESS, YOUNG, 0.0, supports=hinges)
-    sheet = shell.discretise(rectangle(scene.sheet, (12, 1), graded=False), scene)
+    sheet = DiscreteShell(rectangle(scene.sheet, (12, 1), graded=False), scene)
     nodes = sheet.plan.nodes
     ends = np.flatnonzero(sheet.supports.position.any(axis=1))
     closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
@@ -235,7 +236,7 @@ def test_a_tape_spring_snaps_as_the_lattice_does(taped):
 @pytest.mark.parametrize("scene", [rod_scene(0.1, 3.0), chained()], ids=["shell", "rods"])
 def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene):
     """Along free positions, by central differences; a dragged sheet is, where it begins, the sheet itself."""
-    sheet = shell.discretise(rectangle(scene.sheet, (3, 3), graded=True), scene)
+    sheet = DiscreteShell(rectangle(scene.sheet, (3, 3), graded=True), scene)
     generator, factor, structure = np.random.default_rng(3), 0.7, Static(sheet)
     free = ~sheet.supports.position
     q, way = np.zeros((2, sheet.size))
@@ -255,7 +256,7 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
 @pytest.mark.parametrize("name", ["curved-edge", "two-edges-clamped"])
 def test_a_path_that_reaches_the_full_load_is_the_same_to_the_last_digit(name):
     scene = scenes.load(name)
-    structure = Static(shell.discretise(rectangle(scene.sheet, (4, 4), graded=True), scene))
+    structure = Static(DiscreteShell(rectangle(scene.sheet, (4, 4), graded=True), scene))
     with_it = trace_path(structure, DirectSolver(), settle=relax)
     without = trace_path(structure, DirectSolver())
     assert np.array_equal(with_it.state.q, without.state.q)

@@ -9,7 +9,7 @@ from rubbers import material
 from skfem import ElementHex2, MeshQuad
 from solid_cases import block
 
-from fem_reference.solid import statics as solid
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import Bricks, reference, shape, tangent
 from fem_reference.solid.materials import LAWS, PAIRS, lame
 from fem_reference.surface.mesh import rectangle
@@ -147,7 +147,7 @@ def test_constant_strain_is_exact_in_a_warped_brick(stretched, rng):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_rigid_motion_costs_nothing(law, rng):
-    sheet = solid.discretise(distorted(), block(0.05).replace(material=material(law, 0.49, 1e6)), law=law)
+    sheet = DiscreteSolid(distorted(), block(0.05).replace(material=material(law, 0.49, 1e6)), law=law)
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
     x = sheet.columns.positions
@@ -163,7 +163,7 @@ def test_rigid_motion_costs_nothing(law, rng):
 def test_six_zero_modes(thickness, layers, poisson, mesh):
     """The free solid has six rigid motions and no spurious mode."""
     plan = distorted() if mesh == "distorted" else rectangle(block().sheet, 1)
-    sheet = solid.discretise(plan, block(thickness, poisson), layers)
+    sheet = DiscreteSolid(plan, block(thickness, poisson), layers)
     rest = np.zeros(sheet.size)
     stiffness = sheet.tangent(sheet.shape(rest, 0.0), rest, 0.0, 0.0)
     values = np.linalg.eigvalsh(stiffness.toarray()) / (1.0e6 * thickness)

@@ -10,6 +10,7 @@ from fem_reference.verification.locking_figure import compose
 from fem_reference.verification.mindlin_plates import deflection
 from fem_reference.verification.rows import relatively
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 from sheetbench.scenes import Material
 
 
@@ -54,7 +55,7 @@ def test_stretched_elements_that_bend_stay_stable(elements):
     young = scene.material.young / 10.0
     scene = with_material(scene, young=young)
     answer = fem_reference.solve(scene, model="shell", elements=elements)
-    assert answer.status is scenes.Status.CONVERGED
+    assert answer.status is Status.CONVERGED
     assert answer.message == "" and answer.settings["graded"]
     tip = answer.displacement([scene.probes["P4"]])[0]
     assert tip == pytest.approx([-0.1067945, 1.204e-5, -0.1571709], abs=5e-7)
@@ -68,7 +69,7 @@ def test_a_thin_sheet_far_from_flat_does_not_lock(elements, within):
     thin = {"sheet": scene.sheet.model_copy(update={"thickness": 3e-4})}
     thin["material"] = scene.material.model_copy(update={"young": 545e6})
     answer = fem_reference.solve(scene.model_copy(update=thin), model="shell", elements=elements)
-    assert answer.status is scenes.Status.CONVERGED
+    assert answer.status is Status.CONVERGED
     tip = answer.displacement([(0.188, 0.188)])[0]
     assert tip == pytest.approx([-7.540e-3, -7.540e-3, -5.0455e-2], abs=within * 5.0455e-2)
 

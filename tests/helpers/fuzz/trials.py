@@ -18,6 +18,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from fuzz.judge import BAD_INPUT, NOT_CONVERGED, document, files, held, in_balance, outcome
 from sheetbench import scenes
+from sheetbench.answers.solution import Status
 
 PYDANTIC = {"Input", "tuple", "instance", "dictionary", "constrained", "union"}  # words of its own messages
 WORDS = {0: "done", BAD_INPUT: "refused", NOT_CONVERGED: "not converged"}
@@ -78,7 +79,7 @@ def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
         except (scenes.BadInput, ValidationError) as refused:
             assert str(refused)
             return "refused"
-    if found.status is not scenes.Status.CONVERGED:
+    if found.status is not Status.CONVERGED:
         return "not converged"
     assert np.isfinite(moved).all() and found.balance is not None and found.balance.holds
     return "done"

@@ -80,7 +80,7 @@ def test_force_and_tangent_are_derivatives_of_the_energy(item):
         force = np.zeros_like(u)
         return contact.add_force(u, drive, force), force
 
-    assert contact.report(u, drive)[0].points > 0
+    assert contact.report((u, drive))[0].points > 0
     (high, up), (low, down), (_, force) = at(u + h * step), at(u - h * step), at(u)
     assert (high - low) / (2 * h) == pytest.approx(float((force * step).sum()), rel=1e-7)
     blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))

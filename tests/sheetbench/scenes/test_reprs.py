@@ -19,12 +19,13 @@ from comparisons.sweep.solved import Ask
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
-from sheetbench.answers.history import ENERGIES
+from sheetbench.answers.history import ENERGIES, History
+from sheetbench.answers.solution import Status
 from sheetbench.scenes.language import summary
 
 SCENE = scenes.load("two-edges-clamped")
-HISTORY = scenes.History(
-    "lumped 5×5×2", "verlet", {}, scenes.Status.CONVERGED, "", np.linspace(0.0, 1.0, 500),
+HISTORY = History(
+    "lumped 5×5×2", "verlet", {}, Status.CONVERGED, "", np.linspace(0.0, 1.0, 500),
     {f"P{i}": np.full((500, 3), -1e-3) for i in range(40)}, {name: np.ones(500) for name in ENERGIES},
     {"x0": np.ones((500, 3))}, {}, 1000, 0.1, 2.0,
 )  # fmt: skip

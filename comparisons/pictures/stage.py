@@ -72,8 +72,8 @@ class Stage:
             if isinstance(one, Plane):
                 body = pyvista.Plane(center=middle - way, direction=along, i_size=side, j_size=side)
             elif isinstance(one, Cylinder):
-                size = {"radius": radius, "height": 1.2 * self.size}
-                body = pyvista.Cylinder(center=at + way, direction=along, resolution=80, **size)
+                size: Any = {"radius": radius, "height": 1.2 * self.size, "resolution": 80}
+                body = pyvista.Cylinder(center=at + way, direction=along, **size)
             else:
                 body = pyvista.Sphere(radius=radius, center=at, theta_resolution=60, phi_resolution=60)
             self.plotter.add_mesh(

@@ -210,7 +210,7 @@ class Contact(LatticeItem):
 
 def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:
     """Return obstacles and points of contacts of a lattice of so many layers, named as in `lattice.npz`
-    (`comparisons.codes.arrays`): with φ the distance of a point from its obstacle each has the energy
+    (`comparisons.codes.tables`): with φ the distance of a point from its obstacle each has the energy
     ½ stiffness area ⟨offset − φ⟩²."""
     shapes = [one.obstacle for one in contacts]
     parts = [(np.empty(0, int), np.empty((0, 4, layers), int), np.empty((0, 4)), *[np.empty(0)] * 3)]

@@ -20,7 +20,7 @@ if _TYPE_CHECKING:
 
     import sheetbench.scenes as scenes
     from comparisons.codes.cell import Cell
-    from comparisons.codes.cell_meshes import cell_of as cell
+    from comparisons.codes.cell import cell_of as cell
     from comparisons.comparison.comparison import error
     from comparisons.identification.measurements import Displacements
     from comparisons.models.spec import Elements, External, Lattice, LatticePair
@@ -69,8 +69,7 @@ _VERBS = (
     "modes", "score", "verify", "report",
 )  # fmt: skip
 _MODULES = {  # all else is of sheetbench.scenes
-    "comparisons.codes.cell": "Cell",
-    "comparisons.codes.cell_meshes": "cell",
+    "comparisons.codes.cell": "Cell cell",
     "comparisons.comparison.comparison": "error",
     "comparisons.identification.measurements": "Displacements",
     "comparisons.models.spec": "Elements External Lattice LatticePair",

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.pages import studies as runs
-from comparisons.pages.tables import tables
+from comparisons.pages.studies import tables
 from sheetbench.answers.files import plain, write_text
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table, TableUnit, unit

@@ -76,8 +76,7 @@ def command(
     from dataclasses import fields
 
     from comparisons.calibration import damping
-    from comparisons.calibration.answer import SheetCalibration, to_toml
-    from comparisons.calibration.calibrate import calibrate, expected, subject
+    from comparisons.calibration.calibrate import SheetCalibration, calibrate, expected, subject, to_toml
     from comparisons.codes.cell_moduli import given_coefficients, homogenise
     from comparisons.codes.files import WRITERS
     from comparisons.codes.lattice import CODES, lattice_files
@@ -114,8 +113,8 @@ def command(
             },
         )
         ways = (loss_factor, damping_ratio, log_decrement, quality, prony)
-        names = ("loss-factor", "damping-ratio", "log-decrement", "quality", "prony")
-        require_damper(for_, of.material, dict(zip((f"--{name}" for name in names), ways, strict=True)))
+        names = (f"--{name}" for name in damping.MEASURES)
+        require_damper(for_, of.material, dict(zip(names, ways, strict=True)))
         found = setup(of, for_, squares_of(wanted.grid), named=named)
         with output.open(about=about, variant={"--for": for_}) as out:
             return out.show(found)

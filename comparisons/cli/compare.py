@@ -55,7 +55,7 @@ def command(
     from comparisons.models.context import running
     from comparisons.models.grids import parse_elements
     from comparisons.models.resolve import resolve
-    from comparisons.pictures.vtk import write_mesh
+    from comparisons.pictures.array_files import write_mesh
     from sheetbench import scenes
 
     named = reference if isinstance(reference, str) else reference.label

@@ -52,7 +52,7 @@ def command(
     """
     from comparisons.comparison.crosscheck import candidates, crosscheck, load_scenes
     from comparisons.comparison.motion import compare_motion
-    from comparisons.external.installed import find_codes
+    from comparisons.external.answer import find_codes
     from comparisons.models.spec import Elements, Lattice, items
     from sheetbench.errors import BadInput, require_effect
     from sheetbench.scenes import scene_of

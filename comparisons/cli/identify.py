@@ -71,7 +71,7 @@ def command(
         raise BadInput("identify: give a SCENE and --measured FILE, or --tensile FILE")
     from comparisons.comparison.comparison import load_static
     from comparisons.identification.identification import identify
-    from comparisons.identification.prediction import NotReached
+    from comparisons.identification.model import NotReached
     from comparisons.models.grids import parse_elements
     from comparisons.models.spec import Lattice
 

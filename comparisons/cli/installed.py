@@ -13,8 +13,8 @@ def installed_parts() -> str:
     from threadpoolctl import threadpool_info
 
     from comparisons.external import memory, plugins
-    from comparisons.external.installed import find_codes
-    from comparisons.pictures import amounts, offscreen
+    from comparisons.external.answer import find_codes
+    from comparisons.pictures import offscreen, work
     from comparisons.sweep import load, manifest
     from sheetbench import sources
     from sheetbench.numerics import pardiso
@@ -28,7 +28,7 @@ def installed_parts() -> str:
         "Python": f"{machine['python']} on {machine['system']}, {machine['architecture']}",
         "processor": f"{machine['processor']} ({binding.get_host_cpu_name()}), {machine['cpu_count']} cores, "
         f"load {'unknown' if busy is None else f'{busy:.3g}'}",
-        "memory": "unknown" if free is None else f"{amounts.memory(free)} free",
+        "memory": "unknown" if free is None else f"{work.memory(free)} free",
         "BLAS": ", ".join(sorted(blas)) or "none found",
         "solvers": f"own multifrontal, SciPy's SuperLU, {mkl}",
         "other codes": ", ".join(codes),

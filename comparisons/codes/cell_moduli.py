@@ -1,4 +1,6 @@
-"""What a cell is as a sheet: coefficients, moduli beside the sheet's, the error that stays."""
+"""What a cell is as a sheet: coefficients, moduli beside the sheet's, the error that stays;
+and the parameters of codes with such cells.
+"""
 
 from __future__ import annotations
 
@@ -6,77 +8,109 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import cell_of
-from comparisons.codes.coefficients import best_hinge, limit_error, nearest
-from comparisons.codes.homogenise import Moduli, moduli_of
-from comparisons.codes.parameters import Parameter, parameters
+from comparisons.codes.cell import Cell, cell_of
+from comparisons.codes.coefficients import Moduli, best_hinge, limit_error, moduli_of, nearest
+from comparisons.codes.table import CODES, Code, Numbers
 from fem_reference.surface.materials import section_of
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.table import Column, Table, number
+from sheetbench.answers.table import NUMBER, PERCENT, Column, Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_effect
-from sheetbench.scenes import AnyScene, Scene, require_plain, scene_of
+from sheetbench.scenes import AnyScene, Material, Scene, require_plain, scene_of
 from sheetbench.scenes.meaning.words import sheet_in_words
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a code, as it is shown."""
+
+    code: str
+    name: Annotated[str, Column("parameter")]
+    value: Annotated[float, NUMBER(".6g")]
+    unit: str
+    convention: Annotated[str, Column("meaning in this code", prose=True)]
+
+
+@dataclass(frozen=True, repr=False)
+class CellInScene(Answer):
+    """Base of answers about a cell in a scene. coefficients: of the cell; limit_error: of however fine a mesh
+    with them, None where the scene has no answer at rest; missing: why that is not known where it should
+    be."""
+
+    scene: Scene
+    cell: Cell
+    coefficients: Mapping[str, float]
+    limit_error: float | None
+    missing: str
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the error in the scene is known, or needs not be."""
+        return not self.missing
+
+    def complaints(self) -> list[str]:
+        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
+
+
+def parameters(hinge: str, coefficients: Numbers, scene: Scene) -> list[Parameter]:
+    """The parameters of the codes of triangles whose hinges have this weight."""
+    return [
+        one
+        for code in CODES.values()
+        if code.hinge == hinge and code.elements == "triangles"
+        for one in parameters_of(code, coefficients, scene)
+    ]
+
+
+def parameters_of(code: Code, coefficients: Numbers, scene: Scene) -> list[Parameter]:
+    """The parameters of a code for a scene's sheet."""
+    material = scene.material
+    damping = {"damping_time": material.dashpot_time, "damping_rate": material.damping_rate}
+    numbers = {"thickness": scene.sheet.thickness, "density": material.density, **damping, **coefficients}
+    keys = (*code.keys, *(code.dampers if material.dashpot_time else ()))
+    return [Parameter(code.title, key.name, key.value(numbers), key.unit, key.convention) for key in keys]
+
+
+def undamped(code: Code, material: Material) -> str:
+    """Why a material's damping is not among a code's parameters, or "" where it is, or there is none."""
+    if material.branches.times:
+        return f"{code.title} has no Maxwell branches"
+    if material.dashpot_time and not code.dampers:
+        return f"{code.title} has no damper in proportion to the stiffness"
+    if material.damping_rate and not any(key.name == "rayleighMass" for key in code.dampers):
+        return f"{code.title} has no damper in proportion to the mass"
+    return ""
+
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 SPACINGS = 8  # cells along the shorter side, unless a spacing is given
 MISSED = 0.01  # of the sheet's modulus 11
-
-
-@dataclass(frozen=True)
-class Coefficient:
-    """A coefficient of the cell's elements [SI]; nearest: the one whose moduli come nearest to the sheet's,
-    where that is another."""
-
-    coefficient: str
-    unit: str
-    value: Annotated[float, Column("value", form="#.6g")]
-    nearest: Annotated[float | None, Column("nearest to the moduli", form="#.6g")] = None
-
-
-@dataclass(frozen=True)
-class Modulus:
-    """A modulus of the sheet and of the cell, and their difference over the sheet's 11 of the same kind."""
-
-    modulus: str
-    unit: str
-    sheet: Annotated[float, Column("sheet", form="#.6g")]
-    cell: Annotated[float, Column("cell", form="#.6g")]
-    miss: Annotated[float, Column("difference", "", "%", 100.0, "z.2f")]
+COEFFICIENTS: tuple[Any, ...] = ("coefficient", "unit", NUMBER("#.6g", "value"))
+MODULI = (
+    *("modulus", "unit", NUMBER("#.6g", "sheet"), NUMBER("#.6g", "cell"), PERCENT("z.2f", "difference")),
+)
 
 
 @dataclass(frozen=True, repr=False)
-class CellModuli(Answer):
+class CellModuli(CellInScene):
     """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
-    nearest to the sheet's, and the error that they leave, where that is another. limit_error is None where it
-    is unknown; missing: why.
+    nearest to the sheet's, and the error that they leave, where that is another.
     """
 
-    cell: Cell
-    scene: Scene
-    coefficients: dict[str, float]
     moduli: Moduli
-    limit_error: float | None
     nearest: tuple[dict[str, float], float] | None = None
-    missing: str = ""
 
     file_name = "cell"
 
     @property
-    def succeeded(self) -> bool:
-        """Whether the error in the scene is known."""
-        return not self.missing
-
-    @property
-    def rows(self) -> list[Modulus]:
-        """The moduli of the sheet and of the cell."""
+    def rows(self) -> list[tuple[str, float, float, float]]:
+        """The moduli by name, of the sheet and of the cell, and their difference over the sheet's 11."""
         own = section_of(self.scene.material, self.scene.sheet.thickness)
         target = Moduli(own.membrane, 0.0 * own.membrane, own.bending, own.shear).named()
         scales = {"A": target["A11"], "D": target["D11"], "S": target["Sx"]}
         return [
-            Modulus(name, UNITS[name[0]], target[name], got, (got - target[name]) / scales[name[0]])
+            (name, target[name], got, (got - target[name]) / scales[name[0]])
             for name, got in self.moduli.named().items()
         ]
 
@@ -99,18 +133,17 @@ class CellModuli(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         units = self.cell.units()
-        others = {} if self.nearest is None else self.nearest[0]
-        coefficients = [
-            Coefficient(name, units[name], value, others.get(name))
-            for name, value in self.coefficients.items()
-        ]
+        found, columns = [self.coefficients], COEFFICIENTS
+        if self.nearest is not None:
+            found, columns = [*found, self.nearest[0]], (*columns, NUMBER("#.6g", "nearest to the moduli"))
+        coefficients = [(name, units[name], *(one[name] for one in found)) for name in self.coefficients]
+        moduli = [(name, UNITS[name[0]], *numbers) for name, *numbers in self.rows]
         codes = parameters(self.cell.hinge, self.coefficients, self.scene) if self.cell.triangles else []
         caption = "Parameters of codes with such cells"
-        fields = ("coefficient", "unit", "value", *(("nearest",) if others else ()))
         return (
-            Table.of(Coefficient, coefficients, "Coefficients", "coefficients", fields=fields),
+            Table.listed("Coefficients", columns, coefficients, "coefficients"),
             *([Table.of(Parameter, codes, caption, "codes", grouped=True)] if codes else []),
-            Table.of(Modulus, self.rows, "Moduli of the sheet and of the cell", "moduli"),
+            Table.listed("Moduli of the sheet and of the cell", MODULI, moduli, "moduli"),
         )
 
     def result(self) -> str:
@@ -118,9 +151,7 @@ class CellModuli(Answer):
 
     def notes(self) -> list[str]:
         missed = [
-            f"{row.modulus} by {number(100 * row.miss, '+.0f')} %"
-            for row in self.rows
-            if abs(row.miss) > MISSED
+            f"{name} by {number(100 * miss, '+.0f')} %" for name, *_, miss in self.rows if abs(miss) > MISSED
         ]
         notes = ["difference: over the sheet's A11, D11 or S."]
         if missed:
@@ -132,9 +163,6 @@ class CellModuli(Answer):
             )
         return notes
 
-    def complaints(self) -> list[str]:
-        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
-
     def document(self) -> dict[str, Any]:
         nearest = self.nearest and dict(zip(("coefficients", "limit_error"), self.nearest, strict=True))
         return {
@@ -142,9 +170,7 @@ class CellModuli(Answer):
             "area": self.cell.area,
             "coefficients": self.coefficients,
             "units": self.cell.units(),
-            "moduli": [
-                {"name": r.modulus, "asked": r.sheet, "got": r.cell, "miss": r.miss} for r in self.rows
-            ],
+            "moduli": [dict(zip(("name", "asked", "got", "miss"), row, strict=True)) for row in self.rows],
             "limit_error": self.limit_error,
             "nearest": nearest,
             "message": self.missing,
@@ -179,14 +205,15 @@ def homogenise(
     if unknown := set(given) - set(cell.units()):
         raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
     chosen = nearest(cell, scene.material, scene.sheet.thickness) | given
+    off, others, missing = None, None, ""
     try:
-        off, others = limit_error(scene, moduli_of(cell, chosen)), None
+        off = limit_error(scene, moduli_of(cell, chosen))
         if not given and (best := best_hinge(scene, cell, chosen)):
             others, chosen = (chosen, off), chosen | {"hinge": best[0]}
             off = limit_error(scene, moduli_of(cell, chosen))
     except NoEquilibrium as error:
-        return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), None, missing=str(error))
-    return CellModuli(cell, scene, chosen, moduli_of(cell, chosen), off, others)
+        off, others, missing = None, None, str(error)
+    return CellModuli(scene, cell, chosen, off, missing, moduli_of(cell, chosen), others)
 
 
 def given_coefficients(entries: Sequence[Mapping[str, float] | str]) -> dict[str, float]:

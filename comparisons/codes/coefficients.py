@@ -1,19 +1,101 @@
-"""The coefficients of a cell nearest to a material, and the error that stays however fine the mesh."""
+"""Moduli of a repeated cell, its coefficients nearest to a material, and the error that stays however fine
+the mesh.
+
+Moduli are of the energy under imposed strains and curvatures. Nodes are moved by the field of the strains e,
+curvatures κ and transverse shears γ (x, y, xy with the engineering shear; x, y),
+
+    u = e x − z κ x,    w = ½ x·κ x + γ·x,
+
+and by displacements that repeat from cell to cell, for which the energy is least; those neither move the
+cell nor turn it through its thickness. The field in another cell differs by a rigid motion, so that the
+energy of one cell is that of all.
+
+Codes that know no more have sheets of springs of one stiffness: along the sides of triangles, or of
+tetrahedra in one layer, whose height is then free to be chosen. Squares are cut into five tetrahedra each,
+neighbours mirrored, so that they share their faces' diagonals.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
-from scipy.optimize import least_squares, minimize_scalar
+from scipy.linalg import null_space
+from scipy.optimize import brentq, least_squares, minimize_scalar
 
 import fem_reference
-from comparisons.codes.cell import Cell
-from comparisons.codes.homogenise import Moduli, moduli_of
+from comparisons.codes.cell import Cell, Place, cell_of
 from comparisons.sweep.differences import error
 from fem_reference.surface.materials import Section, section_of
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Material, Scene
+
+ROUNDING = 1e-12  # of both moduli beside one off the diagonal
+
+
+@dataclass(frozen=True)
+class Moduli:
+    """Forms over (x, y, xy): membrane A [N/m], coupling B [N], bending D [N·m] (3, 3); shear S (2, 2) [N/m],
+    None of a cell without thickness, whose normals stay normal."""
+
+    membrane: np.ndarray
+    coupling: np.ndarray
+    bending: np.ndarray
+    shear: np.ndarray | None
+
+    def named(self) -> dict[str, float]:
+        """The moduli by name, as A11 or D66."""
+        pairs = {"11": (0, 0), "22": (1, 1), "12": (0, 1), "66": (2, 2), "16": (0, 2), "26": (1, 2)}
+        forms = {"A": self.membrane, "D": self.bending}
+        found = {kind + name: float(form[at]) for kind, form in forms.items() for name, at in pairs.items()}
+        if self.shear is not None:
+            found |= {"Sx": float(self.shear[0, 0]), "Sy": float(self.shear[1, 1])}
+        return found
+
+
+def moduli_of(cell: Cell, coefficients: Mapping[str, float]) -> Moduli:
+    """Moduli of a sheet of this cell.
+
+    coefficients: by the names of `cell.units()`, in those units. Raises KeyError where one is missing.
+    """
+    count = 3 * len(cell.nodes)
+    stiffness, coupled, imposed = np.zeros((count, count)), np.zeros((count, 8)), np.zeros((8, 8))
+    for element in cell.elements():
+        matrix = sum(coefficients[name] * unit for name, unit in element.stiffness.items())
+        field = np.vstack([_field(point) for point in cell.at(element.places)])
+        rows = np.concatenate([3 * node + np.arange(3) for node, _, _ in element.places])
+        np.add.at(stiffness, (rows[:, None], rows), matrix)
+        np.add.at(coupled, rows, matrix @ field)
+        imposed += field.T @ matrix @ field
+    free = null_space(_rigid(cell.nodes))
+    relaxed = np.linalg.pinv(free.T @ stiffness @ free, rcond=1e-12, hermitian=True)
+    form = (imposed - coupled.T @ free @ relaxed @ free.T @ coupled) / cell.area
+    scales = np.sqrt(np.maximum(np.diag(form), 0.0))
+    form[np.abs(form) < ROUNDING * np.outer(scales, scales)] = 0.0
+    thick = bool(np.ptp(cell.nodes[:, 2]) > 0.0)
+    return Moduli(form[:3, :3], form[:3, 3:6], form[3:6, 3:6], form[6:, 6:] if thick else None)
+
+
+def _field(point: np.ndarray) -> np.ndarray:
+    """Displacement (3,) of a point per unit of each strain, curvature and transverse shear (3, 8)."""
+    x, y, z = point
+    plane = np.array([[x, 0.0, y / 2.0], [0.0, y, x / 2.0]])
+    field = np.zeros((3, 8))
+    field[:2, :3], field[:2, 3:6] = plane, -z * plane
+    field[2] = 0.0, 0.0, 0.0, x * x / 2.0, y * y / 2.0, x * y / 2.0, x, y
+    return field
+
+
+def _rigid(nodes: np.ndarray) -> np.ndarray:
+    """Rows: mean displacements and, of a cell that has thickness, mean turns of its normal."""
+    heights = nodes[:, 2] - nodes[:, 2].mean()
+    rows = [np.kron(np.ones(len(nodes)), axis) for axis in np.eye(3)]
+    if np.any(heights):
+        rows += [np.kron(heights, axis) for axis in np.eye(3)[:2]]
+    return np.array(rows)
+
 
 COARSE = 8  # elements of the shells of a search
 STIFF = 1e3  # times κGh, of a cell whose normals stay normal
@@ -123,3 +205,76 @@ def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> tupl
         return moduli_of(cell, coefficients | {"hinge": hinge})
 
     return least_error(scene, moduli, 0.05 * start, 10.0 * start)
+
+
+FIVE = (
+    ((0, 0, 0), (1, 1, 0), (1, 0, 1), (0, 1, 1)),
+    ((1, 0, 0), (0, 0, 0), (1, 1, 0), (1, 0, 1)),
+    ((0, 1, 0), (0, 0, 0), (1, 1, 0), (0, 1, 1)),
+    ((0, 0, 1), (0, 0, 0), (1, 0, 1), (0, 1, 1)),
+    ((1, 1, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1)),
+)  # corners of a cube (x, y, layer)
+HEIGHTS = (0.2, 5.0)  # of the layers, over the thickness
+
+
+def five(i: int, j: int) -> list[list[tuple[int, int, int]]]:
+    """The tetrahedra of square (i, j): corners as places along x, along y, and layers."""
+    flip = (i + j) % 2
+    return [[(i + (x ^ flip), j + y, layer) for x, y, layer in cell] for cell in FIVE]
+
+
+def tetrahedral_cell(spacing: float, height: float) -> Cell:
+    """Two layers of nodes, with springs "k" along every side of the tetrahedra between."""
+    cells = (corners for i in range(2) for j in range(2) for corners in five(i, j))
+    places = [[(i % 2 * 4 + j % 2 * 2 + layer, i // 2, j // 2) for i, j, layer in cell] for cell in cells]
+    nodes = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (-0.5, 0.5)])
+    periods = 2.0 * spacing * np.eye(2)
+    return Cell("tetrahedra", periods, nodes * [spacing, spacing, height], springs=_along_sides(places))
+
+
+def triangular_cell(name: str, spacing: float) -> Cell:
+    """A mesh of triangles without a membrane of its own: springs "k" along its sides, hinges by angle."""
+    cell = cell_of(name, spacing, hinge="angle")
+    return replace(cell, springs=_along_sides(cell.triangles))
+
+
+def _along_sides(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Place, str], ...]:
+    """Springs "k" between every two corners of elements, each once."""
+    sides: dict[tuple[Place, Place], None] = {}
+    for element in elements:
+        for a, b in combinations(element, 2):
+            (first, i, j), (second, *to) = sorted((a, b))
+            sides[(first, 0, 0), (second, to[0] - i, to[1] - j)] = None
+    return tuple((a, b, "k") for a, b in sides)
+
+
+def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[str, float]:
+    """k [N/m] and the layers' distance [m] of tetrahedra.
+
+    k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or what is best in
+    the scene. Raises NoEquilibrium where the scene's sheet has no stable one.
+    """
+    own = section_of(scene.material, scene.sheet.thickness)
+
+    def at(height: float) -> tuple[float, Moduli]:
+        unit = moduli_of(tetrahedral_cell(spacing, height), {"k": 1.0})
+        k = _share(unit.membrane, own.membrane)
+        assert unit.shear is not None
+        return k, Moduli(k * unit.membrane, k * unit.coupling, k * unit.bending, k * unit.shear)
+
+    low, high = (share * scene.sheet.thickness for share in HEIGHTS)
+    if best:
+        height, _ = least_error(scene, lambda height: at(height)[1], low, high)
+    else:
+
+        def miss(height: float) -> float:
+            return _share(at(height)[1].bending, own.bending) - 1.0
+
+        height = float(brentq(miss, low, high))
+    return {"k": at(height)[0], "layers": height}
+
+
+def _share(form: np.ndarray, target: np.ndarray) -> float:
+    """The factor that brings a form nearest to one that is requested, in Mandel's norm."""
+    weighted = TURNED**2 * form
+    return float(np.sum(weighted * target) / np.sum(weighted * form))

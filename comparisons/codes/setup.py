@@ -17,17 +17,21 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import cell_of
-from comparisons.codes.coefficients import best_hinge, limit_error, nearest
+from comparisons.codes.cell import cell_of
+from comparisons.codes.cell_moduli import CellInScene, Parameter, parameters_of, undamped
+from comparisons.codes.coefficients import (
+    best_hinge,
+    layered_springs,
+    limit_error,
+    moduli_of,
+    nearest,
+    tetrahedral_cell,
+    triangular_cell,
+)
 from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
-from comparisons.codes.homogenise import moduli_of
-from comparisons.codes.parameters import Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
-from comparisons.codes.springs import layered_springs, tetrahedral_cell, triangular_cell
 from comparisons.codes.table import CODES, Code
 from comparisons.models.grids import GridLike
-from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
@@ -52,30 +56,18 @@ NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 
 
 @dataclass(frozen=True, repr=False)
-class CodeSetup(Answer):
-    """A scene for a code. coefficients: our own, of the cell; limit_error: of however fine a mesh with them,
-    None where the scene has no answer at rest; best: whether they are those that are best in the scene;
-    given: parameters of the code in place of those that the coefficients make; named: whether the user named
-    the scene, without which there is a sheet alone; missing: why the error is not known where it should
-    be."""
+class CodeSetup(CellInScene):
+    """A scene for a code. best: whether the coefficients are those that are best in the scene; given:
+    parameters of the code in place of those that the coefficients make; named: whether the user named the
+    scene, without which there is a sheet alone."""
 
-    scene: Scene
     code: Code
-    cell: Cell
     squares: int
-    coefficients: Mapping[str, float]
-    limit_error: float | None
     best: bool
     given: Mapping[str, float] = field(default_factory=dict)
     named: bool = True
-    missing: str = ""
 
     file_name = "code"
-
-    @property
-    def succeeded(self) -> bool:
-        """Whether the error in the scene is known, or needs not be."""
-        return not self.missing
 
     @property
     def keys(self) -> list[Parameter]:
@@ -85,8 +77,7 @@ class CodeSetup(Answer):
     @property
     def problem(self) -> Problem:
         """Mesh and parameters, for the files. Raises BadInput for what codes of triangles do not have."""
-        keys = {key.parameter: key.value for key in self.keys}
-        keys.update(self.given)
+        keys = {**{key.name: key.value for key in self.keys}, **self.given}
         material, tetrahedra = self.scene.material, None
         near = NEAR if self.best and self.code.hinge == "height" else 1.0
         flat = sheet_mesh(self.scene, self.squares, self.cell.name, near)
@@ -110,15 +101,13 @@ class CodeSetup(Answer):
         )
 
     def tables(self) -> tuple[Table, ...]:
-        fields = ("parameter", "value", "unit", "convention")
-        return (
-            Table.of(Parameter, self.keys, f"Parameters of {self.code.title}", "parameters", fields=fields),
-        )
+        caption = f"Parameters of {self.code.title}"
+        return (Table.of(Parameter, self.keys, caption, "parameters", without=("code",)),)
 
     def result(self) -> str:
         """The parameters, and the error that stays."""
         off = "" if self.limit_error is None else f"; {100 * self.limit_error:.1f} % off on the finest mesh"
-        return ", ".join(f"{key.parameter} {number(key.value, '.4g')} {key.unit}" for key in self.keys) + off
+        return ", ".join(f"{key.name} {number(key.value, '.4g')} {key.unit}" for key in self.keys) + off
 
     def notes(self) -> list[str]:
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
@@ -144,9 +133,6 @@ class CodeSetup(Answer):
         notes.append(f"Source: {self.code.source}.")
         notes.append(f"{self.code.title} ({self.code.licence}): tested by running it.")
         return notes
-
-    def complaints(self) -> list[str]:
-        return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
 
     def _refused(self) -> str:
         """Why the code gets no files, "" where it does."""
@@ -184,10 +170,7 @@ class CodeSetup(Answer):
         return {
             "code": self.code.name,
             "title": self.code.title,
-            "parameters": [
-                {"name": k.parameter, "value": k.value, "unit": k.unit, "convention": k.convention}
-                for k in self.keys
-            ],
+            "parameters": [{n: v for n, v in vars(key).items() if n != "code"} for key in self.keys],
             "mesh": self.code.mesh,
             "squares": self.squares,
             "coefficients": dict(self.coefficients),
@@ -196,7 +179,7 @@ class CodeSetup(Answer):
             "cannot": self.code.cannot,
             "source": self.code.source,
             "licence": self.code.licence,
-            "run_here": self.code.runs,
+            "run_here": True,
         }
 
     def files(self) -> dict[str, Write]:
@@ -234,34 +217,27 @@ def setup(
         raise BadInput(f"{squares} squares along the shorter side: at least 2")
     spacing = float(min(scene.sheet.lengths)) / squares
     at_rest = named and _at_rest(scene)
-    name, missing = mesh or row.mesh, ""
-    off: float | None = None
+    best, missing, given = best and at_rest and not coefficients, "", given or {}
+    name, off, fixed = mesh or row.mesh, None, dict(coefficients or {})
     if name == LAYERED:
-        found = layered_springs(scene, spacing) | dict(coefficients or {})
+        found = layered_springs(scene, spacing) | fixed
         cell = tetrahedral_cell(spacing, found["layers"])
-    elif row.elements == "springs":
-        cell = triangular_cell(name, spacing)
-        own = {"lambda_h": 0.0, "mu_h": 0.0}  # it has no membrane but its springs
-        found = nearest(cell, scene.material, scene.sheet.thickness, own)
     else:
-        cell = cell_of(name, spacing, hinge=row.hinge)
-        found = nearest(cell, scene.material, scene.sheet.thickness)
-    best = best and at_rest and not coefficients
-    found |= coefficients or {}
+        springs = row.elements == "springs"  # it has no membrane but these
+        cell = triangular_cell(name, spacing) if springs else cell_of(name, spacing, hinge=row.hinge)
+        none = {"lambda_h": 0.0, "mu_h": 0.0} if springs else None
+        found = nearest(cell, scene.material, scene.sheet.thickness, none) | fixed
     try:
         if best and name == LAYERED:
             found = layered_springs(scene, spacing, best=True)
+            cell = tetrahedral_cell(spacing, found["layers"])
         elif best and (better := best_hinge(scene, cell, found)):
             found["hinge"] = better[0]
-        if name == LAYERED:
-            cell = tetrahedral_cell(spacing, found["layers"])
         if at_rest:
-            springs = found if name != LAYERED else {"k": found["k"]}
-            off = limit_error(scene, moduli_of(cell, springs))
+            off = limit_error(scene, moduli_of(cell, {one: found[one] for one in cell.units()}))
     except NoEquilibrium as error:
         best, missing = False, str(error)
-    best = best and not given
-    return CodeSetup(scene, row, cell, squares, found, off, best, dict(given or {}), named, missing)
+    return CodeSetup(scene, cell, found, off, missing, row, squares, best and not given, given, named)
 
 
 def require_damper(code: str, material: Material, options: Mapping[str, object]) -> None:

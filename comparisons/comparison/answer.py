@@ -12,8 +12,8 @@ from typing import Any
 from comparisons.comparison.errors import Compared
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
+from comparisons.pictures.array_files import write_mesh
 from comparisons.pictures.plan import plan_mesh
-from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.solution import Solution, Status

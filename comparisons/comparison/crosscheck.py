@@ -8,7 +8,7 @@ from typing import Unpack
 
 from comparisons.comparison.comparison import load_static
 from comparisons.comparison.crosscheck_answer import Crosscheck
-from comparisons.external.installed import InstalledCode
+from comparisons.external.answer import InstalledCode
 from comparisons.models.grids import parse_elements
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, External, Lattice, Spec, items

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.external.installed import InstalledCode
+from comparisons.external.answer import InstalledCode
 from comparisons.sweep.limits import Limit, Pair, pairs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.solution import Status

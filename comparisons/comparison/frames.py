@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.pictures.vtk import write_mesh
+from comparisons.pictures.array_files import write_mesh
 from sheetbench.answers.files import folder, write_text
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import FieldMesh

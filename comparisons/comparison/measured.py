@@ -12,9 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.identification.columns import read_columns
-from comparisons.identification.start import require_flat_start
-from sheetbench.answers.history import History
-from sheetbench.answers.measured_history import COMPONENTS, Measured
+from comparisons.identification.measurements import require_flat_start
+from sheetbench.answers.history import COMPONENTS, History, Measured
 from sheetbench.errors import BadInput
 
 HEADER = ("time", "probe", *COMPONENTS)

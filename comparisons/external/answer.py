@@ -1,14 +1,19 @@
-"""An external finite-element code as cross-checks use it, and the Solution of one that solves on bricks."""
+"""An external finite-element code as cross-checks use it, and the base of those that are given a mesh here;
+those among the plug-ins, and which of them are installed.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from typing import Any, Protocol, runtime_checkable
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from comparisons.external.bricks import Bricks
-from comparisons.external.kratos.problem import Triangles
+from comparisons.external import plugins
+from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.plugins import Model
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import FieldMesh, Solution, Status
@@ -48,14 +53,6 @@ def require_count(elements: Any) -> None:
     """Raise BadInput for what is no number of elements."""
     if type(elements) is not int or elements < 1:
         raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
-
-
-def require(elements: Any, layers: Any, grading: str, gradings: Collection[str]) -> None:
-    """Raise BadInput for settings of bricks that make no mesh."""
-    require_count(elements)
-    if type(layers) is not int or layers < 2 or layers % 2:
-        raise BadInput(f"layers = {layers!r}: an even number, so that nodes lie in the mid-surface")
-    require_choice("grading", grading, gradings)
 
 
 def refusal(
@@ -109,67 +106,184 @@ def refusal_of_motion(scene: Scene) -> str:
     return ""
 
 
-def moved(
-    code: ExternalCode,
-    integrator: str,
-    scene: Scene,
-    settings: Mapping[str, Any],
-    mesh: Bricks | Triangles,
-    times: np.ndarray,
-    found: np.ndarray,
-    note: str,
-    unknowns: int,
-    seconds: tuple[float, float],
-) -> History:
-    """Return the History of nodal displacements (t, n, 3) [m] at `times` (t,) [s] after a start at rest, of
-    SUBSTEPS steps each; note: why it stopped early, "" if it did not; seconds: set-up and solve."""
-    still = np.zeros((1, *found.shape[1:]))
-    at_probes = np.array([mesh.sample(u, scene.probe_points()) for u in (*still, *found)])
-    return History(
-        label=f"{code.called} {mesh.label}",
-        integrator=integrator,
-        settings={**settings, "elements": list(mesh.counts)},
-        status=Status.DIVERGED if note else Status.CONVERGED,
-        message=note,
-        time=np.concatenate([[0.0], times]),
-        probes=dict(zip(scene.probes, np.swapaxes(at_probes, 0, 1), strict=True)),
-        energies={},
-        reactions={},
-        actuators={},
-        steps=SUBSTEPS * len(found),
-        setup_seconds=seconds[0],
-        solve_seconds=seconds[1],
-        extra={"unknowns": unknowns},
-    )
+class Reached(NamedTuple):
+    """What a code finds at rest: nodal displacement (n, 3) [m] at the last load factor that converged;
+    iterations; note: why it ended early, "" if it did not; seconds: of the solve alone; held: unknowns of the
+    mesh that supports take."""
+
+    displacement: np.ndarray
+    load_factor: float = 0.0
+    iterations: int = 0
+    note: str = ""
+    seconds: float = 0.0
+    held: int = 0
 
 
-def solution(
-    code: ExternalCode,
-    settings: Mapping[str, Any],
-    mesh: Bricks | Triangles,
-    displacement: np.ndarray,
-    status: Status,
-    load_factor: float,
-    note: str,
-    iterations: int,
-    seconds: tuple[float, float],
-    unknowns: int | None = None,
-) -> Solution:
-    """Return the Solution of nodal displacements (n, 3) [m]; seconds: set-up and solve; unknowns: as many as
-    there are components unless given."""
-    return Solution(
-        model=code.name,
-        label=f"{code.called} {mesh.label}",
-        settings={**settings, "elements": list(mesh.counts)},
-        status=status,
-        unknowns=displacement.size if unknowns is None else unknowns,
-        iterations=iterations,
-        setup_seconds=seconds[0],
-        solve_seconds=seconds[1],
-        sample=lambda points: mesh.sample(displacement, points),
-        reactions={},
-        energies={},
-        mesh=FieldMesh(mesh.positions, [(mesh.KIND, mesh.elements)], {"displacement": displacement}),
-        load_factor=load_factor,
-        remarks=(note,) if note else (),
-    )
+class Sampled(NamedTuple):
+    """What a code finds in motion: times (t,) [s] and nodal displacements (t, n, 3) [m]; the rest as of
+    `Reached`."""
+
+    times: np.ndarray
+    displacement: np.ndarray
+    note: str
+    seconds: float
+    held: int = 0
+
+
+class Code(ABC):
+    """Base of the external codes here: status, times and mesh of what a subclass finds."""
+
+    name: ClassVar[str]
+    called: ClassVar[str]
+    needs: ClassVar[str]
+    meshes: ClassVar[tuple[int, ...]]
+    layered: ClassVar[bool]
+    settings: ClassVar[dict[str, Any]]
+    unknowns = 3  # of a node
+
+    @abstractmethod
+    def version(self) -> str | None:
+        """Return its version, None where it is not installed."""
+
+    @abstractmethod
+    def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        """Return why it cannot solve a scene, "" if it can."""
+
+    @abstractmethod
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Any) -> Reached:
+        """Return what it finds of a scene that it does not refuse."""
+
+    def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Any:
+        """Return the mesh, `Bricks` or alike. Raises BadInput without the code, or for bad settings."""
+        elements, layers, grading = (settings[name] for name in ("elements", "layers", "grading"))
+        require_count(elements)
+        if type(layers) is not int or layers < 2 or layers % 2:
+            raise BadInput(f"layers = {layers!r}: an even number, so that nodes lie in the mid-surface")
+        require_choice("grading", grading, GRADINGS)
+        self.require_installed()
+        return Bricks.of(scene, elements, layers, grading)
+
+    def installed(self) -> bool:
+        """Return whether it can be run."""
+        return self.version() is not None
+
+    def require_installed(self) -> None:
+        """Raise BadInput where it is not installed."""
+        if not self.installed():
+            raise BadInput(f"model = '{self.name}': needs {self.needs}")
+
+    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
+        """Return the static answer. Raises BadInput without the code or for settings it cannot use."""
+        began, mesh = perf_counter(), self.mesh(scene, settings)
+        note = self.refusal(scene, settings)
+        still = np.zeros_like(mesh.positions)
+        found = Reached(still, note=note) if note else self.at_rest(scene, settings, mesh)
+        status = Status.CONVERGED if found.load_factor == 1.0 and not found.note else Status.DIVERGED
+        if not np.isfinite(found.displacement).all():
+            status = Status.NON_FINITE
+        displacement = np.nan_to_num(found.displacement)
+        return Solution(
+            model=self.name,
+            label=f"{self.called} {mesh.label}",
+            settings={**settings, "elements": list(mesh.counts)},
+            status=Status.REFUSED if note else status,
+            unknowns=self.unknowns * len(still) - found.held,
+            iterations=found.iterations,
+            setup_seconds=perf_counter() - began - found.seconds,
+            solve_seconds=found.seconds,
+            sample=lambda points: mesh.sample(displacement, points),
+            reactions={},
+            energies={},
+            mesh=FieldMesh(mesh.positions, [(mesh.KIND, mesh.elements)], {"displacement": displacement}),
+            load_factor=found.load_factor,
+            remarks=(found.note,) if found.note else (),
+        )
+
+
+class MovingCode(Code):
+    """Base of those that answer motions from rest too, of SUBSTEPS steps a sample."""
+
+    integrator: ClassVar[str]
+
+    @abstractmethod
+    def in_motion(
+        self, scene: Scene, settings: Mapping[str, Any], mesh: Any, duration: float, count: int
+    ) -> Sampled:
+        """Return what it finds of a motion over `duration` [s] at so many times, the start not among them."""
+
+    def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        """Return why it does not move a scene, "" if it does."""
+        return self.refusal(scene, settings) or refusal_of_motion(scene)
+
+    def simulate(
+        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
+    ) -> History:
+        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
+
+        Raises BadInput without the code, and for scenes and settings that it does not take.
+        """
+        if note := self.refusal_of_motion(scene, settings):
+            raise BadInput(f"{self.name}: {note}")
+        began, mesh, count = perf_counter(), self.mesh(scene, settings), max(1, round(duration / every))
+        found = self.in_motion(scene, settings, mesh, float(duration), count)
+        note = found.note or ("" if len(found.times) == count else "it stopped before the end")
+        still = np.zeros((1, *mesh.positions.shape))
+        at_probes = np.array([mesh.sample(u, scene.probe_points()) for u in (*still, *found.displacement)])
+        return History(
+            label=f"{self.called} {mesh.label}",
+            integrator=self.integrator,
+            settings={**settings, "every": duration / count, "elements": list(mesh.counts)},
+            status=Status.DIVERGED if note else Status.CONVERGED,
+            message=note,
+            time=np.concatenate([[0.0], found.times]),
+            probes=dict(zip(scene.probes, np.swapaxes(at_probes, 0, 1), strict=True)),
+            energies={},
+            reactions={},
+            actuators={},
+            steps=SUBSTEPS * len(found.times),
+            setup_seconds=perf_counter() - began - found.seconds,
+            solve_seconds=found.seconds,
+            extra={"unknowns": self.unknowns * len(mesh.positions) - found.held},
+        )
+
+
+@dataclass(frozen=True)
+class InstalledCode:
+    """An external code: the name or `FILE.py:OBJECT` that selects it, and its version, None where absent."""
+
+    model: str
+    code: ExternalCode
+    version: str | None
+
+
+def find_codes(names: Sequence[str] | None = None) -> list[InstalledCode]:
+    """Return the external codes of these names, or `FILE.py:OBJECT`; of all plug-ins unless given.
+
+    Raises BadInput for a name that is no external code's, and for a named code that is not installed.
+    """
+    if names is None:
+        return [InstalledCode(name, code, code.version()) for name, code in known_codes().items()]
+    codes = []
+    for name in names:
+        if plugins.from_file(name) is None:
+            require_choice("--judges", name, known_codes())
+        code = plugins.plugin(name)
+        if not isinstance(code, ExternalCode):
+            raise BadInput(f"--judges = '{name}': no external code, it has no meshes or no version()")
+        if (version := code.version()) is None:
+            raise BadInput(f"--judges = '{name}': needs {code.needs}")
+        codes.append(InstalledCode(name, code, version))
+    return codes
+
+
+def known_codes() -> dict[str, ExternalCode]:
+    """Return the external codes among the plug-ins by name, without those that cannot be loaded."""
+    codes = {}
+    for name in plugins.names():
+        try:
+            model = plugins.plugin(name)
+        except BadInput:
+            continue
+        if isinstance(model, ExternalCode):
+            codes[name] = model
+    return codes

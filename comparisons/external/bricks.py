@@ -45,8 +45,8 @@ from sheetbench.scenes import (
     held_axes,
     holds_director,
 )
+from sheetbench.scenes.meaning.composition import weights
 from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
-from sheetbench.scenes.meaning.payloads import weights
 from sheetbench.scenes.objects.shapes import Shape
 from sheetbench.scenes.objects.supports import AnySupport, place
 

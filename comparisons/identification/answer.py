@@ -2,61 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
-from typing import Annotated, Any
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
 from comparisons.identification.measurements import Displacements, Measured
-from comparisons.identification.outliers import Outlier
-from comparisons.identification.residual_test import Runs
+from comparisons.identification.residuals import Outlier, Runs
+from comparisons.identification.unknowns import Estimate
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture
-from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Column, Table, TableUnit, quantity, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Table, quantity, unit
 from sheetbench.scenes import Scene
 
+UNKNOWNS = (
+    *("unknown", "unit", NUMBER(".6g", "value"), NUMBER(".6g", "from"), NUMBER(".6g", "to")),
+    *(NUMBER(".6g", "on finer cells"), NUMBER(".6g", "start")),
+)
 SHOWN = 20  # residuals on the terminal; all of them are in the files
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """An unknown's value, its 95 % interval, the value the search started from and the unit.
-
-    refined: about where a lattice with cells half as large would put it, None where that is not known;
-    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh;
-    determined: whether the data see it by itself.
-    """
-
-    value: float
-    interval: tuple[float, float]
-    start: float
-    unit: str
-    refined: float | None
-    noise_interval: tuple[float, float]
-    determined: bool
-
-
-@dataclass(frozen=True)
-class UnknownRow:
-    """An unknown in its unit; nothing of what the data do not determine."""
-
-    unknown: str
-    unit: TableUnit
-    value: Annotated[float | None, NUMBER(".6g")]
-    low: Annotated[float | None, NUMBER(".6g", "from")]
-    high: Annotated[float | None, NUMBER(".6g", "to")]
-    refined: Annotated[float | None, NUMBER(".6g", "on finer cells")]
-    start: Annotated[float, NUMBER(".6g", "start")]
-
-
-@dataclass(frozen=True)
-class ResidualRow:
-    """A measured point (and time), and what the model is off there: by component, or along the normal."""
-
-    at: Mapping[Column, float]
-    off: Annotated[Mapping[str, float], MILLIMETRES("z.4f")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -95,24 +59,14 @@ class Identification(Answer):
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
-        return {
+        own = {name: value for name, value in vars(self).items() if name not in ("measured", "without")}
+        return own | {
             "scene": self.scene.name,
-            "model": self.model,
-            "settings": self.settings,
             "unknowns": {name: asdict(u) for name, u in self.unknowns.items()},
-            "residuals": self.residuals,
             "points": self.measured.points,
-            "noise": self.noise,
-            "relative": self.relative,
-            "evaluations": self.evaluations,
-            "converged": self.converged,
-            "explained": self.explained,
             "runs": {**asdict(self.runs), "probability": self.runs.probability},
-            "starts": self.starts,
-            "grids": [list(grid) for grid in self.grids],
             "outliers": [asdict(one) for one in self.outliers],
             "without_outliers": {name: asdict(u) for name, u in self.without.items()},
-            "warnings": list(self.warnings),
         }
 
     def tables(self) -> tuple[Table, ...]:
@@ -131,26 +85,31 @@ class Identification(Answer):
         return self._unknowns(), self._residuals(np.sort(np.argsort(size)[-SHOWN:]), caption)
 
     def _unknowns(self) -> Table:
-        rows = []
-        for name, u in self.unknowns.items():
-            row = UnknownRow(name, unit(u.unit), u.value, *u.interval, u.refined, u.start)
-            hidden: dict[str, Any] = dict.fromkeys(("value", "low", "high", "refined"))
-            rows.append(row if u.determined else replace(row, **hidden))
-        return Table.of(UnknownRow, rows, f"Values and their 95 % intervals, of {self.contains}", "unknowns")
+        """Return a row per unknown in its unit; nothing of what the data do not determine."""
+        rows = [
+            (
+                name,
+                unit(u.unit),
+                *((u.value, *u.interval, u.refined) if u.determined else [None] * 4),
+                u.start,
+            )
+            for name, u in self.unknowns.items()
+        ]
+        caption = f"Values and their 95 % intervals, of {self.contains}"
+        return Table.listed(caption, UNKNOWNS, rows, "unknowns")
 
     def _residuals(self, points: np.ndarray, caption: str) -> Table:
+        """Return measured points (and times), and what the model is off there: by component, or along the
+        normal."""
         flat = isinstance(self.measured, Displacements)
         names = [f"off in u{axis}" for axis in "xyz"] if flat else ["distance"]
-        columns = [MILLIMETRES("z.2f", axis) for axis in "xyz"]
-        at = self.measured.points
+        columns, at = [MILLIMETRES("z.2f", axis) for axis in "xyz"], self.measured.points
+        columns = columns[: at.shape[1]]
         if isinstance(self.measured, Displacements) and self.measured.time is not None:
             columns, at = [SECONDS(".4f", "t"), *columns], np.column_stack([self.measured.time, at])
         off = self.residuals.reshape(len(self.residuals), -1)
-        rows = (
-            ResidualRow(dict(zip(columns, at[i], strict=False)), dict(zip(names, off[i], strict=True)))
-            for i in points
-        )
-        return Table.of(ResidualRow, rows, caption, "residuals")
+        columns += [MILLIMETRES("z.4f", name) for name in names]
+        return Table.listed(caption, columns, np.column_stack([at, off])[points].tolist(), "residuals")
 
     def figures(self) -> tuple[Picture, ...]:
         compose = "comparisons.identification.figure:compose"

@@ -1,10 +1,11 @@
-"""Columns of numbers from a CSV file as spreadsheets, cameras and numpy write them.
+"""Columns of numbers from a CSV file as spreadsheets, cameras, testing machines and numpy write them.
 
-The first line that is no comment names the columns, in any order and case. A unit may follow a name, as in
-"uz [mm]": numbers are converted to metres and seconds, which they are in where no unit is given. Lines that
-begin with # are comments. Cells are separated by commas, semicolons or tabs, whichever the header has;
-where commas do not separate they may be decimal commas, as long as no number has a point. An empty cell, or
-NaN, is a number that was not measured.
+The first line with the names of two columns that are looked for, in any order and case, is the header: what a
+machine writes above it is passed over. A name may have several words, and a unit may follow it in brackets,
+as in "uz [mm]": numbers are converted to SI units, which they are in where no unit is given. Lines that begin
+with # are comments. Cells are separated by commas, semicolons or tabs, whichever the header has; where commas
+do not separate they may be decimal commas, as long as no number has a point. An empty cell, or NaN, is a
+number that was not measured.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from dataclasses import dataclass
 from math import isfinite, nan
 from pathlib import Path
 
+import numpy as np
+
 from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes.language.reading import read_text
 from sheetbench.scenes.language.units import quantity
@@ -23,8 +26,9 @@ from sheetbench.scenes.objects.quantities import LARGEST
 
 LARGEST_FILE = 2**28  # bytes
 SEPARATORS = ";\t,"
-UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "um": 1e-6, "s": 1.0, "ms": 1e-3}  # in m or s
+MOTION = {"time": "s", "seconds": "s", **dict.fromkeys(("x", "y", "z", "ux", "uy", "uz"), "m")}
 _COMMA, _POINT = (re.compile(rf"[+-]?(\d+{mark}\d*|{mark}\d+)([eE][+-]?\d+)?") for mark in (",", r"\."))
+_CELL, _HEADED = re.compile(rf"[^{SEPARATORS}]+"), re.compile(r"(.*?)\s*(?:[\[(]([^\])]*)[\])])?")
 _SHOWN = 40  # characters of a cell that a refusal repeats
 
 
@@ -76,11 +80,13 @@ class Columns:
     names: tuple[str, ...]
     rows: tuple[Row, ...]
 
+    def numbers(self, name: str) -> np.ndarray:
+        """Return the numbers (n,) in a column. Raises BadInput where there is none."""
+        return np.array([row.number(name) for row in self.rows])
 
-def read_columns(path: Path, units: Mapping[str, str] | None = None) -> Columns:
-    """Return the columns of a file; units: the names of those that are looked for, and their SI units, if
-    they are not metres and seconds. Then what stands above the header is passed over, as testing machines
-    write it, units may stand in round brackets and names in several words.
+
+def read_columns(path: Path, units: Mapping[str, str] = MOTION) -> Columns:
+    """Return the columns of a file; units: the names of those that are looked for, and their SI units.
 
     Raises BadInput naming the file, the line and what is wrong there.
     """
@@ -95,12 +101,11 @@ def read_columns(path: Path, units: Mapping[str, str] | None = None) -> Columns:
     ]
     if not kept:
         return Columns((), ())
-    _, sample = kept[0 if units is None else -1]  # below a machine's own lines, whose marks separate nothing
-    separator = next((mark for mark in SEPARATORS if mark in sample), ",")
-    lines_of_cells = list(_parsed(path, kept, separator))
-    at = 0 if units is None else _header(lines_of_cells, units)
-    (_, header), *parsed = lines_of_cells[at:]
-    named = [_name(path, cell) if units is None else _quantity(path, cell, units) for cell in header]
+    known = (len({_headed(c)[0] for c in _CELL.findall(line)} & units.keys()) for _, line in kept)
+    kept = kept[next((at for at, count in enumerate(known) if count > 1), 0) :]
+    separator = next((mark for mark in SEPARATORS if mark in kept[0][1]), ",")
+    (_, header), *parsed = _parsed(path, kept, separator)
+    named = [_quantity(path, cell, units) for cell in header]
     names, scales = tuple(name for name, _ in named), dict(named)
     repeated = [name for name in names if name and names.count(name) > 1]
     if repeated:
@@ -127,28 +132,8 @@ def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator
         yield kept[reader.line_num - 1][0], cells
 
 
-def _name(path: Path, cell: str) -> tuple[str, float]:
-    """Return a column's name without its unit, and the SI units per unit of its numbers."""
-    name, bracket, rest = cell.strip().lower().partition("[")
-    unit = rest.removesuffix("]").strip().replace("μ", "µ")  # the Greek letter for the micro sign
-    if bracket and unit not in UNITS:
-        raise BadInput(f"{path}: column {foreign(cell)}: unknown unit; write one of {', '.join(UNITS)}")
-    return name.strip(), UNITS[unit] if bracket else 1.0
-
-
-_HEADED = re.compile(r"(.*?)\s*(?:[\[(]([^\])]*)[\])])?")
-
-
-def _header(lines: list[tuple[int, list[str]]], units: Mapping[str, str]) -> int:
-    """Return the number of the first line with two of the columns, 0 where there is none."""
-    for at, (_, cells) in enumerate(lines):
-        if len({name for name, _ in map(_headed, cells)} & units.keys()) > 1:
-            return at
-    return 0
-
-
 def _headed(cell: str) -> tuple[str, str]:
-    match = _HEADED.fullmatch(cell.strip())
+    match = _HEADED.fullmatch(cell.strip(' "'))
     name, unit = (match[1], match[2] or "") if match else (cell.strip(), "")
     return "_".join(name.lower().split()), unit.strip()
 

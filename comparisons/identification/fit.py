@@ -5,20 +5,28 @@ distances of a cloud's points from the model's surface, along its normals
 (`comparisons.identification.surface`). The search is least squares in the unknowns' x by a trust region
 (SciPy's `least_squares`), with a pull of PULL towards the scene's own values, x = 0, that holds what the data
 do not see at all. Where the model has no answer the residuals are REFUSED, and the step is shortened.
+
+A motion that is out of step by half a period has a minimum of its own. So the first part of the record is
+fitted first, in which no phase has gone astray, and what is found there starts the fit of twice as much of
+it. Where the fit from the scene's own values leaves more than noise, it is made from STARTS others too,
+spread over the unknowns by Halton's sequence, and the best is taken. A start that leads to where another did
+in the first part of the record is not followed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import log
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
+from scipy.stats.qmc import Halton
 
 from comparisons.identification import surface
 from comparisons.identification.measurements import MOVED, Displacements, Measured, Surface
-from comparisons.identification.model import Model
-from comparisons.identification.prediction import NotReached, Prediction
+from comparisons.identification.model import Model, NotReached, Prediction
 from comparisons.identification.unknowns import Unknown
 from comparisons.models.context import context
 from sheetbench.answers.table import number
@@ -80,9 +88,9 @@ class Fit:
     def predict(self, x: np.ndarray) -> Prediction:
         """Return what the model has where it was measured. Raises NotReached where it has no answer."""
         measured = self.measured
-        everywhere = isinstance(measured, Surface)
-        points = surface.plan_points(self.model.axes) if everywhere else measured.points
-        return self.model.predictor(measured)(self.unknowns, x, points)
+        if isinstance(measured, Surface):
+            return self.model.predict(self.unknowns, x, surface.plan_points(self.model.axes), None)
+        return self.model.predict(self.unknowns, x, measured.points, measured.time)
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Residuals and slopes at x. Raises NotReached where the model has no answer."""
@@ -186,3 +194,71 @@ def _correlation(model: np.ndarray, measured: np.ndarray, scale: float) -> float
     if norms == 0.0 or np.abs(measured).max() < TELLING * scale:
         return 0.0
     return float(model @ measured) / norms
+
+
+STARTS = 6
+SPREAD = log(3.0)  # of x about the scene's own value
+PARTS = (0.125, 0.25, 0.5)  # of a record, before the whole
+FEWEST = 6  # measured numbers per unknown that a part must have
+ROUGH: dict[str, Any] = {"smallest": 1e-3, "evaluations": 12, "pull": 1e-2}  # of the search over a part
+ENOUGH = 1e-6  # of the search over the whole of a motion, whose slopes are differences
+ALIKE = 0.02  # of x: the same minimum
+Refusal = Callable[[Fit, Prediction], None]
+
+
+def nearest(
+    fit: Fit, enough: Callable[[Nearest], bool], first: Refusal = Fit.require_same_way
+) -> tuple[Nearest, int]:
+    """Return the best of the searches, and from how many starts it was made; enough: whether one needs no
+    other.
+
+    first: called with the fit, or that of the first part, and what is predicted of the scene's own values,
+    to refuse it. Raises NotReached where the model has no answer with them, of a motion with no start.
+    """
+    reached: list[np.ndarray] = []
+    low, high = np.array([u.bounds() for u in fit.unknowns]).T
+    spread = np.minimum(SPREAD, 0.5 * (high - low))
+    points = 2.0 * Halton(len(low), scramble=False).random(STARTS + 1)[1:] - 1.0
+    best, failure = None, NotReached()
+    for made, point in enumerate([np.zeros(len(low)), *points], 1):
+        if made > 1:
+            context().progress(f"not noise yet: start {made} of {STARTS + 1}")
+        try:
+            found = _from(fit, np.clip(spread * point, low, high), reached, first if made == 1 else None)
+        except NotReached as error:
+            if made == 1 and not reached:
+                raise
+            failure = error if made == 1 else failure
+            continue
+        if found is not None and (best is None or found.noise < best.noise):
+            best = found
+            if enough(best):
+                return best, made
+    if best is None:
+        raise failure
+    return best, STARTS + 1
+
+
+def _from(fit: Fit, start: np.ndarray, reached: list[np.ndarray], first: Refusal | None) -> Nearest | None:
+    """Return the search from a start, over growing parts of a motion; None where it joins one that was made.
+    reached: x after the first part of the searches so far, to which this one's is added."""
+    parts = _parts(fit)
+    for at, part in enumerate((*parts, fit)):
+        rough = ROUGH if part is not fit else {"smallest": ENOUGH} if parts else {}
+        found = part.search(start, first if at == 0 else None, **rough)
+        start = found.x
+        if parts and at == 0:
+            if any(np.abs(start - x).max() < ALIKE for x in reached):
+                return None
+            reached.append(start)
+    return found
+
+
+def _parts(fit: Fit) -> list[Fit]:
+    """Return the fits of parts of a motion that are made before the whole."""
+    measured = fit.measured
+    if not isinstance(measured, Displacements) or measured.time is None:
+        return []
+    parts = [measured.until(share * float(measured.time.max())) for share in PARTS]
+    enough = FEWEST * len(fit.unknowns)
+    return [replace(fit, measured=part) for part in parts if part.measured.sum() >= enough]

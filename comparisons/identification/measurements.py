@@ -25,10 +25,8 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.identification.c3d import read_markers
 from comparisons.identification.columns import Columns, Row, read_columns
-from comparisons.identification.ply import read_points
-from comparisons.identification.start import require_flat_start
+from comparisons.identification.point_files import read_markers, read_points
 from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import Scene, Sheet
 
@@ -36,6 +34,7 @@ PLACE = ("x", "y")
 MOVED = ("ux", "uy", "uz")
 CLOUDS = (".vtp", ".ply")
 FARTHEST = 2.0  # a displacement of so many sides is a wrong unit
+STILL = 0.1  # of the largest displacement: what may move at time 0, as noise
 
 
 @dataclass(frozen=True)
@@ -189,6 +188,22 @@ def _require_on_sheet(point: list[float], sheet: Sheet, where: str) -> None:
         raise BadInput(
             f"{where}: x, y = {point[0]:g}, {point[1]:g} is off the sheet, which is "
             f"0 ≤ x ≤ {sheet.length_x:g} m, 0 ≤ y ≤ {sheet.length_y:g} m"
+        )
+
+
+def require_flat_start(path: Path, time: np.ndarray, displacement: np.ndarray) -> None:
+    """Raise BadInput where a sample at time 0 is moved by more than noise.
+
+    time: (n,) [s]; displacement: (n, 3) [m], nan where not measured.
+    """
+    moved = np.nan_to_num(displacement)
+    allowed = STILL * float(np.abs(moved).max(initial=0.0))
+    first = moved[time == 0.0]
+    if np.abs(first).max(initial=0.0) > allowed:
+        row, axis = np.unravel_index(np.abs(first).argmax(), first.shape)
+        raise BadInput(
+            f"{path}: {MOVED[axis]} = {first[row, axis]:g} m at time = 0: a run begins with the flat "
+            f"sheet at rest; up to {allowed:.2g} m, a tenth of the largest displacement, passes as noise"
         )
 
 

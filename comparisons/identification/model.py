@@ -1,76 +1,108 @@
-"""The model that is fitted: its settings, and the predictor of any measurements of its scene."""
+"""The model that is fitted: what it has at the measured points, and its slopes by the unknowns.
+
+statics through the lattice     exact derivatives (`lumped.sensitivity`)
+statics through a reference     central differences of whole solutions
+motion from rest                central differences of whole runs, of the lattice or of a reference, cubic in
+                                time between samples
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from comparisons.identification import surface
-from comparisons.identification.measurements import Displacements, Measured
-from comparisons.identification.prediction import Predictor, lattice, motion, reference
+from comparisons.identification.unknowns import Unknown, put
 from comparisons.models.grading import fixed, lines_on_shapes
 from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from sheetbench.answers.history import History
+from sheetbench.answers.solution import Status
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration
 
-MOTION_ERROR = (
-    1e-7  # of a lattice's step: adaptive steps change with the unknowns, differences must not see it
-)
+STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
+MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
+MOTION_ERROR = 1e-7  # of a lattice's step, which changes with the unknowns: differences must not see it
 STEPS_PER_PERIOD = 100  # of a reference, fixed: frequencies within (2π/100)²/12, E within twice that, 0.07 %
+
+
+class NotReached(NoEquilibrium):
+    """The model has no answer here; the text says how it ended."""
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """displacement: (n, 3) [m]; slopes: by x of each unknown, (n, 3) [m], in their order."""
+
+    displacement: np.ndarray
+    slopes: list[np.ndarray]
+
+
+Predictor = Callable[[Sequence[Unknown], np.ndarray, np.ndarray, np.ndarray | None], Prediction]
 
 
 @dataclass(frozen=True)
 class Model:
-    """settings: of the model; axes: the plan grid on which it gives its whole surface; predictor: of it at
-    the rows of some measurements."""
+    """settings: of the model; axes: the plan grid on which it gives its whole surface; predict: called with
+    unknowns, their x (see `comparisons.identification.unknowns`), plan points (n, 2) [m] and the times (n,)
+    [s] of a motion, None at rest. It raises NotReached where the model has no stable equilibrium, or its run
+    ended early."""
 
     settings: dict[str, Any]
     axes: tuple[np.ndarray, np.ndarray]
-    predictor: Callable[[Measured], Predictor]
+    predict: Predictor
 
 
 def lattice_model(scene: Scene, requested: Lattice) -> Model:
     """Return the lattice requested, what it leaves open chosen by the scene's own values."""
+    import lumped
+
     chosen = resolve(scene, requested, own=False)
     grading = fixed(chosen.spec.grading) or lines_on_shapes(scene, chosen.grid, chosen.spec)
-    settings = {**chosen.settings, **as_settings(grading)}
 
     def springs(here: Scene) -> Calibration:
         return chosen.on(here).springs
 
     def run(here: Scene, end: float) -> History:
-        import lumped
-
         return lumped.simulate(here, springs(here), end, error=MOTION_ERROR)
 
-    def predictor(measured: Measured) -> Predictor:
-        if isinstance(measured, Displacements) and measured.time is not None:
-            return motion(scene, run, measured.time)
-        return lattice(scene, springs)
+    def predict(
+        unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray, time: np.ndarray | None
+    ) -> Prediction:
+        if time is not None:
+            return _by_differences(scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
+        here, names = set_in(scene, unknowns, x), [u.name for u in unknowns]
+        try:
+            found = lumped.sensitivity(here, springs(here), names, points, springs)
+        except (BadInput, NoEquilibrium) as error:
+            raise NotReached(str(error)) from None
+        slopes = [found.derivatives[u.name] * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
+        return Prediction(found.displacement, slopes)
 
-    return Model(settings, surface.plan_grid(scene.sheet.lengths, chosen.grid[:2]), predictor)
+    settings = {**chosen.settings, **as_settings(grading)}
+    return Model(settings, surface.plan_grid(scene.sheet.lengths, chosen.grid[:2]), predict)
 
 
 def reference_model(model: Resolved[Elements]) -> Model:
     """Return a finite-element reference."""
     import fem_reference
 
-    along_x, along_y = model.spec.counts(model.scene)[:2]
-    axes = surface.plan_grid(model.scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
-    predict, options = reference(model), model.spec.options
+    scene, options = model.scene, model.spec.options
+    along_x, along_y = model.spec.counts(scene)[:2]
 
     @cache
     def step() -> float:
-        lowest = fem_reference.modes(model.scene, "plate", elements=2, count=1).frequencies[0]
+        lowest = fem_reference.modes(scene, "plate", elements=2, count=1).frequencies[0]
         return float(1.0 / (STEPS_PER_PERIOD * lowest))
 
     def run(here: Scene, end: float) -> History:
@@ -79,9 +111,60 @@ def reference_model(model: Resolved[Elements]) -> Model:
             here, model.spec.model, end, elements=(along_x, along_y), **steps, **options
         )
 
-    def predictor(measured: Measured) -> Predictor:
-        if isinstance(measured, Displacements) and measured.time is not None:
-            return motion(model.scene, run, measured.time)
-        return predict
+    def still(here: Scene, points: np.ndarray) -> np.ndarray:
+        solution = solve(model.on(here))
+        if solution.status is not Status.CONVERGED:
+            raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
+        return solution.displacement(points)
 
-    return Model({"elements": [along_x, along_y], **options}, axes, predictor)
+    def predict(
+        unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray, time: np.ndarray | None
+    ) -> Prediction:
+        if time is None:
+            return _by_differences(scene, still, STATIC_STEP, unknowns, x, points)
+        return _by_differences(scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
+
+    axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
+    return Model({"elements": [along_x, along_y], **options}, axes, predict)
+
+
+def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
+    """Return the scene with every unknown at its x."""
+    for one, at in zip(unknowns, x, strict=True):
+        scene = put(scene, one.name, one.value(at))
+    return scene
+
+
+def _moved(
+    run_of: Callable[[Scene, float], History], time: np.ndarray, here: Scene, points: np.ndarray
+) -> np.ndarray:
+    """Displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s]."""
+    from scipy.interpolate import CubicSpline
+
+    places, which = np.unique(points, axis=0, return_inverse=True)
+    probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
+    run = run_of(here.replace(probes=probes), float(time.max()))
+    if run.status is not Status.CONVERGED:
+        raise NotReached(f"{run.label}: {run.status}: {run.message}")
+    moved = CubicSpline(run.time, np.stack([run.probes[name] for name in probes], axis=1))(time)
+    rows: np.ndarray = moved[np.arange(len(time)), which.ravel()]
+    return rows
+
+
+def _by_differences(
+    scene: Scene,
+    displacement: Callable[[Scene, np.ndarray], np.ndarray],
+    step: float,
+    unknowns: Sequence[Unknown],
+    x: np.ndarray,
+    points: np.ndarray,
+) -> Prediction:
+    slopes: list[np.ndarray] = []
+    for i, one in enumerate(unknowns):
+        ends = np.clip([x[i] - step, x[i] + step], *one.bounds())
+        low, high = (
+            displacement(set_in(scene, unknowns, np.where(np.arange(len(x)) == i, end, x)), points)
+            for end in ends
+        )
+        slopes.append((high - low) / (ends[1] - ends[0]))
+    return Prediction(displacement(set_in(scene, unknowns, x), points), slopes)

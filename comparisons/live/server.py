@@ -13,6 +13,9 @@ question at a time; the shell in a process of its own, so that neither waits for
 What comes in is bounded: a question has 4 kB at most, a connection that says nothing for a minute is closed,
 and few are open at once. A question that contradicts itself is answered with status 400 and a sentence. Every
 page open in the browser can send requests here; `refusal` says which are answered.
+
+Both models are solved as `sheetbench compare` solves them, without error bars. The shell is sampled at the
+lattice's masses and on a regular grid for the picture. The error is that of `comparisons.comparison`.
 """
 
 from __future__ import annotations
@@ -28,18 +31,31 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
 from typing import Any
 
-from comparisons.live import answers
-from comparisons.live.panel import Panel
-from comparisons.pages import viewer
+import numpy as np
+
+from comparisons.calibration.calibrate import to_toml as springs_to_toml
+from comparisons.live.panel import Panel, Question
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements
+from comparisons.pages.sheets import own_text, packed, viewer_sheet
+from comparisons.pictures.plan import on_sheet, plan_mesh
+from comparisons.sweep.differences import error
 from comparisons.sweep.executors import Processes
+from sheetbench.answers.files import plain
+from sheetbench.answers.solution import FieldMesh, Solution
 from sheetbench.errors import BadInput
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.toml import to_toml
 
 LOOPBACK = "127.0.0.1"
 MESSAGE = 4096  # bytes of a question at most
 CONNECTIONS = 32  # open at once
+SHELL_CELLS = 24  # along the shorter side, of the picture of the shell
+DIFFERENCE = {"name": "difference", "label": "Difference from the shell", "unit": "mm", "scale": 1e3}
+KEPT = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")  # of a solution
 FAULT = "a fault of the program; the terminal that it was started from says more"
 TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
-WAYS = ("lattice", "shell", "text")
 HEADERS = {  # of every answer: scripts, styles and answers of this server alone, and nobody's frame
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
     "img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
@@ -95,11 +111,11 @@ class Server(ThreadingHTTPServer):
     def answer(self, what: str, message: bytes) -> dict[str, Any]:
         """Return the answer to a question, by one of WAYS. Raises BadInput for one that has none."""
         question = self.panel.read(message)
-        arguments = self.panel.scene_of(question), question
+        scene = self.panel.scene_of(question)
         if what == "shell":
-            return self.shells.submit(answers.shell, *arguments).result()
+            return self.shells.submit(shell, scene, question).result()
         with self.turn:
-            return answers.lattice(*arguments) if what == "lattice" else answers.text(*arguments)
+            return WAYS[what](scene, question)
 
 
 class Desk(BaseHTTPRequestHandler):
@@ -137,23 +153,23 @@ class Desk(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         """Answer with a file of the page, or with its panel."""
         if refused := self.refusal():
-            self.refuse(refused)
+            self.reply(refused)
         elif self.what == "panel":
             self.reply(HTTPStatus.OK, self.server.panel.document())
         elif asset := self.server.assets.get(self.what):
             self.send(HTTPStatus.OK, *asset)
         else:
-            self.refuse(HTTPStatus.NOT_FOUND)
+            self.reply(HTTPStatus.NOT_FOUND)
 
     def do_POST(self) -> None:
         """Answer a question; one that contradicts itself is refused in a line."""
         length = self.headers.get("Content-Length", "")
         if refused := self.refusal(own=True):
-            return self.refuse(refused)
+            return self.reply(refused)
         if not (length.isascii() and length.isdigit() and int(length) <= MESSAGE):
-            return self.refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
+            return self.reply(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
         if self.what not in WAYS:
-            return self.refuse(HTTPStatus.NOT_FOUND)
+            return self.reply(HTTPStatus.NOT_FOUND)
         try:
             self.reply(HTTPStatus.OK, self.server.answer(self.what, self.rfile.read(int(length))))
         except BadInput as error:
@@ -162,31 +178,78 @@ class Desk(BaseHTTPRequestHandler):
             traceback.print_exception(error)
             self.reply(HTTPStatus.INTERNAL_SERVER_ERROR, {"said": FAULT})
 
-    def refuse(self, status: HTTPStatus) -> None:
-        """Refuse, and end the connection, whose further bytes are not looked at."""
-        self.close_connection = True
-        self.reply(status, {"said": status.phrase})
-
-    def reply(self, status: HTTPStatus, document: dict[str, Any]) -> None:
-        """Send JSON."""
-        self.send(status, "application/json", json.dumps(document, allow_nan=False).encode())
+    def reply(self, status: HTTPStatus, document: dict[str, Any] | None = None) -> None:
+        """Send JSON; without any refuse, and end the connection, whose further bytes are not looked at."""
+        self.close_connection |= document is None
+        body = json.dumps({"said": status.phrase} if document is None else document, allow_nan=False)
+        self.send(status, "application/json", body.encode())
 
     def send(self, status: HTTPStatus, kind: str, body: bytes) -> None:
         """Send an answer of this type."""
         self.send_response(status)
-        own = {"Content-Type": kind, "Content-Length": str(len(body))}
-        own |= {"Connection": "close"} if self.close_connection else {}
+        closing = {"Connection": "close"} if self.close_connection else {}
+        own = {"Content-Type": kind, "Content-Length": str(len(body)), **closing}
         for name, value in {**HEADERS, **own}.items():
             self.send_header(name, value)
         self.end_headers()
         self.wfile.write(body)
 
 
+def solved(scene: Scene, question: Question) -> Solution:
+    """Return the lattice's solution. Raises BadInput for what is contradictory, as do the others here."""
+    return solve(resolve(scene, question.lattice))
+
+
+def lattice(scene: Scene, question: Question) -> dict[str, Any]:
+    """Return the lattice's message."""
+    solution = solved(scene, question)
+    flat = {**DIFFERENCE, "kind": "difference", "values": packed(np.zeros(len(solution.mesh.points)))}
+    return _message(question, scene, solution, "lattice", solution.mesh, flat)
+
+
+def shell(scene: Scene, question: Question) -> dict[str, Any]:
+    """Return the shell's message, with what the lattice differs by: `error` (a fraction, null where it has no
+    meaning), and `difference` [m] at the masses, of those beyond a rim at the nearest point of the sheet."""
+    beside = solved(scene, question)
+    solution = solve(resolve(scene, Elements("shell", int(question.values["elements"]))))
+    plan, probes = plan_mesh(scene, SHELL_CELLS), scene.probe_points()
+    u = solution.displacement(plan.points[:, :2])
+    mesh = FieldMesh(plan.points, plan.cells, {"displacement": u})
+    places = on_sheet(scene, beside.mesh.points[:, :2])
+    off = np.linalg.norm(beside.displacement(places) - solution.displacement(places), axis=1)
+    known = beside.comparable and solution.comparable
+    return {
+        **_message(question, scene, solution, "shell", mesh),
+        "error": error(beside.displacement(probes), solution.displacement(probes)) if known else None,
+        "difference": packed(np.nan_to_num(off)),
+    }
+
+
+def text(scene: Scene, question: Question) -> dict[str, Any]:
+    """Return what is to be copied, as TOML: the lattice's [springs], or the scene."""
+    if question.copied == "scene":
+        return {"text": to_toml(scene)}
+    return {"text": springs_to_toml(resolve(scene, question.lattice, "springs").springs)}
+
+
+def _message(
+    question: Question, scene: Scene, solution: Solution, model: str, mesh: FieldMesh, *fields: dict[str, Any]
+) -> dict[str, Any]:
+    known = plain(solution.document(scene))
+    said = solution.message or ("" if solution.comparable else solution.status.advice)
+    sheet = viewer_sheet(model, mesh, model.capitalize(), [*fields], scene)
+    found = {"number": question.number, "said": said, "seconds": solution.solve_seconds, "sheet": sheet}
+    return found | {name: known[name] for name in KEPT}
+
+
+WAYS = {"lattice": lattice, "shell": shell, "text": text}
+
+
 def _assets() -> dict[str, tuple[str, bytes]]:
     """Return type and content of the page's files by name, read once; the page itself has none."""
     folder = resources.files("comparisons.live").joinpath("page")
     own = {name: folder.joinpath(name).read_text("utf-8") for name in ("live.html", "live.css", "live.js")}
-    texts = {**own, "viewer.js": viewer.script(), "viewer.css": viewer.style()}
+    texts = own | {name: own_text(name) for name in ("viewer.js", "viewer.css")}
     return {
         name.replace("live.html", ""): (f"{TYPES[name.rpartition('.')[2]]}; charset=utf-8", text.encode())
         for name, text in texts.items()

@@ -14,8 +14,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from shapely import LineString
 
-from comparisons.pictures.arrows import load_arrows
-from comparisons.pictures.plan import edge_ends, held_lines
+from comparisons.pictures.plan import edge_ends, held_lines, load_arrows
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import DARK, plain
 from sheetbench.scenes import EdgeLoad, Plane, Scene, holds_director

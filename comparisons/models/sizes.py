@@ -14,7 +14,7 @@ from comparisons.external import memory
 from comparisons.models.context import context
 from comparisons.models.spec import Spec
 from comparisons.models.symmetry import cut_axes
-from comparisons.pictures import amounts
+from comparisons.pictures import work
 from sheetbench.answers.size import Size
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
@@ -58,9 +58,9 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
 
     fitting = _largest(2 if spec.MASSES else 1, fits)
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"
-    taken, free = amounts.memory(needed.memory), amounts.memory(room)
+    taken, free = work.memory(needed.memory), work.memory(room)
     raise BadInput(
-        f"{spec.model} {counts}: {amounts.count(needed.unknowns)} unknowns take about {taken} of "
+        f"{spec.model} {counts}: {work.count(needed.unknowns)} unknowns take about {taken} of "
         f"memory, and {free} are free here; {instead or advice}, or give --large (in Python large=True) to "
         "try all the same"
     )

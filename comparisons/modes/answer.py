@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 
 from comparisons.models.grading import choice_notes
-from comparisons.modes.damping import ModeDamping, mode_damping
-from comparisons.modes.kinds import kinds
-from comparisons.modes.pairing import CELLS, Pair, Shaped, on_cells, pairs_of
+from comparisons.modes.damping import ModeDamping, damping_table, mode_damping
+from comparisons.modes.pairing import CELLS, Pair, kinds, on_cells, pairs_of
+from comparisons.pictures.array_files import write_mesh
 from comparisons.pictures.plan import plan_mesh
-from comparisons.pictures.vtk import write_mesh
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.modes import Buckling
 from sheetbench.answers.report import RASTER, Picture, Write
@@ -107,7 +106,7 @@ class Spectra(Answer):
     def pairs(self) -> tuple[Pair, ...]:
         """Every mode of the lattice with the mode of the same shape of each reference."""
         models = zip(self.found, self._sampled, strict=True)
-        first, *others = (Shaped(one.model, one.frequencies, shapes) for one, shapes in models)
+        first, *others = ((one.model, one.frequencies, shapes) for one, shapes in models)
         return pairs_of(first, others, self.kinds)
 
     @cached_property
@@ -116,10 +115,9 @@ class Spectra(Answer):
         if not self.buckling:
             return ()
         first, *others = (
-            Shaped(one.model, one.load_factors, on_cells(self.scene, one.displacement))
-            for one in self.buckling
+            (one.model, one.load_factors, on_cells(self.scene, one.displacement)) for one in self.buckling
         )
-        return pairs_of(first, others, [None] * len(first.values))
+        return pairs_of(first, others, [None] * len(first[1]))
 
     @cached_property
     def damping(self) -> tuple[tuple[ModeDamping, ...], ...]:
@@ -191,19 +189,12 @@ class Spectra(Answer):
         heads, values = zip(*columns, strict=True)
         caption = f"Natural frequencies about the {self.about} sheet"
         listed = Table.listed(caption, heads, zip(*values, strict=True), "modes")
-        fields = ("number", "frequency_hz", "asked", "got", "miss")
         return (
             listed,
             *self._buckling_tables(),
             *(
-                Table.of(
-                    ModeDamping,
-                    modes,
-                    f"Damping of the modes: {spectrum.model}",
-                    f"damping-{spectrum.model}",
-                    fields=fields,
-                )
-                for spectrum, modes in zip(self.found, self.damping, strict=False)
+                damping_table(modes, f"Damping of the modes: {one.model}", f"damping-{one.model}")
+                for one, modes in zip(self.found, self.damping, strict=False)
             ),
         )
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from math import inf, pi
 from typing import Annotated
 
-from sheetbench.answers.table import HERTZ, NUMBER, PERCENT
+from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Table
 from sheetbench.scenes import Material
 
 
@@ -45,3 +45,9 @@ def mode_damping(material: Material, frequencies: Iterable[float]) -> tuple[Mode
         wanted = 0.5 * material.loss_factor if material.loss_factor and within else None
         found.append(ModeDamping(number, swings, wanted, -s.real / abs(s)))
     return tuple(found)
+
+
+def damping_table(modes: Iterable[ModeDamping], caption: str, name: str, text: str = "") -> Table:
+    """Return a row per mode: what was requested, what is got."""
+    fields = ("number", "frequency_hz", "asked", "got", "miss")
+    return Table.of(ModeDamping, modes, caption, name, fields=fields, text=text)

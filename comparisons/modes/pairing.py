@@ -1,4 +1,4 @@
-"""Modes of two models paired by shape.
+"""Modes of two models paired by shape, and the kinds of those of a flat sheet.
 
 The modal assurance criterion of shapes a and b is MAC = (a·Mb)² / ((a·Ma)(b·Mb)): 1 for equal shapes, 0 for
 shapes orthogonal in the mass M. Shapes are sampled at the centres of equal plan cells, so that M is the
@@ -6,13 +6,21 @@ sheet's mass by the midpoint rule, and a factor that cancels. The pairing is the
 sum of MAC (Kuhn and Munkres; Allemang, Sound and Vibration 37, 2003, for the criterion). Modes of one
 frequency are defined up to a rotation among themselves: those of the second model are turned to the first's
 by an orthogonal Procrustes.
+
+Kinds are bending, twist, bending across, in plane. In plane: most of the mass-weighted square of the
+displacement is along the sheet. Of the others the deflection w(x, y) is split by its singular values, w ≈ σ
+f(along) g(across); g without a change of sign is bending, one change is twist, more is bending across
+(chordwise). The axis runs from the supports to the free edge, along the longer side of a free sheet, and
+between two supported edges; a sheet held at adjacent edges has none, and its modes out of plane are all
+bending.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -20,20 +28,13 @@ from scipy.optimize import linear_sum_assignment
 from comparisons.pictures.plan import inside
 from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.objects.grid import near_square
+from sheetbench.scenes.objects.supports import place
 
 Modes = tuple[np.ndarray, np.ndarray]  # frequencies (count,) and shapes (count, n, 3) on equal plan cells
+Shaped = tuple[str, np.ndarray, np.ndarray]  # a model, its frequencies or load factors, rising, and shapes
 CELLS = 32  # plan cells along the shorter side; the tenth mode has some five half-waves
 SAME = 1e-6  # relative difference of frequencies that are one: above the eigensolvers' error
 LEAST = 0.5  # MAC from which on two shapes are taken for one mode
-
-
-class Shaped(NamedTuple):
-    """A model's name, its frequencies or load factors (count,), rising, and shapes (count, n, 3) on equal
-    plan cells."""
-
-    model: str
-    values: np.ndarray
-    shapes: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -65,14 +66,14 @@ class Pair:
 
 def pairs_of(first: Shaped, others: Sequence[Shaped], kinds: Sequence[str | None]) -> tuple[Pair, ...]:
     """Every mode of the first model with the mode of the same shape of each other; kinds: of the first's."""
-    found = []
+    found, (of, own, first_shapes) = [], first
     for model, values, shapes in others:
-        mac = assurance(first.shapes, shapes, values)
+        mac = assurance(first_shapes, shapes, values)
         for i, match in enumerate(matched(mac)):
             at = int(np.argmax(mac[i])) if match is None else match
-            off = None if match is None else float(first.values[i] / values[at] - 1.0)
+            off = None if match is None else float(own[i] / values[at] - 1.0)
             is_ = None if match is None else match + 1
-            found.append(Pair(first.model, i + 1, model, is_, float(mac[i, at]), off, kinds[i]))
+            found.append(Pair(of, i + 1, model, is_, float(mac[i, at]), off, kinds[i]))
     return tuple(found)
 
 
@@ -143,3 +144,39 @@ def _repeated(frequencies: Sequence[float] | np.ndarray) -> Iterator[np.ndarray]
     for group in np.split(np.arange(len(frequencies)), breaks):
         if len(group) > 1:
             yield group
+
+
+BENDING, TWIST, ACROSS, IN_PLANE = "bending", "twist", "bending across", "in plane"
+STILL = 0.05  # of the largest |g|: a change of sign below it is the discretisation's
+
+
+def kinds(scene: Scene, shapes: np.ndarray, cells: int) -> list[str]:
+    """Return the kind of every shape (m, n, 3), sampled at `pairing.cell_centres` of `cells`: bending
+    numbered from 1, the others from their second on."""
+    axis, named = _axis(scene), list[str]()
+    counted = Counter[str]()
+    for shape in shapes:
+        kind = _kind(shape.reshape(*near_square(scene.sheet, cells), 3), axis)
+        counted[kind] += 1
+        named.append(kind if kind != BENDING and counted[kind] == 1 else f"{kind} {counted[kind]}")
+    return named
+
+
+def _kind(shape: np.ndarray, axis: int | None) -> str:
+    """Return the kind of a shape (nx, ny, 3); axis: 0 for x, 1 for y, None."""
+    along, deflection = np.sum(shape[..., :2] ** 2), shape[..., 2]
+    if along > np.sum(deflection**2):
+        return IN_PLANE
+    if axis is None:
+        return BENDING
+    _, _, across = np.linalg.svd(deflection if axis == 0 else deflection.T, full_matrices=False)
+    moving = across[0][np.abs(across[0]) > STILL * np.abs(across[0]).max()]
+    changes = int(np.count_nonzero(np.diff(np.sign(moving))))
+    return (BENDING, TWIST, ACROSS)[min(changes, 2)]
+
+
+def _axis(scene: Scene) -> int | None:
+    held = {"xy".index(support.edge[0]) for support in scene.supports if place(support) is None}
+    if len(held) == 1:
+        return held.pop()
+    return None if held else int(np.argmax(scene.sheet.lengths))

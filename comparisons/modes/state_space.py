@@ -173,7 +173,7 @@ class Linearisation(Answer):
         return Table.listed("Static uz per unit of input", columns, rows)
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("responses", "comparisons.modes.state_figure:compose", (self,)),)
+        return (Picture("responses", "comparisons.modes.figure:responses", (self,)),)
 
     def files(self) -> dict[str, Write]:
         """Return the matrices; in MATLAB and Octave ss(ss_A, ss_B, ss_C, ss_D)."""

@@ -11,7 +11,6 @@ import hashlib
 from base64 import b64encode
 from collections import Counter
 from collections.abc import Mapping
-from importlib import resources
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -21,11 +20,10 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from PIL import Image
 
-from comparisons.pages import viewer
+from comparisons.pages.sheets import own_text
 from comparisons.pages.stage import stage
-from comparisons.pages.studies import FolderContents, Study
-from comparisons.pages.tables import tables
-from comparisons.pictures.amounts import memory
+from comparisons.pages.studies import FolderContents, Study, tables
+from comparisons.pictures.work import memory
 from comparisons.sweep.manifest import made_with
 from sheetbench.answers.escape import terminal
 from sheetbench.answers.files import plain
@@ -49,7 +47,7 @@ def page(found: FolderContents, title: str) -> str:
     shown = [_study(study, n) for n, study in enumerate(found.studies, start=1)]
     titles = Counter(study.title for study in found.studies)
     troubles = [*found.troubles, *(trouble for study in found.studies for trouble in study.troubles)]
-    style, script = viewer.style() + _own("page.css"), viewer.script() + _own("page.js")
+    style, script = (own_text(f"viewer.{kind}") + own_text(f"page.{kind}") for kind in ("css", "js"))
     environment = Environment(
         loader=PackageLoader(PACKAGE, "."), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True, finalize=_visible,
@@ -93,10 +91,6 @@ def memory_of(size: int) -> str:
 
 def _digest(text: str) -> str:
     return f"sha256-{b64encode(hashlib.sha256(text.encode()).digest()).decode('ascii')}"
-
-
-def _own(name: str) -> str:
-    return resources.files(PACKAGE).joinpath(name).read_text(encoding="utf-8")
 
 
 def _visible(value: Any) -> Any:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
+from importlib import resources
 from typing import Any
 
 import numpy as np
 
-from comparisons.pictures.arrows import load_arrows
-from comparisons.pictures.plan import PLAN_CELLS, eye_heading, rims
+from comparisons.pictures.plan import PLAN_CELLS, eye_heading, load_arrows, rims
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.scenes import EDGES, Scene, holds_director
 from sheetbench.scenes.objects.supports import place
@@ -24,6 +24,14 @@ FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (
 QUADS, TRIANGLES = ("quad", "quad8", "quad9"), ("triangle", "triangle6")
 NEAR = 18  # points through which a plane is laid: 3 × 3 masses of two layers
 LINES = 8  # cells a side that lines on a finer surface mark
+
+
+@cache
+def own_text(name: str) -> str:
+    """Return a file of the page: `viewer.js` is `source/` bundled with three.js by `make viewer` and defines
+    `Sheets.createViewer(element, options)`, whose options `source/index.js` describes and this module makes;
+    it asks for nothing and evaluates nothing."""
+    return resources.files("comparisons.pages").joinpath(name).read_text(encoding="utf-8")
 
 
 def packed(values: Any) -> dict[str, str]:

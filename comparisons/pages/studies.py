@@ -1,16 +1,21 @@
-"""The studies in a folder: command, answer and files of every run.
+"""The studies in a folder: command, answer, files and tables of every run.
 
 A manifest tells of its folder's runs; other files beside them are named. A file that cannot be read costs a
 sentence and nothing else.
+
+Tables have values with all their digits to sort by, shown as everywhere else. The manifest has the columns
+with their units and formats, the CSV file the values in SI units. Other CSV files, as of samples over time,
+are listed among the files.
 """
 
 from __future__ import annotations
 
+import csv
 import json
 import shlex
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import cached_property, partial
 from os.path import isdir, isfile, islink
 from pathlib import Path
 from typing import Any
@@ -18,6 +23,7 @@ from typing import Any
 from comparisons.pages.manifests import LARGEST, manifest
 from comparisons.sweep import store
 from comparisons.sweep.folder import MANIFEST
+from sheetbench.answers.table import Column, Table, TableUnit, unit
 from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import Scene
 
@@ -51,7 +57,8 @@ class Study:
         """The run's JSON document. Empty where there is none."""
         documents = [name for name in self.files if name.endswith(".json") and name not in OURS]
         named = self.words.get("document")
-        found = self.json(named if named in documents else documents[0]) if documents else None
+        chosen = named if named in documents else next(iter(documents), None)
+        found = self.read(chosen, lambda path: json.loads(path.read_text("utf-8"))) if chosen else None
         return found if isinstance(found, dict) else {}
 
     @cached_property
@@ -109,31 +116,23 @@ class Study:
         complaints = [*self.words.get("complaints", ()), *texts(self.document.get("warnings"))]
         return list(dict.fromkeys(complaints))
 
-    def path(self, name: str) -> Path | None:
-        """Return a file of the study; None, with a sentence, where it is missing, outside or too
-        large."""
-        found = self.folder / name
-        if not found.resolve().is_relative_to(self.folder.resolve()):
+    def read(self, name: str, reader: Callable[[Path], Any]) -> Any:
+        """Return what a reader makes of a file; None, with a sentence, where it is missing, outside, too
+        large or damaged."""
+        path = self.folder / name
+        if not path.resolve().is_relative_to(self.folder.resolve()):
             self.troubles.append(f"{name}: lies outside {self.folder.name}, left alone")
-        elif not found.is_file():
+        elif not path.is_file():
             self.troubles.append(f"{self.named(name)}: the manifest names it, but it is not there")
-        elif found.stat().st_size > LARGEST:
+        elif path.stat().st_size > LARGEST:
             self.troubles.append(f"{self.named(name)}: too large for a page, left out")
         else:
-            return found
-        return None
-
-    def read(self, name: str, reader: Callable[[Path], Any]) -> Any:
-        """Return what a reader makes of a file; None, with a sentence, where it makes nothing of it."""
-        path = self.path(name)
-        if path is None:
-            return None
-        try:
-            return reader(path)
-        except RecursionError:
-            self.troubles.append(f"{self.named(name)}: damaged, nested too deeply")
-        except (Exception, SystemExit) as error:  # readers of meshes raise and exit as they like
-            self.troubles.append(f"{self.named(name)}: damaged, cannot be read: {foreign(error)}")
+            try:
+                return reader(path)
+            except RecursionError:
+                self.troubles.append(f"{self.named(name)}: damaged, nested too deeply")
+            except (Exception, SystemExit) as error:  # readers of meshes raise and exit as they like
+                self.troubles.append(f"{self.named(name)}: damaged, cannot be read: {foreign(error)}")
         return None
 
     def attempt(self, what: str, made: Callable[[], Any]) -> Any:
@@ -146,10 +145,6 @@ class Study:
                 f"{self.named(what)}: cannot be shown: {type(error).__name__}: {foreign(error)}"
             )
         return None
-
-    def json(self, name: str) -> Any:
-        """Return a JSON document."""
-        return self.read(name, lambda path: json.loads(path.read_text(encoding="utf-8")))
 
     def named(self, name: str) -> str:
         """Return a file as the reader finds it."""
@@ -189,12 +184,10 @@ def read(root: Path) -> FolderContents:
             names = tuple(run.get("files", ()))
             claimed.update(names)
             studies.append(Study(folder, place, verb, names, run, record))
-        if record:
-            beside = [
-                path for path in sorted(folder.iterdir()) if path.is_file() and path.name not in claimed
-            ]
-            beside = [path for path in beside if path.name not in OURS and not path.name.startswith(".")]
-            others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]
+        claimed |= {*OURS}
+        for path in sorted(folder.iterdir()) if record else ():
+            if path.is_file() and path.name not in claimed and not path.name.startswith("."):
+                others.append((f"{place}/{path.name}".lstrip("/"), path.stat().st_size))
     return FolderContents(studies, others, troubles)
 
 
@@ -222,3 +215,70 @@ def _manifest(folder: Path, place: str, troubles: list[str]) -> Mapping[str, Any
     except BadInput as error:
         troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {foreign(error)}")
         return {}
+
+
+MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded
+
+
+@dataclass(frozen=True, repr=False)
+class PageTable(Table):
+    """A table for a page. note: what is left out; aside: shown when requested only."""
+
+    note: str = ""
+    aside: bool = False
+
+    @property
+    def cells(self) -> list[list[tuple[Column, str, Any]]]:
+        """Column, text and value of every cell, by rows."""
+        both = zip(self.shown_rows(), self.rows, strict=True)
+        return [list(zip(self.columns, texts, values, strict=True)) for texts, values in both]
+
+
+def tables(study: Study) -> list[PageTable]:
+    """Return every table that a study's manifest tells of."""
+    found = []
+    for words in study.words.get("tables", ()):
+        name, rows = f"{words.get('name')}.csv", words.get("rows")
+        if rows is None and name in study.files:
+            rows = (study.read(name, _rows) or [])[1:] or None
+        made = study.attempt(name, partial(_described, words, rows)) if rows is not None else None
+        if made:
+            found.append(made)
+    return found
+
+
+def _rows(path: Path) -> list[list[str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return [[_plain(cell) for cell in row] for row in csv.reader(file, strict=True) if row]
+
+
+def _plain(cell: str) -> str:
+    """Return the cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
+    return cell[1:] if cell[:1] == "'" and cell[1:2] in ("=", "+", "-", "@", "\t", "\r") else cell
+
+
+def _described(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> PageTable:
+    known = {one.name for one in fields(Column)}
+    columns = [Column(**{k: v for k, v in column.items() if k in known}) for column in words["columns"]]
+    units = [bool(column.get("units")) for column in words["columns"]]
+    values = [
+        tuple(_cell(c, u, v) for c, u, v in zip(columns, units, row, strict=True)) for row in rows[:MOST]
+    ]
+    caption, text = words.get("caption", ""), words.get("text", "")
+    note = f"The first {MOST} of {len(rows)} rows; the file has all." if len(rows) > MOST else ""
+    return PageTable(caption, tuple(columns), tuple(values), text=text, note=note, aside=len(rows) > LONG)
+
+
+def _cell(column: Column, of_units: bool, value: Any) -> Any:
+    """Return a value as the table had it: a number, a row's unit, text, or nothing."""
+    if value in ("", None):
+        return None
+    if of_units:
+        return TableUnit(*value) if isinstance(value, list) else unit(str(value))
+    if not column.numeric:
+        return str(value)
+    try:
+        found = float(value)
+    except (TypeError, ValueError):
+        return None
+    return int(found) if column.form.endswith("d") and found == found else found

@@ -1,4 +1,7 @@
-"""Named arrays as files of NumPy and of MATLAB."""
+"""Named arrays as files of NumPy and of MATLAB, and meshes with their fields as VTU.
+
+Every VTU file has point data `displacement` (n, 3) [m]; points are those of the undeformed sheet.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.files import whole
 
 
@@ -30,3 +34,12 @@ def write_mat(path: Path, values: Mapping[str, Any]) -> None:
     texts = {name: np.array(v, dtype=object) for name, v in values.items() if np.asarray(v).dtype.kind == "U"}
     with whole(path) as partial:
         savemat(partial, {**values, **texts}, oned_as="column")
+
+
+def write_mesh(path: Path, mesh: FieldMesh) -> None:
+    """Write a mesh with its fields as VTU."""
+    import meshio  # half as slow to import as all else that a comparison needs
+
+    file = meshio.Mesh(mesh.points, mesh.cells, mesh.point_data, mesh.cell_data)
+    with whole(path) as partial:
+        meshio.write(partial, file, file_format="vtu")

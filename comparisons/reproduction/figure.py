@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.reproduction.answers import ReproducedTest
-from comparisons.reproduction.published import COMPONENTS, SOURCES, published
+from comparisons.reproduction.answers import COMPONENTS, SOURCES, ReproducedTest, published
 from comparisons.reproduction.settling import PROBE, Settling
 from sheetbench.answers.figure_style import FigureStyle
 from sheetbench.answers.habibi import PROBES

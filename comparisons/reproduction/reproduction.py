@@ -8,27 +8,34 @@ nearest   which sheets come nearest to the tables, and what in the tables none o
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from comparisons.comparison.frames import write_frames
 from comparisons.models.grids import Elements
-from comparisons.pictures.vtk import write_mesh
-from comparisons.reproduction import findings, nearest, printed_errors
-from comparisons.reproduction.answers import SETS, ReproducedTest, answer
+from comparisons.pictures.array_files import write_mesh
+from comparisons.reproduction import findings, printed_errors
+from comparisons.reproduction.answers import (
+    COMPONENTS,
+    SETS,
+    SOURCES,
+    ReproducedTest,
+    answer,
+    published,
+    scene,
+)
 from comparisons.reproduction.findings import Finding
-from comparisons.reproduction.published import SOURCES, published, scene
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.habibi import KNOWN_FAULTS, PROBES, published_inputs
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.solution import Status
-from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
+from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Table, percent
 from sheetbench.choices import ELEMENTS, REPRODUCED
 from sheetbench.scenes.meaning.words import sheet_in_words
 
@@ -42,32 +49,17 @@ DISPLACEMENTS = (
     "at this distance in mm. ±: mesh error of the shell. off: |u − u_model|/|u_model|, against the published "
     "model."
 )
+MOVED = (
+    *("probe", "source"),
+    *(MILLIMETRES("z.2f", name) for name in COMPONENTS),
+    *(MILLIMETRES(".1g", f"± {name}", detail=name != "uz") for name in COMPONENTS),
+    PERCENT(".0f", "off"),
+)
+RUNS = (
+    *("model", "by", SECONDS(".3g", "time"), NUMBER(".3g", "times faster"), NUMBER("d", "steps")),
+    *(NUMBER(".2f", "swing"), SECONDS(".3f", "settled"), MILLIMETRES("z.2f", "rest")),
+)
 POINTS = "P1 is the centre, P2 and P3 the middles of two free sides, P4 the corner farthest from the support."
-
-
-@dataclass(frozen=True)
-class DisplacementRow:
-    """Displacement at a probe by a source, our shell's bars, and the difference from the published model."""
-
-    probe: str
-    source: str
-    u: Mapping[Column, float | None]
-    bar: Mapping[Column, float | None]
-    off: Annotated[float | None, PERCENT(".0f")]
-
-
-@dataclass(frozen=True)
-class RunRow:
-    """A settling run: what it took, how far it swings, and when it is at rest."""
-
-    model: str
-    integrator: Annotated[str, Column("by")]
-    time: Annotated[float, SECONDS(".3g")]
-    faster: Annotated[float | None, NUMBER(".3g", "times faster")] = None
-    steps: Annotated[int | None, NUMBER("d")] = None
-    swing: Annotated[float | None, NUMBER(".2f")] = None
-    settled: Annotated[float | None, SECONDS(".3f")] = None
-    rest: Annotated[float | None, MILLIMETRES("z.2f")] = None
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,7 +82,7 @@ class Reproduction(Answer):
         return [
             *(printed_errors.findings(self.cells) if self.cells else ()),
             *findings.all_of(self.answers, self.settling),
-            *(nearest.findings() if "nearest" in self.parts else ()),
+            *(findings.stored_findings() if "nearest" in self.parts else ()),
         ]
 
     @property
@@ -115,7 +107,7 @@ class Reproduction(Answer):
         if self.cells:
             document["errors"] = printed_errors.as_dict(self.cells)
         if "nearest" in self.parts:
-            document["nearest"] = nearest.stored()["fits"]
+            document["nearest"] = findings.stored()["fits"]
         if self.answers:
             document["tests"] = [
                 {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.document()}
@@ -146,7 +138,7 @@ class Reproduction(Answer):
             Table.of(Finding, self.findings(), "Findings", "findings", grouped=True),
             *([printed_errors.table(self.cells)] if self.cells else ()),
             *(table for table, *_ in self._drawn()),
-            *([nearest.table()] if "nearest" in self.parts else ()),
+            *([findings.nearest_table()] if "nearest" in self.parts else ()),
         ]
 
     def figures(self) -> list[Picture]:
@@ -192,42 +184,36 @@ def reproduce(parts: Collection[str] = REPRODUCED, elements: Elements = ELEMENTS
 
 
 def displacements(one: ReproducedTest) -> Table:
-    """Return a row per probe and source: published, our lattices, our shell with its bar."""
+    """Return a row per probe and source: published, our lattices, our shell with its bar, and the difference
+    from the published model."""
     comparison = one.comparison
     tables = {f"published {source}": published(one.test, source) for source in SOURCES}
     ordered = sorted(comparison.solutions, key=lambda s: s is not comparison.reference)
     moved = {s.model: np.array(list(comparison.probes(s).values())) for s in ordered}
     bars = comparison.bar.uncertainty.bar if comparison.bar is not None else np.full((len(PROBES), 3), np.nan)
-    truth, names = tables["published model"], ("ux", "uy", "uz")
-    moves = [MILLIMETRES("z.2f", name) for name in names]
-    spans = [MILLIMETRES(".1g", f"± {name}", detail=name != "uz") for name in names]
+    truth = tables["published model"]
     rows = []
     for i, probe in enumerate(PROBES):
         for name, table in (tables | moved).items():
-            own = [float(b) if name == comparison.reference.model else None for b in bars[i]]
-            size = float(np.linalg.norm(truth[i]))
-            off = None if name in tables else float(np.linalg.norm(table[i] - truth[i])) / size
-            u = dict(zip(moves, map(float, table[i]), strict=True))
-            rows.append(DisplacementRow(probe, name, u, dict(zip(spans, own, strict=True)), off))
+            own = bars[i].tolist() if name == comparison.reference.model else [None] * 3
+            off = float(np.linalg.norm(table[i] - truth[i])) / float(np.linalg.norm(truth[i]))
+            rows.append([probe, name, *table[i].tolist(), *own, None if name in tables else off])
     text = "Displacements as published, and of our models with the published inputs."
-    return Table.of(DisplacementRow, rows, one.title, one.name, grouped=True, text=text)
+    return Table.listed(one.title, MOVED, rows, one.name, grouped=True, text=text)
 
 
 def runs(settling: Settling) -> Table:
     """Return a row per run: what it took beside what is published, how far it swings and when it is at
     rest."""
-    rows = [RunRow("published", "MATLAB R2016a", published_inputs()["run_time"])]
+    rows: list[list[Any]] = [["published", "MATLAB R2016a", published_inputs()["run_time"], *[None] * 5]]
     for model, run in settling.runs.items():
-        rows.append(
-            RunRow(
-                model, run.integrator, settling.seconds(model), settling.faster(model), run.steps,
-                settling.largest(model), settling.settled(model), float(settling.rest[model][2]),
-            )
-        )  # fmt: skip
+        took, swing = [settling.seconds(model), settling.faster(model)], settling.largest(model)
+        rest = [swing, settling.settled(model), float(settling.rest[model][2])]
+        rows.append([model, run.integrator, *took, run.steps, *rest])
     text = (
         f"Test 1 from rest, gravity on at t = 0, dampers of our scene {settling.scene.name} (none are "
         f"published); uz of {PROBE}. time: a run on warm code, set-up included. swing: its largest value "
         f"over its static one. settled: time from which it stays within {percent(SETTLED)} of that. "
         "The published curve is a picture without values."
     )
-    return Table.of(RunRow, rows, "The settling run", "settling", text=text)
+    return Table.listed("The settling run", RUNS, rows, "settling", text=text)

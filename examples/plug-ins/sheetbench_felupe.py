@@ -20,10 +20,8 @@ import numpy as np
 from scipy.sparse import csr_matrix, lil_matrix
 from scipy.sparse.linalg import splu
 
-from comparisons.external.answer import BRICK_MOMENTS, refusal, require, solution
-from comparisons.external.bricks import GRADINGS, Bricks, Held, forces, held
-from sheetbench.answers.solution import Solution, Status
-from sheetbench.errors import BadInput
+from comparisons.external.answer import BRICK_MOMENTS, Code, Reached, refusal
+from comparisons.external.bricks import Bricks, Held, forces, held
 from sheetbench.scenes import Material, Pressure, Scene
 
 CORRECTION = 1e-9  # of the displacement: where a step ends
@@ -36,19 +34,15 @@ EACH = 0.5 * (np.einsum("ik,jl->ijkl", ONE, ONE) + np.einsum("il,jk->ijkl", ONE,
 CHAINS = "actuators are not supported: FElupe's nodes have no rotations"
 
 
-@dataclass(frozen=True)
-class FElupe:
+class FElupe(Code):
     """The plug-in.
 
     settings: elements along the shorter side, near-square; layers of bricks, an even number; grading "edges"
     or "uniform".
     """
 
-    name: str = "felupe"
-    called: str = "FElupe"
-    needs: str = "FElupe; pip install felupe"
-    meshes: tuple[int, ...] = (4, 6, 8)
-    layered: bool = True
+    name, called, needs = "felupe", "FElupe", "FElupe; pip install felupe"
+    meshes, layered = (4, 6, 8), True
     settings: ClassVar[dict[str, Any]] = {"elements": 8, "layers": 2, "grading": "edges"}
 
     def version(self) -> str | None:
@@ -58,31 +52,15 @@ class FElupe:
         except metadata.PackageNotFoundError:
             return None
 
-    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """Return the static answer. Raises BadInput without FElupe or for settings it cannot use."""
-        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
-        if self.version() is None:
-            raise BadInput(f"model = 'felupe': needs {self.needs}")
-        began, note = perf_counter(), refusal(scene, CHAINS, BRICK_MOMENTS, LAWS)
-        bricks = Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
-        path = _Path(np.zeros_like(bricks.positions), 0.0, 0)
-        ready, status = began, Status.REFUSED
-        if not note:
-            equilibrium, supports = _equilibrium(scene, bricks), held(scene, bricks)
-            ready = perf_counter()
-            path = _traced(equilibrium, supports)
-            status = Status.CONVERGED if path.load_factor == 1.0 else Status.DIVERGED
-        return solution(
-            self,
-            settings,
-            bricks,
-            path.displacement,
-            status,
-            path.load_factor,
-            note,
-            path.iterations,
-            (ready - began, perf_counter() - ready),
-        )
+    def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        return refusal(scene, CHAINS, BRICK_MOMENTS, LAWS)
+
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
+        equilibrium, supports = _equilibrium(scene, mesh), held(scene, mesh)
+        began = perf_counter()
+        path = _traced(equilibrium, supports)
+        seconds = perf_counter() - began
+        return Reached(path.displacement, path.load_factor, path.iterations, seconds=seconds)
 
 
 def _law(material: Material) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:

@@ -11,7 +11,7 @@ from fem_reference.motion.generalised_alpha import Sampled
 from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.runs.columns import Part
+from sheetbench.runs.run import Part
 from sheetbench.scenes import Scene
 
 

@@ -18,10 +18,11 @@ from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod, StepFailed
-from sheetbench.runs.columns import Part
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.runs.watch import GROWN, Watch
+
+Part = tuple[str, str, tuple[int, ...]]  # of the numbers of a sample: kind, name, shape
 
 MOST_STEPS = 100_000  # of a method that adapts them, between two samples
 

@@ -15,7 +15,7 @@ from lumped.dynamics.system import State
 from lumped.statics import faults
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
-from sheetbench.runs.columns import width
+from sheetbench.runs.record import width
 from sheetbench.runs.run import Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore

@@ -25,7 +25,7 @@ def test_no_refusal_passes_on_more(tmp_path):
     for refuse, said in (
         (lambda: plugin(f"{tmp_path / 'mine.py'}:M"), "cannot be loaded: reason"),
         (lambda: load(tmp_path / "scene.toml"), "not a TOML file"),
-        (lambda: columns.read_columns(tmp_path / "m.csv"), "unknown unit"),
+        (lambda: columns.read_columns(tmp_path / "m.csv"), "column uz"),
         (lambda: mesh_files.read_cells(tmp_path / "m.off"), "meshio cannot read it"),
     ):
         with pytest.raises((BadInput, SceneError, ValueError), match=said) as refused:

@@ -2,40 +2,159 @@
 
 A program of its own (Debian: calculix-ccx), `ccx` on the PATH, which reads a deck and writes its
 results in a temporary folder. Everything of a scene but chains and edge moments.
+
+The input deck has bricks with reduced integration (C3D20R), and one step under the whole load, static or from
+rest in time. NLGEOM makes the step geometrically nonlinear: total Lagrangian, the linear-elastic law between
+Green strain and second Piola–Kirchhoff stress (St Venant–Kirchhoff's), or *HYPERELASTIC of a rubber. Its
+usual tolerances (residual 5e-3 of the mean force, correction 1e-2 of the displacement) are far coarser than
+the differences looked for, so the deck tightens them. Pressure acts half on the lower and half on the upper
+face and follows both. Parts of different materials are element sets. In time: Hilber, Hughes and Taylor's
+method with its α of −0.05, in steps of one length.
+
+Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *DYNAMIC, *CONTROLS, *DLOAD,
+*TRANSFORM, *NODE PRINT, *ELASTIC, *ORIENTATION.
 """
 
 from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from comparisons.external.answer import (
-    BRICK_MOMENTS,
-    SUBSTEPS,
-    moved,
-    refusal,
-    refusal_of_motion,
-    require,
-    solution,
-)
-from comparisons.external.bricks import GRADINGS, Bricks
-from comparisons.external.calculix.deck import INCOMPRESSIBLE, LAWS, Steps, deck
-from sheetbench.answers.history import History
-from sheetbench.answers.solution import Solution, Status
-from sheetbench.errors import BadInput
+from comparisons.external.answer import BRICK_MOMENTS, SUBSTEPS, MovingCode, Reached, Sampled, refusal
+from comparisons.external.bricks import Bricks, forces, held, materials
 from sheetbench.process import Failed, output_of
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Material, Pressure, Scene
 from sheetbench.scenes.objects.fields import SHAPED
 from sheetbench.scenes.objects.orthotropy import FIBRES, impossible_in_space
+
+RESIDUAL, CORRECTION = 1e-7, 1e-7  # of the mean force, of the displacement: where an increment ends
+FIRST, LEAST, LARGEST = 1.0, 1e-6, 1.0
+# Of rubber: CalculiX' names and the constants they take. Its energies are of the stretches without the change
+# of volume, and of (J − 1)²: ours as ν → ½. Strips pulled by 58 % are 1.4 % apart at ν = 0.49, 0.14 at 0.499.
+LAWS = {
+    "neo-hookean": ("NEO HOOKE", ("c10",)),
+    "mooney-rivlin": ("MOONEY-RIVLIN", ("c10", "c01")),
+    "yeoh": ("YEOH", ("c10", "c20", "c30")),
+}
+INCOMPRESSIBLE = 0.495  # Poisson's ratio from which on they are nearly ours
+NONE = 1e30  # compliance to higher powers of J − 1: none of them
+BELOW, ABOVE = "P1", "P2"  # faces of a brick
+
+
+class Steps(NamedTuple):
+    """Of a motion: their length [s], how long it lasts [s], how many of them there are in a sample, and the
+    nodes that are printed."""
+
+    length: float
+    duration: float
+    sample: int
+    nodes: np.ndarray
+
+
+def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None) -> str:
+    """Return the text of the deck; linear: without NLGEOM; motion: from rest under the load, not at rest."""
+    supports = held(scene, bricks, linear)
+    pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
+    lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
+    lines += ["*ELEMENT, TYPE=C3D20R, ELSET=EALL", *_elements(bricks.elements)]
+    layers = bricks.plan.nelements * np.arange(bricks.layers)
+    for part, (material, on) in enumerate(materials(scene, bricks), 1):
+        lines += [f"*ELSET, ELSET=PART{part}", *(f"{e + 1}" for e in (layers[:, None] + on).ravel())]
+        lines += [f"*MATERIAL, NAME=SHEET{part}", *_elasticity(material, f"FIBRES{part}")]
+        oriented = f", ORIENTATION=FIBRES{part}" if material.kind == "orthotropic" else ""
+        lines += ["*DENSITY", f"{material.density!r}"]
+        lines += [f"*SOLID SECTION, ELSET=PART{part}, MATERIAL=SHEET{part}{oriented}"]
+    for node in np.flatnonzero(supports.turned):
+        along, across = supports.axes[node, :2]
+        lines += [f"*NSET, NSET=AT{node + 1}", f"{node + 1}", f"*TRANSFORM, NSET=AT{node + 1}, TYPE=R"]
+        lines += [", ".join(f"{c:.12e}" for c in (*along, *across))]
+    for tie in supports.tied:
+        terms = zip(tie.nodes + 1, tie.weights, strict=True)
+        lines += ["*EQUATION", f"{len(tie.nodes)}"]
+        lines += [f"{node}, {tie.axis + 1}, {weight:.12e}" for node, weight in terms]
+    printed, every = "NALL", 1000
+    if motion is not None:
+        printed, every = "PRINTED", motion.sample
+        lines += ["*NSET, NSET=PRINTED", *(f"{node + 1}" for node in motion.nodes)]
+    count = 1000 if motion is None else 2 * round(motion.duration / motion.length)
+    lines += ["*STEP" if linear else f"*STEP, NLGEOM, INC={count}, AMPLITUDE={'STEP' if motion else 'RAMP'}"]
+    if motion is not None:
+        lines += ["*DYNAMIC, DIRECT", f"{motion.length!r}, {motion.duration!r}"]
+    else:
+        lines += ["*STATIC", *([] if linear else [f"{FIRST}, 1.0, {LEAST}, {LARGEST}"])]
+    if not linear:
+        lines += ["*CONTROLS, PARAMETERS=FIELD", f"{RESIDUAL}, {CORRECTION}, , , {RESIDUAL}, 1e-9, 1e-9"]
+        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", "8, 12, 9, 40, 20, 8"]
+    lines += ["*BOUNDARY"]
+    for node, axis in zip(*np.nonzero(supports.fixed), strict=True):
+        lines.append(f"{node + 1}, {axis + 1}, {axis + 1}, {supports.value[node, axis]:.12e}")
+    lines += _loads(scene, pull, bricks)
+    lines += [f"*NODE PRINT, NSET={printed}, GLOBAL=YES, FREQUENCY={every}", "U", "*END STEP", ""]
+    return "\n".join(lines)
+
+
+def _elasticity(material: Material, axes_name: str) -> list[str]:
+    if material.kind == "orthotropic":
+        ply = material.ply
+        moduli, ratios = (
+            (ply.young_1, ply.young_2, ply.young_3),
+            (ply.poisson_12, ply.poisson_13, ply.poisson_23),
+        )
+        first = ", ".join(f"{c:.12e}" for c in (*moduli, *ratios, ply.shear_12, ply.shear_13))
+        c, s = np.cos(ply.angle), np.sin(ply.angle)
+        axes = f"{c:.12e}, {s:.12e}, 0., {-s:.12e}, {c:.12e}, 0."
+        constants = ["*ELASTIC, TYPE=ENGINEERING CONSTANTS", first, f"{ply.shear_23:.12e}"]
+        return [*constants, f"*ORIENTATION, NAME={axes_name}", axes]
+    if material.law is None:
+        return ["*ELASTIC", f"{material.young!r}, {material.poisson!r}"]
+    (name, keys), energy = LAWS[material.law], material.energy
+    volume = 6.0 * (1.0 - 2.0 * material.poisson) / material.young  # 2/K
+    constants = [getattr(energy, key) for key in keys]
+    more = [NONE, NONE] if name == "YEOH" else []
+    return [f"*HYPERELASTIC, {name}", ", ".join(f"{c:.12e}" for c in (*constants, volume, *more))]
+
+
+def _loads(scene: Scene, pull: np.ndarray, bricks: Bricks) -> list[str]:
+    lines = []
+    if pull.any():
+        lines.append("*CLOAD")
+        for node, axis in zip(*np.nonzero(pull), strict=True):
+            lines.append(f"{node + 1}, {axis + 1}, {pull[node, axis]:.12e}")
+    if scene.gravity is not None:
+        acceleration = np.array(scene.gravity.last_acceleration)
+        if size := float(np.linalg.norm(acceleration)):
+            along = ", ".join(f"{c:.12e}" for c in acceleration / size)
+            lines += ["*DLOAD", f"EALL, GRAV, {size!r}, {along}"]
+    pressure = np.zeros(bricks.plan.nelements)
+    for load in scene.loads:
+        if isinstance(load, Pressure):
+            pressure[bricks.inside(load.where)] += load.last_factor * load.value
+    if pressure.any():
+        top, pressed = len(bricks.elements) - len(pressure), np.flatnonzero(pressure)
+        lines.append("*DLOAD")
+        lines += [f"{e + 1}, {BELOW}, {float(0.5 * pressure[e])!r}" for e in pressed]
+        lines += [f"{top + e + 1}, {ABOVE}, {float(-0.5 * pressure[e])!r}" for e in pressed]
+    return lines
+
+
+def _rows(values: np.ndarray, first: int) -> Iterable[str]:
+    return (f"{i}, " + ", ".join(f"{c:.12e}" for c in row) for i, row in enumerate(values, first))
+
+
+def _elements(elements: np.ndarray) -> Iterable[str]:
+    """Each over two lines: sixteen entries are the most that one may have."""
+    for i, nodes in enumerate((elements + 1).tolist(), 1):
+        yield ", ".join(map(str, [i, *nodes[:15]])) + ","
+        yield ", ".join(map(str, nodes[15:]))
+
 
 _HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 PROGRAM, JOB = "ccx", "sheet"
@@ -46,19 +165,16 @@ DRAWN = (*SHAPED, FIBRES, "sheet.taper_x", "sheet.taper_y", "patch")
 CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
 
 
-@dataclass(frozen=True)
-class CalculiX:
+class CalculiX(MovingCode):
     """The plug-in.
 
     settings: elements along the shorter side, near-square; layers of bricks, an even number; grading "edges"
     or "uniform"; linear: without NLGEOM; time_limit [s].
     """
 
-    name: str = "calculix"
-    called: str = "CalculiX"
-    needs: str = "the program ccx on the PATH (Debian: calculix-ccx)"
-    meshes: tuple[int, ...] = (6, 8, 12)
-    layered: bool = True
+    name, called = "calculix", "CalculiX"
+    needs = "the program ccx on the PATH (Debian: calculix-ccx)"
+    meshes, layered, integrator = (6, 8, 12), True, "HHT"
     settings: ClassVar[dict[str, Any]] = {
         "elements": 8,
         "layers": 2,
@@ -71,65 +187,50 @@ class CalculiX:
         """Return the program's, None where it is not there."""
         return _version(shutil.which(PROGRAM))
 
-    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """Return the static answer. Raises BadInput without the program or for settings it cannot use."""
-        began, bricks = perf_counter(), self._bricks(scene, settings)
-        note = _refusal(scene, settings["linear"])
-        displacement, load_factor, iterations = np.zeros_like(bricks.positions), 0.0, 0
-        ready, status = began, Status.REFUSED
-        if not note:
-            text = deck(scene, bricks, settings["linear"])
-            ready = perf_counter()
-            times, found, iterations, note = _carried_out(text, settings["time_limit"], bricks)
-            status = Status.CONVERGED if not note and times[-1] == 1.0 else Status.DIVERGED
-            if len(found):
-                load_factor, displacement = float(times[-1]), found[-1]
-            if not np.isfinite(displacement).all():
-                status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
-        seconds = (ready - began, perf_counter() - ready)
-        return solution(self, settings, bricks, displacement, status, load_factor, note, iterations, seconds)
+    def installed(self) -> bool:
+        return shutil.which(PROGRAM) is not None
+
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
+        text = deck(scene, mesh, settings["linear"])
+        began = perf_counter()
+        times, found, iterations, note = _carried_out(text, settings["time_limit"], mesh)
+        factor, u = (float(times[-1]), found[-1]) if len(found) else (0.0, np.zeros_like(mesh.positions))
+        return Reached(u, factor, iterations, note, perf_counter() - began)
+
+    def in_motion(
+        self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks, duration: float, count: int
+    ) -> Sampled:
+        nodes, _ = mesh.weights(scene.probe_points())
+        steps = Steps(duration / count / SUBSTEPS, duration, SUBSTEPS, np.unique(nodes))
+        text = deck(scene, mesh, False, steps)
+        began = perf_counter()
+        times, found, _, note = _carried_out(text, settings["time_limit"], mesh)
+        return Sampled(times, found, note, perf_counter() - began)
 
     def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
-        """Return why it does not move a scene, "" if it does."""
         of_statics = "linear = true: is for statics" if settings["linear"] else ""
-        return _refusal(scene, settings["linear"]) or of_statics or refusal_of_motion(scene)
+        return self.refusal(scene, settings) or of_statics or super().refusal_of_motion(scene, settings)
 
-    def simulate(
-        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
-    ) -> History:
-        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
-
-        Raises BadInput without the program, and for scenes and settings that it does not take.
-        """
-        if note := self.refusal_of_motion(scene, settings):
-            raise BadInput(f"calculix: {note}")
-        began, bricks = perf_counter(), self._bricks(scene, settings)
-        nodes, _ = bricks.weights(scene.probe_points())
-        count = max(1, round(duration / every))
-        steps = Steps(float(duration) / count / SUBSTEPS, float(duration), SUBSTEPS, np.unique(nodes))
-        text = deck(scene, bricks, False, steps)
-        ready = perf_counter()
-        times, found, _, note = _carried_out(text, settings["time_limit"], bricks)
-        ended = perf_counter()
-        return moved(
-            self,
-            "HHT",
-            scene,
-            {**settings, "every": duration / count},
-            bricks,
-            times,
-            found,
-            note if note or len(found) == count else "it stopped before the end",
-            bricks.positions.size,
-            (ready - began, ended - ready),
+    def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
+            return note
+        material, linear = scene.material, settings["linear"]
+        for number, patch in enumerate(scene.patches, start=1):
+            if patch.thickness not in (None, scene.sheet.thickness):
+                thickness = f"patch {number}.thickness = {patch.thickness:g} m"
+                return f"{thickness}: its bricks have no steps in thickness"
+        if material.law is not None and scene.varied_by:
+            return f"{scene.varied_by}: it is given rubbers that are the same all over"
+        if material.kind == "orthotropic":
+            return impossible_in_space(material.ply)
+        if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
+            return ""
+        if linear:
+            return f"linear = true: the law '{material.law}' is not linear"
+        return (
+            f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near "
+            f"ν = ½ only; from {INCOMPRESSIBLE:g} on it is given them"
         )
-
-    def _bricks(self, scene: Scene, settings: Mapping[str, Any]) -> Bricks:
-        """Return the mesh. Raises BadInput without the program or for settings it cannot use."""
-        require(settings["elements"], settings["layers"], settings["grading"], GRADINGS)
-        if shutil.which(PROGRAM) is None:
-            raise BadInput(f"model = 'calculix': needs {self.needs}")
-        return Bricks.of(scene, settings["elements"], settings["layers"], settings["grading"])
 
 
 def _carried_out(deck: str, seconds: float, bricks: Bricks) -> tuple[np.ndarray, np.ndarray, int, str]:
@@ -145,28 +246,6 @@ def _carried_out(deck: str, seconds: float, bricks: Bricks) -> tuple[np.ndarray,
         except Failed as error:
             why = f"CalculiX: {error}"
         return times, found, iterations(_read(folder, "sta")), why
-
-
-def _refusal(scene: Scene, linear: bool) -> str:
-    """Return why it cannot solve a scene, "" if it can."""
-    if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
-        return note
-    material = scene.material
-    for number, patch in enumerate(scene.patches, start=1):
-        if patch.thickness not in (None, scene.sheet.thickness):
-            return f"patch {number}.thickness = {patch.thickness:g} m: its bricks have no steps in thickness"
-    if material.law is not None and scene.varied_by:
-        return f"{scene.varied_by}: it is given rubbers that are the same all over"
-    if material.kind == "orthotropic":
-        return impossible_in_space(material.ply)
-    if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
-        return ""
-    if linear:
-        return f"linear = true: the law '{material.law}' is not linear"
-    return (
-        f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near ν = ½ "
-        f"only; from {INCOMPRESSIBLE:g} on it is given them"
-    )
 
 
 def _read(folder: Path, ending: str) -> str:

@@ -5,6 +5,10 @@ with shear lets go within about its thickness: it is stiffer than our shell, by 
 
 Kratos solves in a process of its own (`process`). A load in one step, in 4 if that does not converge, in 16
 if that does not. Everything of a scene but chains and edge moments. Needs the extra [kratos].
+
+It is given arrays: triangles of a flat sheet, supports and forces. Cells of a grid in halves, diagonals by
+turns, so that the mesh mirrors itself where the number of cells is even. A node has the unknowns of
+displacement and rotation vector. A clamp holds all six, a hinge the displacement. SI.
 """
 
 from __future__ import annotations
@@ -12,21 +16,152 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
 from typing import Any, ClassVar
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from comparisons.external.answer import SUBSTEPS, moved, refusal, refusal_of_motion, require_count, solution
-from comparisons.external.kratos.problem import Triangles, problem
-from sheetbench.answers.history import History
-from sheetbench.answers.solution import Solution, Status
-from sheetbench.errors import BadInput
+from comparisons.external.answer import SUBSTEPS, MovingCode, Reached, Sampled, refusal, require_count
+from comparisons.external.bricks import point_loads
 from sheetbench.process import Failed, output_of
-from sheetbench.scenes import Scene
+from sheetbench.scenes import (
+    EDGES,
+    EdgeLoad,
+    Pressure,
+    Scene,
+    Symmetric,
+    held_axes,
+    holds_director,
+)
+from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
+from sheetbench.scenes.objects.grid import near_square
+from sheetbench.scenes.objects.sheet import Sheet
+
+
+@dataclass(frozen=True)
+class Triangles:
+    """x (nx + 1,), y (ny + 1,): lines between the cells [m]; node (i, j) has the number i (ny + 1) + j."""
+
+    KIND: ClassVar = "triangle"
+    x: np.ndarray
+    y: np.ndarray
+
+    @classmethod
+    def of(cls, sheet: Sheet, elements: int) -> Triangles:
+        """Elements along the shorter side, near-square and of one size."""
+        counts = near_square(sheet, elements)
+        x, y = (np.linspace(0.0, length, n + 1) for length, n in zip(sheet.lengths, counts, strict=True))
+        return cls(x, y)
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Cells along x and y."""
+        return len(self.x) - 1, len(self.y) - 1
+
+    @property
+    def label(self) -> str:
+        """How many triangles there are, in words."""
+        return f"{' × '.join(map(str, self.counts))} × 2 triangles"
+
+    @cached_property
+    def positions(self) -> np.ndarray:
+        """(n, 3) [m]."""
+        x, y = np.meshgrid(self.x, self.y, indexing="ij")
+        return np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+
+    @cached_property
+    def elements(self) -> np.ndarray:
+        """Nodes of the triangles (2 nx ny, 3), normal along +z."""
+        nx, ny = self.counts
+        i, j = (a.ravel() for a in np.meshgrid(range(nx), range(ny), indexing="ij"))
+        a = i * (ny + 1) + j
+        b, c, d = a + ny + 1, a + ny + 2, a + 1
+        rising = (i + j) % 2 == 0
+        first = np.where(rising[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
+        second = np.where(rising[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
+        return np.vstack([first, second])
+
+    def edge(self, name: str) -> np.ndarray:
+        """Nodes on an edge, along it."""
+        number = np.arange(len(self.x) * len(self.y)).reshape(len(self.x), len(self.y))
+        across = np.moveaxis(number, EDGES[name].normal_axis, 0)
+        return across[-1 if EDGES[name].far_end else 0]
+
+    def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Corners of the cells at plan points (p, 2) [m], and their bilinear shares, (p, 4)."""
+        places = []
+        for lines, at in zip((self.x, self.y), points.T, strict=True):
+            i = np.clip(np.searchsorted(lines, at, side="right") - 1, 0, len(lines) - 2)
+            places.append((i, (at - lines[i]) / (lines[i + 1] - lines[i])))
+        (i, s), (j, t) = places
+        a = i * len(self.y) + j
+        nodes = np.column_stack([a, a + len(self.y), a + len(self.y) + 1, a + 1])
+        return nodes, np.column_stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
+
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, 3)."""
+        nodes, weights = self.weights(points)
+        return np.einsum("pk,pkc->pc", weights, displacement[nodes])
+
+
+def problem(
+    scene: Scene, mesh: Triangles, load_factors: np.ndarray, times: np.ndarray | None = None
+) -> dict[str, np.ndarray]:
+    """Return the arrays that `comparisons.external.kratos.process` reads; times [s] of a motion's steps."""
+    held, value = _held(scene, mesh, load_factors)
+    material, none = scene.material, np.zeros(3)
+    return {
+        "positions": mesh.positions,
+        "elements": mesh.elements,
+        "material": np.array([material.young, material.poisson, material.density, scene.sheet.thickness]),
+        "acceleration": none if scene.gravity is None else np.array(scene.gravity.last_acceleration),
+        "force": _forces(scene, mesh),
+        "pressure": np.array(sum(p.last_factor * p.value for p in scene.loads if isinstance(p, Pressure))),
+        "held": held,
+        "value": value,
+        "load_factors": load_factors,
+    } | ({} if times is None else {"times": times})
+
+
+def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return which unknowns are held (n, 6), and at what at every load factor (steps, n, 6) [m, rad]."""
+    held = np.zeros((len(mesh.positions), 6), dtype=bool)
+    value = np.zeros((len(load_factors), *held.shape))
+    for support in scene.supports:
+        nodes = mesh.edge(support.edge)
+        held[nodes[:, None], held_axes(support)] = True
+        if isinstance(support, Symmetric):
+            held[nodes[:, None], (3 + EDGES[support.edge].along_axis, 5)] = True
+        elif holds_director(support):
+            held[nodes, 3:] = True
+    driven: list[DrivenEdge] = [*bent_or_tilted(scene.supports, scene.sheet)]
+    driven += [MovedEdge(motion, scene.sheet) for motion in scene.motions().values()]
+    for edge in driven:
+        nodes = mesh.edge(edge.edge)
+        held[nodes] = True
+        for step, load_factor in enumerate(load_factors.tolist()):
+            placed = edge.placed(mesh.positions[nodes, :2], load_factor)
+            value[step, nodes, :3] = placed.displacement
+            value[step, nodes, 3:] = Rotation.from_matrix(np.eye(3) + placed.turn).as_rotvec()
+    return held, value
+
+
+def _forces(scene: Scene, mesh: Triangles) -> np.ndarray:
+    """Point loads and edge forces on the nodes (n, 3) [N]."""
+    out = point_loads(scene, mesh)
+    for load in scene.loads:
+        if isinstance(load, EdgeLoad):
+            nodes = mesh.edge(load.edge)
+            spans = np.linalg.norm(np.diff(mesh.positions[nodes], axis=0), axis=1)
+            pull = load.last_factor * np.outer(spans, load.force_per_length)
+            out[nodes[:-1]] += 0.5 * pull
+            out[nodes[1:]] += 0.5 * pull
+    return out
+
 
 STEPS = (1, 4, 16)
 BEGINS = 1e-3  # of a motion's steps, its first: the load acts from t = 0 on, the acceleration after a step
@@ -40,20 +175,18 @@ CHAINS = "actuators are not supported: Kratos' shell has no joint with a rest an
 MOMENTS = "moments on Kratos' nodes do not follow the edge"
 
 
-@dataclass(frozen=True)
-class Kratos:
+class Kratos(MovingCode):
     """The plug-in.
 
     settings: elements along the shorter side, near-square, each two triangles; time_limit [s] of every
     attempt.
     """
 
-    name: str = "kratos"
-    called: str = "Kratos' thin shell"
-    needs: str = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
-    meshes: tuple[int, ...] = (8, 12, 16)
-    layered: bool = False
+    name, called = "kratos", "Kratos' thin shell"
+    needs = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
+    meshes, layered, integrator = (8, 12, 16), False, "Bossak"
     settings: ClassVar[dict[str, Any]] = {"elements": 16, "time_limit": 600.0}
+    unknowns = 6
 
     def version(self) -> str | None:
         """Of the wheels, None where one is missing."""
@@ -62,49 +195,36 @@ class Kratos:
         except metadata.PackageNotFoundError:
             return None
 
-    def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """Return the static answer. Raises BadInput without Kratos or for settings it cannot use."""
-        mesh = self._mesh(scene, settings["elements"])
-        note = refusal(scene, CHAINS, MOMENTS)
-        displacement, load_factor, iterations = np.zeros_like(mesh.positions), 0.0, 0
-        began, seconds, status = perf_counter(), 0.0, Status.REFUSED
-        for steps in () if note else STEPS:
+    def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
+        return refusal(scene, CHAINS, MOMENTS)
+
+    def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Triangles:
+        require_count(settings["elements"])
+        self.require_installed()
+        return Triangles.of(scene.sheet, settings["elements"])
+
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles) -> Reached:
+        found = Reached(np.zeros_like(mesh.positions))
+        for steps in STEPS:
             given = problem(scene, mesh, np.arange(1, steps + 1) / steps)
             try:
                 answer = _solved(given, settings["time_limit"])
             except Failed as error:
-                status, note = Status.DIVERGED, f"Kratos: {error}"
+                return found._replace(note=f"Kratos: {error}")
+            found = Reached(
+                answer["displacement"],
+                float(answer["load_factor"]),
+                found.iterations + int(answer["iterations"]),
+                seconds=found.seconds + float(answer["seconds"]),
+                held=int(given["held"].sum()),
+            )
+            if found.load_factor == 1.0 and np.isfinite(found.displacement).all():
                 break
-            displacement, load_factor = answer["displacement"], float(answer["load_factor"])
-            iterations += int(answer["iterations"])
-            seconds += float(answer["seconds"])
-            status = Status.CONVERGED if load_factor == 1.0 else Status.DIVERGED
-            if not np.isfinite(displacement).all():
-                status, displacement = Status.NON_FINITE, np.nan_to_num(displacement)
-            if status is Status.CONVERGED:
-                break
-        held = 0 if note else int(given["held"].sum())
-        spent = (perf_counter() - began - seconds, seconds)
-        unknowns = 2 * displacement.size - held
-        return solution(
-            self, settings, mesh, displacement, status, load_factor, note, iterations, spent, unknowns
-        )
+        return found
 
-    def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
-        """Return why it does not move a scene, "" if it does."""
-        return refusal(scene, CHAINS, MOMENTS) or refusal_of_motion(scene)
-
-    def simulate(
-        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
-    ) -> History:
-        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
-
-        Raises BadInput without Kratos, and for scenes and settings that it does not take.
-        """
-        if note := self.refusal_of_motion(scene, settings):
-            raise BadInput(f"kratos: {note}")
-        mesh = self._mesh(scene, settings["elements"])
-        began, count = perf_counter(), max(1, round(duration / every))
+    def in_motion(
+        self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles, duration: float, count: int
+    ) -> Sampled:
         even = duration / (count * SUBSTEPS) * np.arange(1, count * SUBSTEPS + 1)
         times = np.concatenate([[BEGINS * even[0]], even])
         given = problem(scene, mesh, np.ones(len(times)), times)
@@ -114,25 +234,8 @@ class Kratos:
             found, seconds = answer["displacement"][SUBSTEPS::SUBSTEPS], float(answer["seconds"])
         except Failed as error:
             note = f"Kratos: {error}"
-        return moved(
-            self,
-            "Bossak",
-            scene,
-            {**settings, "every": duration / count},
-            mesh,
-            times[SUBSTEPS::SUBSTEPS][: len(found)],
-            found,
-            "" if len(found) == count else note,
-            2 * mesh.positions.size - int(given["held"].sum()),
-            (perf_counter() - began - seconds, seconds),
-        )
-
-    def _mesh(self, scene: Scene, elements: Any) -> Triangles:
-        """Return the mesh. Raises BadInput without Kratos, and for what is no number of elements."""
-        require_count(elements)
-        if self.version() is None:
-            raise BadInput(f"model = 'kratos': needs {self.needs}")
-        return Triangles.of(scene.sheet, elements)
+        reached = times[SUBSTEPS::SUBSTEPS][: len(found)]
+        return Sampled(reached, found, "" if len(found) == count else note, seconds, int(given["held"].sum()))
 
 
 def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:

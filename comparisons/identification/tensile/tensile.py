@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,34 +22,17 @@ from comparisons.identification.tensile.laws import (
 )
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, TableUnit, number, unit
+from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, number, unit
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material
 
 CHOSEN = "← fits with the fewest constants"
-
-
-@dataclass(frozen=True)
-class ConstantRow:
-    """A constant of a law and its 95 % interval."""
-
-    law: str
-    constant: str
-    unit: TableUnit
-    value: Annotated[float, NUMBER(".4g")]
-    low: Annotated[float, NUMBER(".4g", "from")]
-    high: Annotated[float, NUMBER(".4g", "to")]
-
-
-@dataclass(frozen=True)
-class MisfitRow:
-    """How well a law fits, of the largest stress, and what speaks against it."""
-
-    law: str
-    young: Annotated[float, MEGAPASCALS(".4g", "E at small strain")]
-    rms: Annotated[float, PERCENT(".2f", "misfit")]
-    largest: Annotated[float, PERCENT(".2f")]
-    remark: Annotated[str, Column(prose=True)]
+INTERVAL = (NUMBER(".4g", "value"), NUMBER(".4g", "from"), NUMBER(".4g", "to"))
+CONSTANTS = ("law", "constant", "unit", *INTERVAL)
+MISFITS = (
+    *("law", MEGAPASCALS(".4g", "E at small strain"), PERCENT(".2f", "misfit"), PERCENT(".2f", "largest")),
+    Column("remark", prose=True),
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -104,10 +87,7 @@ class TensileFit(Answer):
             "law": self.law.law if self.law else None,
             "covered": {kind: list(ends) for kind, ends in self.covered.items()},
             "laws": [asdict(f) for f in self.fits],
-            "curves": [
-                {"test": c.test, "file": c.file, "stretch": c.stretch, "stress": c.stress}
-                for c in self.curves
-            ],
+            "curves": [vars(curve) for curve in self.curves],
             "warnings": [],
         }
 
@@ -120,7 +100,7 @@ class TensileFit(Answer):
         return constants(self.fits), misfits(self.fits, self.law)
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("tensile", "comparisons.identification.tensile.figure:compose", (self,)),)
+        return (Picture("tensile", "comparisons.identification.figure:tensile", (self,)),)
 
     def notes(self) -> list[str]:
         """Return what to put into a scene, and what the curves leave open."""
@@ -159,20 +139,17 @@ class TensileFit(Answer):
 def constants(fits: Sequence[Fit]) -> Table:
     """Return a row per constant of every law."""
     rows = [
-        ConstantRow(fit.law, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
+        (fit.law, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
         for fit in fits
         for key, value in fit.constants.items()
     ]
-    return Table.of(ConstantRow, rows, "Constants and their 95 % intervals", "constants", grouped=True)
+    return Table.listed("Constants and their 95 % intervals", CONSTANTS, rows, "constants", grouped=True)
 
 
 def misfits(fits: Sequence[Fit], chosen: Fit | None) -> Table:
-    """Return a row per law."""
-    rows = [
-        MisfitRow(fit.law, fit.young, fit.rms, fit.largest, CHOSEN if fit is chosen else _against(fit))
-        for fit in fits
-    ]
-    return Table.of(MisfitRow, rows, "Misfit, of the largest stress (root mean square)", "misfits")
+    """Return a row per law: how well it fits, of the largest stress, and what speaks against it."""
+    rows = [(f.law, f.young, f.rms, f.largest, CHOSEN if f is chosen else _against(f)) for f in fits]
+    return Table.listed("Misfit, of the largest stress (root mean square)", MISFITS, rows, "misfits")
 
 
 def _against(fit: Fit) -> str:

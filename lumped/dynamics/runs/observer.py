@@ -25,7 +25,8 @@ from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.numerics.typed import typed
-from sheetbench.runs.columns import Part, width
+from sheetbench.runs.record import width
+from sheetbench.runs.run import Part
 from sheetbench.scenes import outside_model
 
 ROUNDED = 1e-9  # of the energy of the flat sheet, of a natural state, below which all is rounding

@@ -9,11 +9,9 @@ import pytest
 from commands import json_of, one_line, run
 
 import sheetbench as sb
-from comparisons.codes.cell import Cell
-from comparisons.codes.cell_meshes import MESHES, cell_of
-from comparisons.codes.coefficients import limit_error, nearest
-from comparisons.codes.homogenise import moduli_of
-from comparisons.codes.parameters import parameters_of
+from comparisons.codes.cell import MESHES, Cell, cell_of
+from comparisons.codes.cell_moduli import parameters_of
+from comparisons.codes.coefficients import limit_error, moduli_of, nearest
 from comparisons.codes.table import CODES
 from lumped import moduli
 from lumped.lattice import STEPS
@@ -133,7 +131,7 @@ def test_the_limit_is_that_of_discrete_shells_on_the_published_sheet(name, share
 def test_newtons_membrane_is_the_sheet_at_small_strain():
     """Its neo-Hookean energy, as its source has it, twice differentiated by small principal stretches."""
     stretching = {"lambda_h": 3.0, "mu_h": 2.0, "hinge": 1.0}
-    own = {p.parameter: p.value for p in parameters_of(CODES["newton"], stretching, SCENE)}
+    own = {p.name: p.value for p in parameters_of(CODES["newton"], stretching, SCENE)}
     mu, lame = own["tri_ke"], own["tri_ka"] + own["tri_ke"]  # the solver adds them
 
     def energy(a, b):
@@ -244,5 +242,5 @@ def test_bending_of_codes_that_are_not_run_is_that_of_their_source():
         ("sofa", "bendingStiffness", 1.8),
         ("c-ipc", "bendingStiffMult", 0.2 / rigidity),
     ):
-        keys = {key.parameter: key.value for key in parameters_of(CODES[code], own, SCENE)}
+        keys = {key.name: key.value for key in parameters_of(CODES[code], own, SCENE)}
         assert keys[name] == pytest.approx(value)

@@ -10,8 +10,8 @@ import pytest
 from exported import BLOWN, READERS, SCENES, spring_set
 
 import lumped
-from comparisons.codes.arrays import arrays
 from comparisons.codes.lattice import export
+from comparisons.codes.tables import arrays
 
 NUMPY = runpy.run_path(str(READERS / "read_lattice.py"))
 AGREED = 1e-6  # of the largest displacement, as the readers themselves ask

@@ -10,8 +10,8 @@ from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from commands import run
 
 import lumped
+from comparisons.codes.files import to_sofa
 from comparisons.codes.lattice import CODES, READERS
-from comparisons.codes.sofa import to_sofa
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, PointLoad, Scene

@@ -11,15 +11,12 @@ from cases import POINTS, with_material
 import fem_reference
 import lumped
 from comparisons.external.calculix.model import CalculiX
-from comparisons.identification import starts
-from comparisons.identification.fit import Fit
+from comparisons.identification import fit as search
+from comparisons.identification.fit import Fit, nearest
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface
-from comparisons.identification.model import Model, lattice_model
-from comparisons.identification.outliers import outliers
-from comparisons.identification.prediction import Prediction
-from comparisons.identification.residual_test import UNLIKELY, explained, runs
-from comparisons.identification.starts import nearest
+from comparisons.identification.model import Model, Prediction, lattice_model
+from comparisons.identification.residuals import UNLIKELY, explained, outliers, runs
 from comparisons.identification.unknowns import Unknown, unknown
 from comparisons.models.grading import lines_on_shapes
 from comparisons.models.spec import Lattice
@@ -49,16 +46,13 @@ def noisy(values, seed, share=0.01):
 def fit_of(function, measured, starts_at=1.0):
     """A fit of one unknown above zero to displacements (n, 3) as a function of it and of the rows' times."""
 
-    def predictor(some):
-        def predict(unknowns, x, points):
-            ends = [function(unknowns[0].value(x[0] + step), some) for step in (-1e-6, 1e-6)]
-            slope = (ends[1] - ends[0]) / 2e-6
-            return Prediction(function(unknowns[0].value(x[0]), some), [slope])
-
-        return predict
+    def predict(unknowns, x, points, time):
+        some = Displacements(points, points, time)
+        ends = [function(unknowns[0].value(x[0] + step), some) for step in (-1e-6, 1e-6)]
+        return Prediction(function(unknowns[0].value(x[0]), some), [(ends[1] - ends[0]) / 2e-6])
 
     one = Unknown("stiffness", "", starts_at, 0.0, np.inf)
-    return Fit(measured, (one,), Model({}, (np.zeros(2), np.zeros(2)), predictor))
+    return Fit(measured, (one,), Model({}, (np.zeros(2), np.zeros(2)), predict))
 
 
 def anything(measured, predicted):
@@ -78,26 +72,6 @@ def test_a_growing_part_of_a_motion_leads_past_minima_that_are_out_of_step():
     assert abs(fit.search(np.zeros(1)).x[0] - log(1 / 0.7)) > 0.05
     best, tried = nearest(fit, lambda one: one.noise < 0.05, anything)
     assert best.x[0] == pytest.approx(log(1 / 0.7), abs=0.002) and tried == 1
-
-
-def helix(value, measured):
-    """Turns six times as fast as it rises with the logarithm: a turn away is a minimum of its own."""
-    turned = 6.0 * log(value)
-    return np.outer(measured.points[:, 0], [np.cos(turned), np.sin(turned), 0.05 * turned])
-
-
-def test_other_starts_are_tried_where_the_first_leaves_more_than_noise():
-    measured = Displacements(POINTS, np.zeros((64, 3)))
-    measured = replace(measured, displacement=noisy(helix(2.5, measured), 2))
-    fit = fit_of(helix, measured, 2.5 * np.exp(-np.pi / 3.0))
-    plain = fit.search(np.zeros(1))
-    assert plain.noise > 0.05 and abs(plain.x[0]) < 0.1
-
-    def enough(one):
-        return explained(one.noise, runs(measured, fit.per_point(one.residuals)))
-
-    best, tried = nearest(fit, enough, anything)
-    assert tried > 1 and enough(best) and best.x[0] == pytest.approx(np.pi / 3.0, abs=0.01)
 
 
 @pytest.mark.parametrize("kind", ["space", "time", "surface"])
@@ -123,7 +97,7 @@ def test_a_model_that_lacks_something_is_said_not_to_explain_the_data():
     cantilever = scenes.load("one-edge-clamped")
     data = Displacements(POINTS, noisy(solved(put(cantilever, "tilt_x0", 0.05)), 4, 0.001))
     found = identify(cantilever, data, lattice=Lattice(3), refine=False)
-    assert not found.explained and found.starts == starts.STARTS + 1
+    assert not found.explained and found.starts == search.STARTS + 1
     (said,) = found.warnings
     assert said.startswith("not explained: the best of 7 starts") and "neighbouring points" in said
     assert said[:80] in repr(found).replace("\n" + " " * 11, " ")

@@ -5,8 +5,7 @@ import pytest
 
 from comparisons.identification.fit import Fit
 from comparisons.identification.measurements import Displacements
-from comparisons.identification.model import Model
-from comparisons.identification.prediction import Prediction
+from comparisons.identification.model import Model, Prediction
 from sheetbench.errors import BadInput
 
 POINTS = np.array([[0.1, 0.0], [0.1, 0.05], [0.1, 0.1]])
@@ -16,22 +15,7 @@ AXES = (np.linspace(0.0, 0.1, 3), np.linspace(0.0, 0.1, 3))
 
 def misfit(displacement):
     """Of no unknown, for what does not ask the model."""
-    return Fit(Displacements(POINTS, np.asarray(displacement)), (), Model({}, AXES, lambda measured: None))
-
-
-def test_residuals_are_shares_of_the_largest_measurement_and_come_back_in_metres():
-    measured = MODEL * [1.0, 1.0, 1.25]
-    measured[1, 2] = np.nan
-    slope = np.arange(9.0).reshape(3, 3)
-    one = misfit(measured)
-    residuals, slopes = one.residuals(Prediction(MODEL, [slope, 2.0 * slope]))
-    scale = 1.25 * 1.1e-2
-    given = np.isfinite(measured)
-    np.testing.assert_allclose(residuals, (MODEL - measured)[given] / scale)
-    np.testing.assert_allclose(slopes, np.stack([slope[given], 2.0 * slope[given]], axis=1) / scale)
-    back = one.per_point(residuals)
-    np.testing.assert_allclose(back[given], (MODEL - measured)[given], atol=1e-18)
-    np.testing.assert_array_equal(np.isnan(back), ~given)
+    return Fit(Displacements(POINTS, np.asarray(displacement)), (), Model({}, AXES, lambda *_: None))
 
 
 @pytest.mark.parametrize(

@@ -14,13 +14,15 @@ import numpy as np
 import pytest
 from commands import run
 from live_server import got, posted, serving
+from matrix_rows import pairwise, require_balanced
 from terminals import COMMAND, Terminal
 
 import sheetbench as sb
-from comparisons.live import answers, server
+from comparisons.live import server
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
+from sheetbench import load
 from sheetbench.answers.solution import Status
 from sheetbench.choices import CALIBRATIONS
 from sheetbench.errors import BadInput
@@ -160,9 +162,9 @@ def test_answers_are_those_of_compare(address, panel):
 
 def test_there_is_no_error_where_the_lattice_has_no_answer(panel, monkeypatch):
     question = panel.first()
-    found = replace(answers.solved(SCENE, question), status=Status.DIVERGED)
-    monkeypatch.setattr(answers, "solved", lambda *_: found)
-    assert answers.shell(SCENE, question)["error"] is None
+    found = replace(server.solved(SCENE, question), status=Status.DIVERGED)
+    monkeypatch.setattr(server, "solved", lambda *_: found)
+    assert server.shell(SCENE, question)["error"] is None
 
 
 def test_a_pressure_has_a_slider_of_its_own():
@@ -192,7 +194,7 @@ def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, pane
 
 
 def test_a_fault_of_the_program_is_told_and_the_page_goes_on(address, panel, monkeypatch, capsys):
-    monkeypatch.setattr(answers, "lattice", lambda *_: 1 / 0)
+    monkeypatch.setitem(server.WAYS, "lattice", lambda *_: 1 / 0)
     status, document = posted(address, "lattice", query_of(panel, 4))
     assert status == 500 and "a fault of the program" in document["said"]
     assert "ZeroDivisionError" in capsys.readouterr().err
@@ -267,4 +269,30 @@ def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is
     turned = {**question.values, "angle": 0.5, "loads": 2.0}
     moved = panel.scene_of(question.model_copy(update={"values": turned}))
     assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0
-    assert answers.shell(moved, question)["error"] < 0.2
+    assert server.shell(moved, question)["error"] < 0.2
+
+
+PANEL = Panel(load("curved-edge"), 2, Lattice(3, "uniform", k=550.0))
+FEW = {"grid": (3, 4), "elements": (2, 3)}  # larger ones answer alike, later
+ENDS = [
+    tuple((name, value) for value in FEW.get(name, (slider.low, slider.high)))
+    for name, slider in PANEL.sliders.items()
+]
+ROWS = pairwise([*ENDS, tuple(("calibration", name) for name in PANEL.calibrations)])
+
+
+@pytest.mark.sweep(6)
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: " ".join(f"{name}={value}"[:24] for name, value in row))
+def test_every_pair_of_ends_has_an_answer_or_a_reason(row):
+    values = dict(row)
+    message = json.dumps({"number": 1, "calibration": values.pop("calibration"), "values": values})
+    question = PANEL.read(message)
+    try:
+        scene = PANEL.scene_of(question)
+        solution = server.solved(scene, question)
+    except BadInput as error:
+        assert 0 < len(str(error)) < 300
+        return
+    require_balanced({**solution.document(scene), "label": solution.label})
+    said = json.dumps(server.lattice(scene, question), allow_nan=False)
+    assert f'"status": "{solution.status}"' in said

@@ -30,10 +30,6 @@ def test_a_spec_reads_and_writes_itself(text):
     assert spec_of(spec.model, json.loads(json.dumps(spec.settings))) == spec
 
 
-def test_a_spec_is_named_in_words():
-    assert sb.Elements("shell", (8, 4), law="biot").label == "shell elements 8×4, law biot"
-
-
 def test_what_comes_from_elsewhere_is_plain_data():
     spec = sb.Lattice(np.array([5, 7]), grading=Grading(0.5, ("x0",)))
     assert json.loads(json.dumps(spec.settings)) == {"grid": [5, 7], "grading": "0.5:x0"}

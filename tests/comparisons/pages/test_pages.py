@@ -17,8 +17,7 @@ from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
 from comparisons.pages import studies as pages
 from comparisons.pages.page import page, pictures, question, whole_words
-from comparisons.pages.studies import Study, read
-from comparisons.pages.tables import tables
+from comparisons.pages.studies import Study, read, tables
 from comparisons.sweep.folder import Folder
 from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow

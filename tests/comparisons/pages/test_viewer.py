@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from browser import browser, colours, opened, pixels  # noqa: F401
 
-from comparisons.pages import sheets, viewer
+from comparisons.pages import sheets
+from comparisons.pages.sheets import own_text
 from comparisons.pictures.plan import plan_mesh
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, load
 
-SOURCE = Path(viewer.__file__).parent / "source"
+SOURCE = Path(sheets.__file__).parent / "source"
 
 
 def test_bundle_is_of_the_source_that_is_here():
@@ -22,11 +23,11 @@ def test_bundle_is_of_the_source_that_is_here():
     digest = hashlib.sha256()
     for path in sorted(p for p in SOURCE.iterdir() if p.suffix in (".js", ".mjs", ".json")):
         digest.update(f"{path.name}\0".encode() + path.read_bytes() + b"\0")
-    assert viewer.script().startswith(f"/* source {digest.hexdigest()} */")
+    assert own_text("viewer.js").startswith(f"/* source {digest.hexdigest()} */")
 
 
 def test_bundle_is_small_asks_for_nothing_and_says_whose_it_is():
-    script = viewer.script()
+    script = own_text("viewer.js")
     assert len(script) < 700_000 and "</script" not in script.lower()
     assert "three.js" in script[:200] and "Permission is hereby granted" in script
     assert not re.search(r"\beval\(|new Function\(|importScripts|XMLHttpRequest", script)
@@ -88,7 +89,8 @@ def page(browser, tmp_path_factory):  # noqa: F811
     policy = "default-src 'none'; script-src 'nonce-a'; style-src 'nonce-a'; img-src data:"
     path.write_text(
         f'<!doctype html><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{policy}">'
-        f'<style nonce="a">{viewer.style()}</style><div id="here"></div><script nonce="a">{viewer.script()}'
+        f'<style nonce="a">{own_text("viewer.css")}</style><div id="here"></div>'
+        f'<script nonce="a">{own_text("viewer.js")}'
         f"</script><script nonce='a'>var view = Sheets.createViewer(document.getElementById('here'), "
         f"{json.dumps(options())});</script>",
         encoding="utf-8",

@@ -1,0 +1,233 @@
+"""Residuals: the runs test for noise, rows that do not fit, and warnings about a fit.
+
+Independent noise gives two neighbouring residuals the same sign as often as not. Neighbours are consecutive
+samples of a motion at one point, and points joined by the minimal spanning tree of the plan at rest. A tree
+has no cycles, so that the pairs' signs are independent and the number of equal ones is binomial, m pairs with
+probability 1/2, whatever the noise's distribution, if its median is 0.
+Sources: Wald and Wolfowitz, Ann. Math. Statist. 11 (1940) 147; Friedman and Rafsky, Ann. Statist. 7 (1979)
+697.
+
+Rows of a table may not fit while the others do: typing slips, lost markers. The row farthest off is left out
+and the fit made again from where it was; it is named if it is then FAR times the others' standard deviation
+off. Up to MOST rows are tried in turn, one in FEWEST at most.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import minimum_spanning_tree
+from scipy.spatial import KDTree
+from scipy.special import bdtrc
+
+from comparisons.identification.fit import Fit, Nearest
+from comparisons.identification.measurements import MOVED, Displacements, Measured
+from comparisons.identification.unknowns import Estimate
+from fem_reference.pulled_strip import curving, laws_of
+from sheetbench.answers.table import quantity
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
+
+UNLIKELY = 1e-3  # probability below which as many equal signs are not noise
+SMALL = 2e-3  # standard deviation of residuals, of the largest measurement, below which no test is made
+POOR = 0.05  # and one that is more than noise usually is
+NEIGHBOURS = 12  # of a point, among which the spanning tree is looked for
+
+
+@dataclass(frozen=True)
+class Runs:
+    """Of `pairs` neighbouring residuals `equal` have the same sign; along: "time" or "space"."""
+
+    equal: int
+    pairs: int
+    along: str
+
+    @property
+    def probability(self) -> float:
+        """That independent noise gives so many pairs the same sign, or more."""
+        return float(bdtrc(self.equal - 1, self.pairs, 0.5)) if self.equal else 1.0
+
+    def __str__(self) -> str:
+        where = "consecutive samples" if self.along == "time" else "neighbouring points"
+        return (
+            f"{100 * self.equal / self.pairs:.0f} % of {self.pairs} pairs of {where} have residuals of one "
+            "sign, of noise half would have"
+        )
+
+
+def runs(measured: Measured, residuals: np.ndarray) -> Runs:
+    """Return the runs test of residuals in the shape of the measurements, nan where nothing was measured."""
+    pairs, along = _pairs(measured)
+    signs = np.nan_to_num(np.sign(residuals)).reshape(len(residuals), -1)
+    products = signs[pairs[:, 0]] * signs[pairs[:, 1]]
+    return Runs(int((products > 0.0).sum()), int((products != 0.0).sum()), along)
+
+
+def explained(noise: float, found: Runs) -> bool:
+    """Return whether residuals of this standard deviation, in units of the largest measurement, are small or
+    noise."""
+    return noise < SMALL or (noise < POOR and found.probability > UNLIKELY)
+
+
+def _pairs(measured: Measured) -> tuple[np.ndarray, str]:
+    """Numbers of neighbouring rows (m, 2), and along what they are neighbours."""
+    if isinstance(measured, Displacements) and measured.time is not None:
+        _, place = np.unique(measured.points, axis=0, return_inverse=True)
+        order = np.lexsort((measured.time, place.ravel()))
+        pairs = np.column_stack([order[:-1], order[1:]])
+        return pairs[place.ravel()[pairs[:, 0]] == place.ravel()[pairs[:, 1]]], "time"
+    points = measured.points[:, :2]
+    near = min(NEIGHBOURS + 1, len(points))
+    distance, neighbour = KDTree(points).query(points, k=range(1, near + 1))
+    distance = distance + 1e-12 * distance.max()  # the graph has no edges of length 0
+    rows = np.repeat(np.arange(len(points)), near)
+    graph = csr_array((distance.ravel(), (rows, neighbour.ravel())), shape=(len(points),) * 2)
+    tree = minimum_spanning_tree(graph).tocoo()
+    return np.column_stack([tree.row, tree.col]), "space"
+
+
+SUSPECT = 5.0  # times the residuals' standard deviation, judged by their median: a row that is looked at
+FAR = 8.0  # times the others' standard deviation
+MOST = 3  # rows
+FEWEST = 8  # rows for each that may be left out: fewer do not tell what is usual
+NORMAL = 1.4826  # standard deviation over the median of |noise|, of normal noise
+
+
+@dataclass(frozen=True)
+class Outlier:
+    """A row that does not fit: its number, its name, its component that is farthest off, that component as
+    measured and as the fit of all other rows has it [m]."""
+
+    row: int
+    name: str
+    component: str
+    measured: float
+    fitted: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.name}: {self.component} = {self.measured:g} m, but {self.fitted:.4g} m by the fit of the "
+            "other rows"
+        )
+
+
+def outliers(fit: Fit, best: Nearest) -> tuple[Outlier, ...]:
+    """Return the rows that do not fit, beside the best search of all rows; none of a surface."""
+    measured = fit.measured
+    if not isinstance(measured, Displacements):
+        return ()
+    residuals, x = fit.per_point(best.residuals), best.x
+    rows: list[int] = []
+    found: tuple[Outlier, ...] = ()
+    while len(rows) < min(MOST, len(residuals) // FEWEST):
+        rest = np.abs(np.delete(residuals, rows, axis=0))
+        rest = rest[np.isfinite(rest)]
+        if rest.max() <= SUSPECT * NORMAL * np.median(rest):
+            break
+        size = np.nan_to_num(np.abs(residuals)).max(axis=1)
+        size[rows] = 0.0
+        rows.append(int(np.argmax(size)))
+        x = replace(fit, measured=measured.without(rows)).search(x).x
+        residuals = fit.per_point(fit.at(x)[0])
+        spread = float(np.nanstd(np.delete(residuals, rows, axis=0)))
+        if np.nan_to_num(np.abs(residuals[rows])).max(axis=1).min() > FAR * spread:
+            found = tuple(_named(measured, residuals, row) for row in rows)
+    return found
+
+
+def _named(measured: Displacements, residuals: np.ndarray, row: int) -> Outlier:
+    worst = int(np.argmax(np.nan_to_num(np.abs(residuals[row]))))
+    value = float(measured.displacement[row, worst])
+    return Outlier(row, measured.name_of(row), MOVED[worst], value, value + float(residuals[row, worst]))
+
+
+NOTED = 0.01  # share of the force from which on it is reported
+RUBBERS = "neo-hookean"
+CELLS = "cells half as large"
+
+
+def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list[str]:
+    """Return the rows that do not fit, and the values without them."""
+    if not odd:
+        return []
+    values = "; ".join(
+        f"{name} = {quantity(u.value, u.unit)}, 95 % {quantity(u.interval[0], u.unit)} to "
+        f"{quantity(u.interval[1], u.unit)}"
+        for name, u in without.items()
+    )
+    rows = "this row" if len(odd) == 1 else "these rows"
+    return [f"{'; '.join(map(str, odd))}. Is it a mistake? Without {rows}: {values}"]
+
+
+def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
+    """Return why residuals are more than noise, and what may be done."""
+    names = ", ".join(u.name for u in fit.unknowns)
+    tried = f"the best of {starts} starts" if starts > 1 else "the search"
+    deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
+    size = f"{tried} leaves residuals of {deviation}, {few(100 * best.noise)} % of the largest measurement"
+    if best.noise > POOR:
+        turned = " and ".join(fit.turned(best.residuals))
+        return [
+            f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
+            + (f": the measured {turned} have the opposite sign of the model's" if turned else "")
+        ]
+    if explained(best.noise, left):
+        return []
+    return [
+        f"not explained: {size}, and are not noise: {left}. Something is missing in the model (supports, "
+        "loads, an unknown, finer cells), and the interval, which assumes noise, is too narrow",
+    ]
+
+
+def on_bounds(fit: Fit, best: Nearest) -> list[str]:
+    """Return the unknowns that ended at a bound of the search."""
+    return [
+        f"{u.name} hit its search bound {quantity(u.value(x), u.unit)}: the data do not constrain it"
+        for u, x, active in zip(fit.unknowns, best.x, best.against_bounds, strict=True)
+        if active
+    ]
+
+
+def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str]:
+    """Return what the lattice's cells, or the elements of another model, do to the values."""
+    lattice = model == "lumped"
+    other, error = (CELLS, "grid's") if lattice else ("elements twice as large", "mesh's")
+    seen = [u for u in found.values() if u.determined]
+    if looked and seen and all(u.interval == u.noise_interval for u in seen):
+        return [f"{other} could not be solved: the {error} error is not known, nor in the interval"]
+    more = "masses (--lumped), or leave the grid to the fit" if lattice else "--elements"
+    finer = {
+        name: "" if u.refined is None else f" would be {quantity(u.refined, u.unit)} on {CELLS}"
+        for name, u in found.items()
+        if u.determined and _wide(u)
+    }
+    rest = f"most of its interval is the {error} error; take more {more}"
+    return [f"{name}{value}: {rest}" for name, value in finer.items()]
+
+
+def on_law(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
+    """Return a sentence where laws of strain differ at the largest stretch of the sheet with the values
+    found."""
+    material = scene.material
+    own = law or material.law or STRAIN_LAW
+    differences = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}
+    other = max(differences, key=lambda name: differences[name])
+    off = differences[other] * (stretch or 0.0)
+    if off <= NOTED:
+        return []
+    remedy = f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
+    remedy = "" if own in (RUBBERS, material.law) else remedy
+    return [
+        f"values are those of the law {own}: at {few(100.0 * (stretch or 0.0))} % stretch, as here, the "
+        f"force of {other} is some {few(100.0 * off)} % another{remedy}"
+    ]
+
+
+def _wide(found: Estimate) -> bool:
+    """Return whether the grid widens an interval to more than twice the noise's."""
+    whole, noise = np.ptp(found.interval), np.ptp(found.noise_interval)
+    return bool(whole > 2.0 * noise and whole > 1e-2 * abs(found.value))

@@ -46,11 +46,10 @@ def compare_motion(
 ) -> MotionComparison:
     """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
 
-    elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
-    twice as large and with steps twice as long. models: that move it too, external codes and plug-ins
-    among them; leave_out: without those that refuse the scene, which the answer names. every [s]: distance of
-    samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder in
-    which every run of ours has one to stream to; runs that were stopped go on from there.
+    uncertainty: move the reference twice more, on elements twice as large and with steps twice as long.
+    leave_out: models that refuse the scene, which the answer names. every [s]: distance of samples. frames:
+    whole displacements to keep. store: a folder in which every run of ours has one to stream to and go on
+    from.
     Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
     scene = scene_of(scene)

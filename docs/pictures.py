@@ -1,6 +1,6 @@
 """Draw the still pictures of README and of pages in docs, in docs/images: `make pictures`.
 
-A PNG says in its description what its numbers are; tests/test_readme.py holds it against the text and a fresh
+A PNG says in its description what its numbers are; tests/test_docs.py holds it against the text and a fresh
 solve.
 """
 

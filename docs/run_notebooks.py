@@ -1,6 +1,6 @@
 """Run the notebooks of the documentation anew and keep what they print and draw: `make notebooks`.
 
-The pages show what is kept, so that the site is built in a minute less and offline; tests/test_notebooks.py
+The pages show what is kept, so that the site is built in a minute less and offline; tests/test_scripts.py
 runs every notebook and fails where one does.
 """
 

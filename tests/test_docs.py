@@ -1,4 +1,5 @@
-"""The documentation: pages run as written; commands, options, scenes and links name what exists."""
+"""The documentation and the README: pages run as written; commands, options, scenes, links, targets and
+pictures are there, and numbers in pictures are those of the text."""
 
 import pkgutil
 import re
@@ -8,11 +9,16 @@ from pathlib import Path
 
 import pytest
 from commands import run
+from PIL import Image
 
 from comparisons.cli.app import VERBS, verb_group
+from comparisons.comparison.comparison import compare
 from sheetbench import scenes
 
 ROOT = Path(__file__).parent.parent
+README = ROOT / "README.md"
+TEXT = README.read_text(encoding="utf-8")
+MAKE = "".join((ROOT / place).read_text(encoding="utf-8") for place in ("Makefile", "studies/Makefile"))
 BUILT = ("scene.md", "versions.md")  # by `make docs`, as the folders below
 GENERATED = ("verbs/", "tables/", "examples/", *BUILT)
 PLACES = (ROOT / "docs", ROOT / "docs" / "development")
@@ -58,7 +64,7 @@ def test_commands_and_python_of_a_page_run_as_written(page, tmp_path, monkeypatc
                 assert run(*words, *plain) == 0, words
 
 
-@pytest.mark.parametrize("page", [*PAGES, ROOT / "README.md"], ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", [*PAGES, README], ids=lambda page: page.stem)
 def test_commands_name_verbs_options_and_scenes_that_exist(page):
     known = verb_group().commands
     text = page.read_text(encoding="utf-8")
@@ -99,7 +105,7 @@ def test_the_reference_of_the_python_interface_names_what_exists(page):
 
 def test_files_that_are_named_exist():
     places = list(PAGES)
-    places += [ROOT / "CONTRIBUTING.md", ROOT / "README.md", ROOT / "Makefile", ROOT / "studies/Makefile"]
+    places += [ROOT / "CONTRIBUTING.md", README, ROOT / "Makefile", ROOT / "studies/Makefile"]
     places += (ROOT / ".ci").iterdir()
     rooms = "tests|benchmarks|studies|comparisons|lumped|fem_reference|sheetbench"
     path = rf"(?<![\w/{{])(?:{rooms})/[\w/.-]+\.(?:py|toml|json|csv|txt)\b"
@@ -110,3 +116,60 @@ def test_files_that_are_named_exist():
     real = sorted((page, name) for page, name in named if not forms.search(name))
     assert len(real) > 30
     assert [x for x in real if not any((root / x[1]).exists() for root in (ROOT, ROOT / "tests"))] == []
+
+
+def test_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # what the examples save
+    namespace: dict[str, object] = {}
+    for _, block in blocks(README, "python"):
+        exec(compile(block, "README.md", "exec"), namespace)
+    assert "%" in capsys.readouterr().out
+
+
+def test_make_targets_exist():
+    targets = re.findall(r"make ([\w-]+)", TEXT + (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))
+    assert {"demo", "test", "check", "tests-of"} <= set(targets)
+    for target in targets:
+        assert re.search(rf"^{target}:", MAKE, re.M)
+
+
+def test_pictures_exist_and_are_small():
+    pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", TEXT)
+    assert pictures
+    for picture in pictures:
+        most = 1_000_000 if picture.endswith(".gif") else 300_000  # what moves is a few dozen pictures
+        assert (ROOT / picture).stat().st_size < most
+
+
+def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve():
+    for name in ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge"):
+        with Image.open(ROOT / "docs/images" / f"{name}.png") as image:
+            kept = image.info["Description"]
+        assert kept == compare(name, uncertainty=False).figures()[0].description, f"{name}.png: make pictures"
+    with Image.open(ROOT / "docs/images/two-edges-clamped.png") as image:
+        shown = float(re.search(r"error at the probes ([\d.]+) %", image.info["Description"])[1])
+    caption = re.search(r"lattice is ([\d.]+) % off the converged shell", TEXT)
+    row = re.search(r"^\| lumped \| .*\| ([\d.]+) \| [\d.]+ \| converged", TEXT, re.M)
+    assert caption and row
+    assert float(row[1]) == shown and float(caption[1]) == round(shown, 1)
+
+
+def test_the_page_of_the_catalogue_has_every_scene_with_a_picture():
+    page = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
+    sections = {part.partition("\n")[0]: part for part in page.split("\n## ")[1:]}
+    assert sections.keys() == scenes.catalogue().keys()
+    for name, section in sections.items():
+        assert scenes.load(name).title in section and "![" in section and f" {name} " in section
+
+
+def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere():
+    pages = TEXT + "".join(path.read_text(encoding="utf-8") for path in ROOT.glob("docs/*.md"))
+    scripts = "\n".join(
+        path.read_text(encoding="utf-8") for path in ROOT.glob("docs/*.py") if f"docs/{path.name}" in MAKE
+    )
+    for path in (ROOT / "docs/images").iterdir():
+        if path.is_file():
+            assert f"images/{path.name}" in pages, f"{path.name}: shown nowhere"
+            assert f"images/{path.name}" in MAKE or path.stem in scripts, (
+                f"{path.name}: no make target draws it"
+            )

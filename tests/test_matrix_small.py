@@ -43,22 +43,15 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     ],
     "check --schema": [((), ("--out", "{folder}")), ((), ("--quiet",))],
     "identify": [
-        (("one-edge-clamped",), ("{pressed}",), ("{springs}",)),
+        (("one-edge-clamped",), ("{pressed}",), ("{springs}",), ("{natural}",), ("{touching}",)),
         tuple(("--measured", f"{{{name}}}") for name in ("heights", "displacements", "empty")),
         (("--lumped", "3"), ("--lumped", "3x4"), ("--model", "shell", "--elements", "2")),
         ((), ("--calibration", "hyperelastic"), ("--k", "550"), ("--grading", "auto")),
-        (("--unknown", "young"), ("--unknown", "poisson"), ("--unknown", "tilt_x0")),
+        tuple(
+            ("--unknown", name)
+            for name in ("young", "poisson", "tilt_x0", "natural.kxx", "patch1.natural.kxx", "obstacle1.z")
+        ),
         OUTPUTS[:3],
-    ],
-    "identify {natural} --measured {displacements}": [
-        (("--lumped", "3"), ("--lumped", "3x4"), ("--model", "shell", "--elements", "2")),
-        (("--unknown", "natural.kxx"), ("--unknown", "patch1.natural.kxx"), ("--unknown", "natural.exx")),
-        OUTPUTS[:3],
-    ],
-    "identify {touching} --measured {displacements}": [
-        (("--lumped", "3"), ("--model", "shell", "--elements", "2")),
-        (("--unknown", "obstacle1.z"), ("--unknown", "young")),
-        OUTPUTS[:2],
     ],
     "compare {touching} --elements 2": [
         (("--lumped", "3"), ("--lumped", "3x4"), ("--lumped", "4", "--grading", "auto")),

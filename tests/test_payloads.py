@@ -10,10 +10,10 @@ from sheetbench_mujoco import MODEL as MUJOCO
 import fem_reference
 import lumped
 from comparisons.external.bricks import Bricks, forces
-from comparisons.external.calculix.deck import deck
 from comparisons.external.calculix.model import MODEL as CALCULIX
+from comparisons.external.calculix.model import deck
 from comparisons.external.kratos.model import MODEL as KRATOS
-from comparisons.external.kratos.problem import Triangles, problem
+from comparisons.external.kratos.model import Triangles, problem
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Gravity, Material, PointLoad
 from sheetbench.scenes.meaning.parameters import parameter, put

@@ -1,15 +1,19 @@
-"""The springs of a sheet and material: those of a scene, of values alone, or of a scene changed by values."""
+"""The springs of a sheet and material: those of a scene, of values alone, or of a scene changed by values;
+and the answer of `sheetbench calibrate`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 from math import prod
 from typing import Any
 from warnings import warn
 
 import lumped
-from comparisons.calibration.damping import UNDAMPED
+from comparisons.calibration import damping
+from comparisons.calibration.damping import UNDAMPED, ModeDamping
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import choice_notes
 from comparisons.models.quantities import checked
@@ -17,11 +21,18 @@ from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
+from lumped import Calibration
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Write
 from sheetbench.answers.solution import Solution
+from sheetbench.answers.table import Table
 from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.errors import BadInput, Implausible
 from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, require_static, scene_of
+from sheetbench.scenes.language.toml import dumps
 from sheetbench.scenes.meaning.plausibility import material_slips, sheet_slips
+from sheetbench.scenes.meaning.words import sheet_in_words
+from sheetbench.scenes.objects.grading import as_settings
 
 DENSITY = 1000.0  # kg/m³, unless given
 NEEDED = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}
@@ -91,3 +102,40 @@ def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
 
     found = expected_error(scene, lattice, answer(lattice), answer)
     return found if isinstance(found, ExpectedError) else None
+
+
+@dataclass(frozen=True, repr=False)
+class SheetCalibration(Calibration):
+    """Springs for a scene's sheet, as they were found; expected: the error of their grid in the scene, where
+    it is known; modes: the damping of the lowest ones; lattice: files for another code, and what is not in
+    them."""
+
+    scene: Scene = field(kw_only=True)
+    expected: ExpectedError | None = None
+    modes: tuple[ModeDamping, ...] = ()
+    lattice: tuple[dict[str, Write], list[str]] = field(default=({}, []), compare=False)
+
+    def heading(self) -> tuple[str, str, str]:
+        return (*super().heading()[:2], sheet_in_words(self.scene.sheet, self.scene.material))
+
+    def document(self) -> dict[str, Any]:
+        known = {} if self.expected is None else {"expected_error": self.expected.as_dict()}
+        return super().document() | known | damping.document(self.scene.material, self.modes)
+
+    def tables(self) -> tuple[Table, ...]:
+        return (*super().tables(), *damping.tables(self.scene.material, self.modes))
+
+    def notes(self) -> tuple[str, ...]:
+        expected = () if self.expected is None else (f"in this scene: {self.expected}",)
+        return (*super().notes(), *expected, *self.lattice[1])
+
+    def files(self) -> dict[str, Write]:
+        return {"springs.toml": partial(write_text, text=to_toml(self)), **self.lattice[0]}
+
+
+def to_toml(springs: Calibration) -> str:
+    """Return the [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
+    found = springs.document()
+    grading = as_settings(springs.grading) if springs.grading else {}
+    keys = {"grid": found["grid"], "masses": found["masses"], **grading, **found["springs"]}
+    return dumps({"springs": {**keys, "layer_distance": found["layer_distance"]}})

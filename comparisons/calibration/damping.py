@@ -10,6 +10,7 @@ Sensors 24, 6137.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict
 from itertools import pairwise
 from math import ceil, hypot, log10, pi, prod
@@ -29,6 +30,13 @@ from sheetbench.scenes.objects.relaxation import A_DECADE
 MODES = 10
 LEAST_SHARE = 1e-4  # of a branch that is kept
 FEWEST = 4  # rows of measured moduli
+MEASURES: dict[str, Callable[[float], float]] = {  # and the loss factor that each says; moduli say it all
+    "loss-factor": lambda value: value,
+    "damping-ratio": lambda value: 2.0 * value,
+    "log-decrement": lambda value: 2.0 * value / hypot(2.0 * pi, value),
+    "quality": lambda value: 1.0 / value,
+    "prony": float,
+}
 RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement is πη where η is small"
 
 
@@ -49,14 +57,9 @@ def keys(
     option: str = "--",
 ) -> dict[str, Any]:
     """Return the keys of [material] that say this; none of nothing. Raises BadInput by the options' names."""
-    measures: dict[str, Any] = {  # and the loss factor that each says
-        "loss-factor": (loss_factor, lambda value: value),
-        "damping-ratio": (damping_ratio, lambda value: 2.0 * value),
-        "log-decrement": (log_decrement, lambda value: 2.0 * value / hypot(2.0 * pi, value)),
-        "quality": (quality, lambda value: 1.0 / value),
-        "prony": (prony, None),
-    }
-    named = [name for name, (value, _) in measures.items() if value is not None]
+    values = (loss_factor, damping_ratio, log_decrement, quality, prony)
+    given: dict[str, Any] = {n: v for n, v in zip(MEASURES, values, strict=True) if v is not None}
+    named = [*given]
     where = " and ".join(option + name for name, value in (("at", at), ("band", band)) if value is not None)
     if len(named) > 1:
         raise BadInput(f"{' and '.join(option + name for name in named)}: give one of them")
@@ -68,14 +71,14 @@ def keys(
         if where:
             raise BadInput(f"{option}prony and {where}: measured moduli have a band of their own")
         return _series(prony)
-    value, loss = measures[named[0]]
+    value = given[named[0]]
     if not value > 0.0:
         raise BadInput(f"{option}{named[0]} = {value:g}: must be greater than 0")
     if (at is None) == (band is None):
         raise BadInput(
             f"{option}{named[0]}: give {option}at HZ, for one damper a spring, or {option}band LOW HIGH"
         )
-    return {"loss_factor": loss(value), "frequency": at, "band": band}
+    return {"loss_factor": MEASURES[named[0]](value), "frequency": at, "band": band}
 
 
 def ratios(scene: Scene, springs: lumped.Calibration) -> tuple[ModeDamping, ...]:
@@ -163,8 +166,8 @@ def _series(path: Path) -> dict[str, Any]:
     columns = read_columns(path, SERIES)
     names = set(columns.names)
     if {"frequency", "storage"} <= names and names & {"loss", "tan_delta"}:
-        at, storage = _column(path, columns, "frequency"), _values(columns, "storage")
-        loss = _values(columns, "loss") if "loss" in names else storage * _values(columns, "tan_delta")
+        at, storage = _column(path, columns, "frequency"), columns.numbers("storage")
+        loss = columns.numbers("loss") if "loss" in names else storage * columns.numbers("tan_delta")
         decades = log10(at[-1] / at[0])
         times = 1.0 / (2.0 * pi * np.geomspace(at[-1], at[0], max(2, ceil(A_DECADE * decades) + 1)))
         x = 2.0 * pi * at[:, None] * times
@@ -172,7 +175,7 @@ def _series(path: Path) -> dict[str, Any]:
         rows = np.vstack([np.hstack([one, x * x / (1.0 + x * x)]), np.hstack([0.0 * one, x / (1.0 + x * x)])])
         measured = np.concatenate([storage, loss])
     elif {"time", "modulus"} <= names:
-        at, measured = _column(path, columns, "time"), _values(columns, "modulus")
+        at, measured = _column(path, columns, "time"), columns.numbers("modulus")
         times = np.geomspace(at[0], at[-1], max(2, ceil(A_DECADE * log10(at[-1] / at[0])) + 1))
         rows = np.hstack([np.ones((len(at), 1)), np.exp(-at[:, None] / times)])
     else:
@@ -205,14 +208,10 @@ def _series(path: Path) -> dict[str, Any]:
 
 
 def _column(path: Path, columns: Columns, name: str) -> np.ndarray:
-    values = _values(columns, name)
+    values = columns.numbers(name)
     if len(values) < FEWEST:
         raise BadInput(f"{path}: {len(values)} rows; at least {FEWEST}")
     for row, (before, after) in zip(columns.rows[1:], pairwise(values), strict=True):
         if not 0.0 < before < after:
             raise row.refused(name, "must be greater than 0 and increase")
     return values
-
-
-def _values(columns: Columns, name: str) -> np.ndarray:
-    return np.array([row.number(name) for row in columns.rows])

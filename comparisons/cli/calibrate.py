@@ -76,8 +76,7 @@ def command(
     from dataclasses import fields
 
     from comparisons.calibration import damping
-    from comparisons.calibration.answer import SheetCalibration, to_toml
-    from comparisons.calibration.calibrate import calibrate, expected, subject
+    from comparisons.calibration.calibrate import SheetCalibration, calibrate, expected, subject, to_toml
     from comparisons.codes.cell_moduli import given_coefficients, homogenise
     from comparisons.codes.files import WRITERS
     from comparisons.codes.lattice import CODES, lattice_files
@@ -114,8 +113,8 @@ def command(
             },
         )
         ways = (loss_factor, damping_ratio, log_decrement, quality, prony)
-        names = ("loss-factor", "damping-ratio", "log-decrement", "quality", "prony")
-        require_damper(for_, of.material, dict(zip((f"--{name}" for name in names), ways, strict=True)))
+        names = (f"--{name}" for name in damping.MEASURES)
+        require_damper(for_, of.material, dict(zip(names, ways, strict=True)))
         found = setup(of, for_, squares_of(wanted.grid), named=named)
         with output.open(about=about, variant={"--for": for_}) as out:
             return out.show(found)
@@ -131,5 +130,5 @@ def command(
         modes = damping.ratios(of, springs)
         own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
         files = ({}, []) if for_ is None else lattice_files(of, springs, for_)
-        answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
+        answer = SheetCalibration(**own, scene=of, expected=off, modes=modes, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -107,14 +107,12 @@ class Group:
     no_effect: ClassVar[dict[str, str]] = {}
 
     @classmethod
-    def documented(cls) -> tuple[Any, ...]:
-        """Return what describes the options."""
-        return (*cls.__mro__[:-1], sys.modules[__name__])
-
-    @classmethod
     def parameters(cls) -> list[Parameter]:
         """Return the options as keyword parameters of a command."""
-        hints, words = get_type_hints(cls, include_extras=True), words_of(*cls.documented())
+        hints, words = (
+            get_type_hints(cls, include_extras=True),
+            words_of(*cls.__mro__[:-1], sys.modules[__name__]),
+        )
         return [
             Parameter(one.name, Parameter.KEYWORD_ONLY, default=one.default, annotation=hints[one.name])
             for one in fields(cls)  # type: ignore[arg-type]
@@ -212,8 +210,4 @@ class ClusterOptions(CampaignOptions):
         wait: With --scheduler: wait where there is no worker, instead of stopping.
     """
 
-    no_effect: ClassVar[dict[str, str]] = {
-        "without_out": "retry",
-        "without_scheduler": "wait",
-        "with_scheduler": "workers",
-    }
+    no_effect: ClassVar[dict[str, str]] = {"without_scheduler": "wait", "with_scheduler": "workers"}

@@ -8,8 +8,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass, replace
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
@@ -39,54 +40,45 @@ def command_line(verb: str, terminal: bool) -> list[str]:
     return ["sheetbench", *sys.argv[1:]] if terminal else ["sheetbench", verb, "in Python"]
 
 
+@dataclass
 class Output:
     """The terminal, the JSON document and the folder of a verb that runs."""
 
-    def __init__(
-        self,
-        options: OutputOptions,
-        about: Mapping[str, Any],
-        folder: Folder | None,
-        styles: Sequence[FigureStyle],
-    ) -> None:
-        self._options = options
-        self._about = about
-        self._folder = folder
-        self._styles = styles
-        self._store_files: list[str] = []
-        self._notes: list[str] = []
-        self._spinner = ExitStack()
-        self._progress: Callable[[object], None] | None = None
+    options: OutputOptions
+    about: Mapping[str, Any]
+    folder: Folder | None
+    styles: Sequence[FigureStyle]
+    store_files: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    spinner: ExitStack = field(default_factory=ExitStack)
 
-    def progress(self, what: Any) -> None:
-        """Show on standard error what is being done."""
-        if not self._options.terminal:
+    @cached_property
+    def progress(self) -> Callable[[Any], None]:
+        """What shows on standard error what is being done."""
+        if not self.options.terminal:
             from comparisons.models.context import context
 
-            context().progress(what)
-            return
-        if self._progress is None:
-            from comparisons.cli import console  # with rich: help must not wait for it
+            return context().progress
+        from comparisons.cli import console  # with rich: help must not wait for it
 
-            self._progress = self._spinner.enter_context(console.progress())
-        self._progress(what)
+        return self.spinner.enter_context(console.progress())
 
     def keep(self, name: str, write: Write) -> None:
         """Write a file of the answer at once, if there is a folder."""
-        if self._folder is not None:
-            self._folder.write(name, write)
+        if self.folder is not None:
+            self.folder.write(name, write)
 
     def export(self, folder: str | Path | None, scene: Scene, springs: Calibration) -> None:
         """Write the lattice for other simulators if there is a folder, and note it."""
         if folder is not None:
             from comparisons.codes.lattice import export
 
-            line = command_line(self._options.verb, self._options.terminal)
-            self._notes.append(export(folder, scene, springs, line, self._options.overwrite))
+            line = command_line(self.options.verb, self.options.terminal)
+            self.notes.append(export(folder, scene, springs, line, self.options.overwrite))
 
     def reserve(self, name: str) -> Path | None:
         """Return the path of a file, or of a folder if the name ends in "/", that a run fills by itself."""
-        return None if self._folder is None else self._folder.reserve(name)
+        return None if self.folder is None else self.folder.reserve(name)
 
     @contextmanager
     def campaign(self, options: CampaignOptions) -> Iterator[dict[str, Any]]:
@@ -97,9 +89,9 @@ class Output:
         from comparisons.sweep.store import FILE
 
         with ExitStack() as stack:
-            self._store_files = [FILE]
+            self.store_files = [FILE]
             yield {
-                "store": stack.enter_context(campaign(None if self._folder is None else self._folder.path)),
+                "store": stack.enter_context(campaign(None if self.folder is None else self.folder.path)),
                 "pool": stack.enter_context(pool_of(options.scheduler, options.wait, console.warn)),
                 "progress": self.progress,
                 "workers": options.workers or os.cpu_count() or 1,
@@ -112,11 +104,11 @@ class Output:
         from comparisons.cli import console
         from sheetbench.errors import NoEquilibrium
 
-        self.close()
-        if not self._options.terminal:
+        self.spinner.close()
+        if not self.options.terminal:
             raise NoEquilibrium(complaint)
-        if self._options.json:
-            document = {**self._about, "stopped": complaint, "warnings": [complaint, *messages.shown]}
+        if self.options.json:
+            document = {**self.about, "stopped": complaint, "warnings": [complaint, *messages.shown]}
             console.document(document)
         console.warn(complaint)
         raise typer.Exit(NOT_CONVERGED)
@@ -129,23 +121,23 @@ class Output:
         """
         from comparisons.cli import console
 
-        if not self._options.terminal and self._folder is None:
+        if not self.options.terminal and self.folder is None:
             return answer
         report = answer.report()
         own = report.document.get("warnings", ())  # before those about the scene
         document = {**report.document, "warnings": [*own, *messages.shown]}
-        pictures = () if self._options.no_pictures else report.pictures
-        notes = (*report.notes, *self._notes)
-        report = replace(report, document=document, pictures=pictures, notes=notes).with_styles(self._styles)
+        pictures = () if self.options.no_pictures else report.pictures
+        notes = (*report.notes, *self.notes)
+        report = replace(report, document=document, pictures=pictures, notes=notes).with_styles(self.styles)
         missing: list[str] = []
-        if self._folder is not None:
-            missing = [f"No picture: {reason}" for reason in self._folder.report(report, self.progress)]
-        self.close()
-        if not self._options.terminal:
+        if self.folder is not None:
+            missing = [f"No picture: {reason}" for reason in self.folder.report(report, self.progress)]
+        self.spinner.close()
+        if not self.options.terminal:
             return answer
         if instead is not None:
             print(instead, end="")
-        elif self._options.json:
+        elif self.options.json:
             console.document(report.document)
         else:
             self._print(report)
@@ -154,11 +146,6 @@ class Output:
         if not report.succeeded:
             raise typer.Exit(NOT_CONVERGED)
         return answer
-
-    def close(self) -> None:
-        """End the spinner."""
-        self._spinner.close()
-        self._progress = None
 
     def _print(self, report: Report) -> None:
         from comparisons.cli import console
@@ -180,7 +167,7 @@ class Output:
         notes += report.notes[:shown]
         if (left := len(report.notes) - shown) > 0:
             notes.append(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
-        if self._folder is not None:
+        if self.folder is not None:
             notes.append(self._written(console.out.width))
         if notes and not (report.shown and report.shown[-1].text):
             console.blank()
@@ -193,10 +180,10 @@ class Output:
 
         from comparisons.cli import console
 
-        assert self._folder is not None
-        written = [*self._folder.written, "manifest.json", *self._store_files]
+        assert self.folder is not None
+        written = [*self.folder.written, "manifest.json", *self.store_files]
         names = ", ".join(sorted(written, key=lambda name: not name.endswith(PICTURES)))
-        head = f"{len(written)} files in {self._folder.path}: "
+        head = f"{len(written)} files in {self.folder.path}: "
         return head + (
             names if console.verbose else shorten(names, max(width - len(head), 20), placeholder=" …")
         )
@@ -262,7 +249,8 @@ class OutputOptions(Group):
                     variant=variant,
                     overwrite=self.overwrite,
                 )
-            out = stack.enter_context(closing(Output(self, about or {}, folder, styles)))
+            out = Output(self, about or {}, folder, styles)
+            stack.enter_context(out.spinner)
             if self.terminal:
                 stack.enter_context(running(progress=out.progress))
             try:
@@ -282,6 +270,6 @@ class PictureOptions(OutputOptions):
     """
 
     no_effect: ClassVar[dict[str, str]] = {
-        "without_out": "overwrite figure animate",
+        "without_out": "figure animate",
         "with_no_pictures": "figure animate",
     }

@@ -55,7 +55,7 @@ def command(
     model = resolve(loaded, lattice.spec, "motion")
     run = {"--integrator": integrator, "--step": step, "--every": every, "--error": error}
     run |= {f"--{name}": value for name, value in lattice.spec.settings.items()}
-    chosen = {} if error is None else {"error": error}
+    chosen: dict[str, Any] = {} if error is None else {"error": error}
     with output.open(scene=loaded, variant=run, alone=True) as out:
         history = simulate(
             model,

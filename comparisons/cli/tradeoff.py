@@ -72,7 +72,7 @@ def command(
         integrator (NAMES): With --duration: some of {INTEGRATORS}. Default: all.
     """
     from comparisons.comparison.comparison import load_static
-    from comparisons.models.spec import items
+    from comparisons.models.spec import items, parse
     from comparisons.tradeoff import choices
     from comparisons.tradeoff.advisor import advise
     from comparisons.tradeoff.motion import dynamic_tradeoff
@@ -92,7 +92,7 @@ def command(
             found = advise(loaded, tolerance, budget, lattice.spec, models=models, calibration=calibration)
             return out.show(replace(found, called=scene) if isinstance(scene, str) else found)
     own, meshes_of = lattice.spec, usual.MESHES if duration is None else usual.MOVING
-    others, extra = choices.of_references(meshes, meshes_of, symmetry), choices.named(model or ())
+    others, extra = choices.of_references(meshes, meshes_of, symmetry), list(map(parse, model or ()))
     reference = choices.finest(elements)
     if duration is not None:
         more: dict[str, Any] = {"lattices": choices.moving_lattices(own, grid, calibration)}

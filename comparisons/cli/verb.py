@@ -54,13 +54,12 @@ class _Declared:
             for name, one in self.own.parameters.items()
             if isclass(one.annotation) and issubclass(one.annotation, Group)
         }
-        described = [of for kind in self.groups.values() for of in kind.documented()]
+        described = [of for kind in self.groups.values() for of in kind.__mro__[:-1]]
         self.words = words_of(command, *described, options)
         self.rules = dict(getattr(command, "no_effect", {}))
-        for kind in self.groups.values():
-            self.rules |= {
-                rule: f"{self.rules.get(rule, '')} {names}" for rule, names in kind.no_effect.items()
-            }
+        for kind in described:
+            for rule, names in vars(kind).get("no_effect", {}).items():
+                self.rules[rule] = f"{self.rules.get(rule, '')} {names}"
 
     @property
     def prose(self) -> str:
@@ -222,26 +221,23 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
     hardly meant in a Scene.
     """
     declared = _Declared(command)
-    positional: list[Parameter] = []
-    flat: list[Parameter] = []
+    found: list[Parameter] = []
     for one in declared.own.parameters.values():
-        if one.name in TERMINAL:
-            continue
-        if one.name not in declared.groups:
-            (flat if one.kind is Parameter.KEYWORD_ONLY else positional).append(_plain(one))
-            continue
-        kind = declared.groups[one.name]
-        if issubclass(kind, LatticeGroup):
-            place = one.replace(default=None, annotation="Lattice | None")
-            (flat if one.kind is Parameter.KEYWORD_ONLY else positional).append(place)
-        flat += [_plain(inner) for inner in kind.parameters() if inner.name not in TERMINAL]
-    flat = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in flat]
+        kind = declared.groups.get(one.name)
+        if kind is None:
+            found.append(one)
+        elif issubclass(kind, LatticeGroup):
+            found.append(one.replace(default=None, annotation="Lattice | None"))
+        found += kind.parameters() if kind is not None else []
     has_output = any(issubclass(kind, OutputOptions) for kind in declared.groups.values())
     if has_output:
-        flat.append(
-            Parameter("progress", Parameter.KEYWORD_ONLY, default=None, annotation="Callable[[Any], None]")
-        )
-    own = Signature([*positional, *sorted(flat, key=lambda one: one.default is not Parameter.empty)])
+        shown: Any = {"default": None, "annotation": "Callable[[Any], None]"}
+        found.append(Parameter("progress", Parameter.KEYWORD_ONLY, **shown))
+
+    def place(one: Parameter) -> tuple[int, bool]:
+        return one.kind, one.kind is Parameter.KEYWORD_ONLY and one.default is not Parameter.empty
+
+    own = Signature(sorted((_plain(one) for one in found if one.name not in TERMINAL), key=place))
     converted = {one.name: _conversion(one) for one in declared.each()}
 
     @wraps(command)

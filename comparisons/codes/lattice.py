@@ -1,28 +1,153 @@
 """A lattice as files for other codes: its springs, masses, supports and loads, and a program that reads them.
 
-The tables and arrays can be read by any program; `CODES` have a file of their own beside them.
+The tables and arrays can be read by any program; `CODES` have a file of their own beside them. A README says
+in a page how force and energy follow from them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.codes.files import script, to_sofa
-from comparisons.codes.page import page
-from comparisons.codes.tables import arrays, natural, plan, tables
+from comparisons.codes.tables import NAMES, arrays, natural, plan, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
+from sheetbench.answers.escape import markdown
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.distances import require_no_obstacles
+from sheetbench.scenes.meaning.words import in_words
+from sheetbench.sources import version
 
 if TYPE_CHECKING:
-    from lumped import Calibration
+    from lumped import Calibration, Description
+
+
+PLAN = (
+    "- `plan.csv`: what each cell of the plan is made of in its middle, the number of its patch, and its "
+    "share that is on the sheet; its springs and masses have that already.\n"
+)
+OWN = ("material", "layer", "patch", "cutout")  # lines of a scene in words
+MISSING = "Masses beyond the outline and in cutouts are left out; `i`, `j`, `k` number lines and layers.\n"
+NATURAL = """
+The sheet is not flat and free of stress at rest; all that is without stress is in the files. Of links that
+is L; of cells a0, and `natural.csv`: of rows of `cells.csv`, counted from 0, aa, bb and ab in place of |A0|²,
+|B0|² and A0·B0, so that e1 = (|A|² − aa)/(2 aa), e2 = (|B|² − bb)/(2 bb), g = (A·B − ab)/a0, and in P and Q
+aa and bb in place of |A0|² and |B0|². Stiffness and damping are of these sides. The masses of `nodes.csv` are
+on the flat sheet, where these springs pull.
+"""
+CONTACT = """
+## Obstacles
+
+- `obstacles.csv`: rigid bodies where they are at last, in `a` a plane's unit normal, towards the sheet, or a
+  cylinder's axis; `stiffness` k in N/m³, the largest of its points.
+- `contacts.csv`: points of the mid-surface that may touch an obstacle, numbered from 0: on a plane the mean
+  of every column of masses with its area, on others points in cells. A point is at X = Σ weight × corner, a
+  corner being the mean of its masses. With y = X − position, φ = y·n on a plane, n its normal; |y| − radius
+  and n = y/|y| on a sphere; the same on a cylinder with y less its part along the axis. Depth d = offset −
+  φ; where d > 0, E = ½ k d² area, and the gradient by X is −k d area n, weight times that on each corner. The
+  offset is half the thickness and 1e-9 of it. The energy of `states.csv` is that of springs and contact.
+"""
+PAGE = """\
+# {title}
+
+{about}
+
+SI units throughout. Masses are numbered from 0. `check.csv` and `states.csv` hold {states} to test a
+program by: with these displacements it should find these forces and energies, to rounding. A corner `4+5`
+is the mean of masses 4 and 5.
+
+## Springs
+
+Energy E of all springs, force −∂E/∂x on every mass; `check.csv` has the gradient +∂E/∂x, which is what
+supports and loads balance at rest.
+
+- `links.csv`: masses a and b, rest length L, stiffness k. With r the vector from a to b, E = ½ k (|r| −
+  L)². Shares of links on the sheet's boundary are in k already.
+- `cells.csv`, kind `area`: corners 1 to 4 in turn, each a mass or the mean of several; d1 from corner 1 to
+  3, d2 from 2 to 4, c = d1 × d2, n = c/|c|, area a = ½ |c|, a0 at rest. E = ½ k1 (a/a0 − 1)² a0. With τ =
+  k1 (a/a0 − 1) the gradient is ½ τ d2 × n on corner 3, ½ τ n × d1 on corner 4, and the opposite on corners
+  1 and 2.
+- kind `strain`: sides A = (d1 − d2)/2 and B = (d1 + d2)/2, at rest A0 and B0, a0 = |A0| |B0|, and the Green
+  strains e1 = (|A|² − |A0|²)/(2 |A0|²), e2 = (|B|² − |B0|²)/(2 |B0|²), g = A·B/a0. E = ½ (k1 e1² + k2 e2² +
+  k3 g²) a0. With t = (k1 e1, k2 e2, k3 g) the gradient by A is P = a0 (t1 A/|A0|² + t3 B/a0), by B it is Q
+  = a0 (t2 B/|B0|² + t3 A/a0); on corners 1 to 4 it is ½ (−P − Q), ½ (P − Q), ½ (P + Q), ½ (Q − P).
+- kind `coupling`, of fibres and at oblique rims: strains as above, E = (k1 e1 e2 + k2 e1 g + k3 e2 g) a0 and
+  t = (k1 e2 + k2 g, k1 e1 + k3 g, k2 e1 + k3 e2).
+- kind `rubber`: a membrane of rubber. With A and B as above, q = corner 1 − 2 + 3 − 4, C11 = (|A|² +
+  |q|²/12)/|A0|², C22 = (|B|² + |q|²/12)/|B0|², C12 = A·B/a0, T = C11 + C22, D = C11 C22 − C12², x = T + θ
+  − 3 and c10, c01, c20, c30, v, limit = k1 … k6 it stores W a0, W = f + c01 (D + θ T − 3) − (c10 + 2 c01)
+  ln(D θ) + v/8 ln²(D θ), f = c10 x + c20 x² + c30 x³ or, of a limit that is not 0, −c10 limit ln(1 −
+  x/limit). θ, the square of the thickness' stretch, is where nothing pulls: with F = f′ the one root of θ
+  (F + c01 T) − c10 − 2 c01 + v/4 ln(D θ). Less ½ k7 (la − |A0|)² + ½ k8 (lb − |B0|)², la² = |A|² + |q|²/4,
+  lb² = |B|² + |q|²/4. With wT = F + c01 θ, wD = c01 − θ (F + c01 T)/D, s = a0 (wT + wD C22)/|A0|², t = a0
+  (wT + wD C11)/|B0|², pa = k7 (1 − |A0|/la) and pb = k8 (1 − |B0|/lb) P = (2 s − pa) A − 2 wD C12 B, Q =
+  (2 t − pb) B − 2 wD C12 A, and R = ((s + t)/6 − (pa + pb)/4) q on corners 1 and 3, −R on 2 and 4, beside
+  what P and Q give.
+- kind `face`: sides A along the sheet and B between layers, γ = A·B/(|A| |B0|), E = ½ k1 γ² a0. P = a0 k1
+  γ (B/(|A| |B0|) − γ A/|A|²), Q = a0 k1 γ A/(|A| |B0|).
+- What acts on a corner is shared equally by the masses it is the mean of. A stiffness may be negative: the
+  energy of all springs together is positive all the same.
+{natural}
+## Motion
+
+`nodes.csv` has the masses. Dampers resist the rates of what the springs resist: force c d|r|/dt along a
+link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt) in place of τ and t, and so
+of the couplings; of rubber those of its small strains, rows of kind `area` and `strain` without stiffness.
+Drag on every mass: {rate:g} 1/s × mass × velocity, against its motion.
+
+## Supports and loads
+
+- `supports.csv`: the mean displacement of the masses along one component is held.
+- `loads.csv`: dead forces on masses; where a mass is not named, none.
+- `followers.csv`: `pressure` p on a cell: with c the cross product, at every corner, of the side to the next
+  corner and the side to the one before, p/36 (4 c + 2 (c of the next + c of the one before) + c of the one
+  across) on each corner, p/2 d1 × d2 in all. `moment` M of an edge, its four
+  columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
+  the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
+  and −F on the bottom mass.
+{plan}{notes}{contact}
+## The same as arrays
+
+`lattice.npz` (NumPy) and `lattice.mat` (MATLAB, Octave: add 1 to numbers of masses), p = {layers}:
+
+{arrays}
+
+Programs that read this folder and solve it, of rubber and obstacles the one in NumPy: `sheetbench calibrate
+SCENE --for numpy --out DIR`, likewise `cpp` and `matlab`.
+"""
+
+
+def page(lattice: Description, scene: Scene, calibration: Calibration, others: Iterable[str] = ()) -> str:
+    """Return the README, in Markdown; others: names of files beside it for one code."""
+    nx, ny, layers = calibration.grid
+    sheet = scene.sheet
+    own = [f"{name}: {text}" for name, text in in_words(scene) if name.split()[0] in OWN]
+    missing = MISSING if len(lattice.mass) < nx * ny * layers else ""
+    about = (
+        f"{nx} × {ny} × {layers} masses of a sheet of {sheet.length_x:g} × {sheet.length_y:g} × "
+        f"{sheet.thickness:g} m, springs by the calibration {calibration.method}; "
+        f"{markdown('; '.join(own))}. {missing}Written by sheetbench {version()}."
+    )
+    notes = "".join(f"- Not in here: {markdown(note)}\n" for note in lattice.notes)
+    return PAGE.format(
+        title=f"The lattice of {markdown(scene.name)}",
+        about=about,
+        states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
+        rate=lattice.damping_rate,
+        layers=layers,
+        plan="" if scene.uniform and not scene.pierced else PLAN,
+        natural=NATURAL if scene.natural_by else "",
+        contact=CONTACT if scene.obstacles else "",
+        notes=notes + "".join(f"\nFor one code: `{name}`.\n" for name in others),
+        arrays="\n".join(f"- `{name}` {markdown(note)}" for name, note in NAMES.items()),
+    )
+
 
 SOFA = "sofa"  # has links alone
 READERS = {"numpy": "read_lattice.py", "cpp": "read_lattice.cpp", "matlab": "read_lattice.m"}

@@ -18,11 +18,18 @@ from typing import Any
 import numpy as np
 
 from comparisons.codes.cell import cell_of
-from comparisons.codes.coefficients import best_hinge, limit_error, moduli_of, nearest
+from comparisons.codes.cell_moduli import CellInScene, Parameter, parameters_of, undamped
+from comparisons.codes.coefficients import (
+    best_hinge,
+    layered_springs,
+    limit_error,
+    moduli_of,
+    nearest,
+    tetrahedral_cell,
+    triangular_cell,
+)
 from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
-from comparisons.codes.parameters import CellInScene, Parameter, parameters_of, undamped
 from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
-from comparisons.codes.springs import layered_springs, tetrahedral_cell, triangular_cell
 from comparisons.codes.table import CODES, Code
 from comparisons.models.grids import GridLike
 from sheetbench.answers.files import write_text
@@ -172,7 +179,7 @@ class CodeSetup(CellInScene):
             "cannot": self.code.cannot,
             "source": self.code.source,
             "licence": self.code.licence,
-            "run_here": self.code.runs,
+            "run_here": True,
         }
 
     def files(self) -> dict[str, Write]:
@@ -210,34 +217,27 @@ def setup(
         raise BadInput(f"{squares} squares along the shorter side: at least 2")
     spacing = float(min(scene.sheet.lengths)) / squares
     at_rest = named and _at_rest(scene)
-    name, missing = mesh or row.mesh, ""
-    off: float | None = None
+    best, missing, given = best and at_rest and not coefficients, "", given or {}
+    name, off, fixed = mesh or row.mesh, None, dict(coefficients or {})
     if name == LAYERED:
-        found = layered_springs(scene, spacing) | dict(coefficients or {})
+        found = layered_springs(scene, spacing) | fixed
         cell = tetrahedral_cell(spacing, found["layers"])
-    elif row.elements == "springs":
-        cell = triangular_cell(name, spacing)
-        own = {"lambda_h": 0.0, "mu_h": 0.0}  # it has no membrane but its springs
-        found = nearest(cell, scene.material, scene.sheet.thickness, own)
     else:
-        cell = cell_of(name, spacing, hinge=row.hinge)
-        found = nearest(cell, scene.material, scene.sheet.thickness)
-    best = best and at_rest and not coefficients
-    found |= coefficients or {}
+        springs = row.elements == "springs"  # it has no membrane but these
+        cell = triangular_cell(name, spacing) if springs else cell_of(name, spacing, hinge=row.hinge)
+        none = {"lambda_h": 0.0, "mu_h": 0.0} if springs else None
+        found = nearest(cell, scene.material, scene.sheet.thickness, none) | fixed
     try:
         if best and name == LAYERED:
             found = layered_springs(scene, spacing, best=True)
+            cell = tetrahedral_cell(spacing, found["layers"])
         elif best and (better := best_hinge(scene, cell, found)):
             found["hinge"] = better[0]
-        if name == LAYERED:
-            cell = tetrahedral_cell(spacing, found["layers"])
         if at_rest:
-            springs = found if name != LAYERED else {"k": found["k"]}
-            off = limit_error(scene, moduli_of(cell, springs))
+            off = limit_error(scene, moduli_of(cell, {one: found[one] for one in cell.units()}))
     except NoEquilibrium as error:
         best, missing = False, str(error)
-    best = best and not given
-    return CodeSetup(scene, cell, found, off, missing, row, squares, best, given or {}, named)
+    return CodeSetup(scene, cell, found, off, missing, row, squares, best and not given, given, named)
 
 
 def require_damper(code: str, material: Material, options: Mapping[str, object]) -> None:

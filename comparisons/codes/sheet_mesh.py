@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.codes.springs import five
+from comparisons.codes.coefficients import five
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene
 from sheetbench.scenes.objects.grid import near_square
@@ -150,11 +150,10 @@ def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> t
         for corners in five(*at)
     ]
     lift = np.array([[0.0, 0.0, -0.5], [0.0, 0.0, 0.5]]) * height
-    probes = {
-        name: ([2 * v + layer for v in corners for layer in (0, 1)], np.repeat(shares, 2).tolist())
+    half = {
+        name: ([2 * v + layer for v in corners for layer in (0, 1)], (0.5 * np.repeat(shares, 2)).tolist())
         for name, (corners, shares) in flat.probes.items()
     }
-    half = {name: (v, (0.5 * np.array(shares)).tolist()) for name, (v, shares) in probes.items()}
     return SheetMesh(
         (flat.vertices[:, None, :] + lift).reshape(-1, 3),
         np.concatenate([2 * flat.triangles, 2 * flat.triangles + 1]),

@@ -27,9 +27,8 @@ class Key:
 @dataclass(frozen=True)
 class Code:
     """A code. hinge: the weight of its hinges; elements: "triangles", or "springs" alone; mesh: the one to
-    take; cannot: what its sheet cannot be; source: repository, file and what stands there; runs: whether it
-    was run here; dampers: what a material's one damper is there, none where the code has nothing in
-    proportion to the stiffness."""
+    take; cannot: what its sheet cannot be; source: repository, file and what stands there; dampers: what a
+    material's one damper is there, none where the code has nothing in proportion to the stiffness."""
 
     name: str
     title: str
@@ -40,7 +39,6 @@ class Code:
     mesh: str = "alternate-diagonals"
     elements: str = "triangles"
     licence: str = ""
-    runs: bool = False
     dampers: tuple[Key, ...] = ()
 
 
@@ -92,7 +90,6 @@ CODES = {
             "hinges of triangles below 5e-7 m² are left out there (n1_norm < eps)",
             HINGED,
             licence="Apache-2.0",
-            runs=True,
         ),
         Code(
             "mujoco",
@@ -109,7 +106,6 @@ CODES = {
             "(24 * volume)» in place of D/(A₁ + A₂) (ComputeBending)",
             HINGED + "; its bending energy is quadratic in the positions",
             licence="Apache-2.0",
-            runs=True,
             dampers=(Key("damping", "s", TIMES_STIFFNESS, lambda c: c["damping_time"]),),
         ),
         Code(
@@ -129,7 +125,6 @@ CODES = {
             "tetrahedra",
             "springs",
             "zlib",
-            True,
             (
                 Key(
                     "springDampingStiffness",
@@ -168,7 +163,6 @@ CODES = {
             "clamps too stiff; the engine remeshes the given mesh unless the script prevents it",
             elements="springs",
             licence="Apache-2.0",
-            runs=True,
         ),
         Code(
             "sofa",

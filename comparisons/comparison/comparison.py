@@ -41,15 +41,11 @@ def compare(
     companion: bool = True,
     models: Sequence[Spec | str] = (),
 ) -> Comparison:
-    """Solve a scene with the lattice and with a reference, and put the answers side by side.
+    """Return the answers of a lattice and a reference side by side, as `comparisons.cli.compare` says.
 
-    Where the lattice leaves its calibration open the uniform one is solved too, in cells of one size, and
-    shown alongside as `lumped-uniform`; companion = False leaves it out.
-    reference: an `Elements` or its name; elements: along its shorter side, or (nx, ny); law: of strain, of a
-    shell or solid (`sheetbench.choices.STRAIN_LAWS`). uncertainty: find the reference's error bar on coarser
-    meshes too; for plate and shell it is unless False, for others if True. The reference has the
-    lattice's symmetry and branch; solids are solved whole.
-    models: that stand in the table too, plug-ins or our own. A name that is taken is changed.
+    companion: also uniform springs in cells of one size, as `lumped-uniform`, where the lattice leaves its
+    calibration open. The reference has the lattice's symmetry and branch; solids are solved whole. A name of
+    `models` that is taken is changed.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -65,7 +61,7 @@ def compare(
     if companion and left_open and not scene.drawn_by:
         named[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
     for other in models:
-        beside = resolve(scene, parse(other) if isinstance(other, str) else other)
+        beside = resolve(scene, parse(other))
         named[unlike(shown_name(beside.spec.model), named)] = beside
     rows = []
     for name, model in named.items():

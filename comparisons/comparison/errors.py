@@ -19,6 +19,7 @@ import numpy as np
 from comparisons.comparison import branches
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.expected_error import ExpectedError, NoEstimate
+from comparisons.sweep.columns import own_bar
 from comparisons.sweep.differences import error, relative
 from comparisons.sweep.model_error import ModelError, model_error
 from fem_reference.uncertainty import ROUNDING
@@ -122,10 +123,7 @@ class Compared:
         """By how much a solution says that it may be off: its largest bar over its largest displacement."""
         if solution is self.reference and self.bar is not None:
             return self.bar.error
-        if solution.model not in self.bars or solution.status is Status.UNSTABLE:
-            return None
-        u = solution.displacement(self.scene.probe_points())
-        return error(u + self.bars[solution.model], u)
+        return None if solution.status is Status.UNSTABLE else own_bar(self.scene, solution)
 
     @cached_property
     def model_error(self) -> ModelError | None:

@@ -50,41 +50,34 @@ def far_apart_note(
     off = error(own, right)
     if off is None or off <= FAR:
         return "", False
-    start = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart: "
     known = reasons(lattice, first, reference)
-    because = f" ({'; '.join(known)})" if known else ""
+
+    def told(cause: str, after: str = "", apart: bool = False) -> tuple[str, bool]:
+        both = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart"
+        because = f" ({'; '.join(known)})" if known else ""
+        return f"{both}: {cause}{because}{after}.", apart
+
     finer = None
     if lattice.spec.calibration is not None:
         nx, ny, layers = lattice.grid
         finer = solve(lattice.spec.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
     if finer is None or finer.status is not Status.CONVERGED:
         ended = "" if finer is None else f"; on twice as many cells a side the lattice ends {finer.status}"
-        return (
-            f"{start}different branches of equilibria, or too coarse a grid or mesh{because}{ended}.",
-            False,
-        )
+        return told("different branches of equilibria, or too coarse a grid or mesh", ended)
     fine = finer.displacement(points)
     left, moved = error(fine, right) or 0.0, error(own, fine) or 0.0
-    masses = counted(finer.settings["grid"])
+    masses = f"on {counted(finer.settings['grid'])} masses"
+    moves = f"{masses} the lattice moves by {few(100.0 * moved)} %, to {100.0 * left:.3g} % off"
     if left < NEARER * off:
-        return (
-            f"{start}the grid is too coarse, on {masses} masses it is {100.0 * left:.3g} %{because}.",
-            False,
-        )
+        return told(f"the grid is too coarse, {masses} it is {100.0 * left:.3g} %")
     if bar is not None and bar > UNKNOWN:
-        mesh = f"the {reference.model}'s mesh leaves ± {few(100.0 * bar)} %, more --elements tell"
-        return f"{start}{mesh}{because}.", False
+        return told(f"the {reference.model}'s mesh leaves ± {few(100.0 * bar)} %, more --elements tell")
     ahead = error(2.0 * fine - own, right) or 0.0
     if ahead > STAYS * off and (off > SURE or _tends(lattice, reference, off)):
         trust = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
-        return (
-            f"{start}they lie on different branches of equilibria{trust}, for on {masses} masses the lattice "
-            f"moves by {few(100.0 * moved)} %, to {100.0 * left:.3g} % off{because}."
-        ), bar is not None
-    return (
-        f"{start}different branches of equilibria, or too coarse a grid: on {masses} masses the lattice "
-        f"moves by {few(100.0 * moved)} %, to {100.0 * left:.3g} % off{because}."
-    ), False
+        branches = f"they lie on different branches of equilibria{trust}, for {moves}"
+        return told(branches, apart=bar is not None)
+    return told(f"different branches of equilibria, or too coarse a grid: {moves}")
 
 
 def _tends(lattice: Resolved[Lattice], reference: Solution, off: float) -> bool:

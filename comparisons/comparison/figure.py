@@ -1,7 +1,7 @@
 """The picture of a comparison: the lattice, the reference, and their difference on the deformed sheet.
 
 The sheets are drawn at true scale unless they move too little to see; lengths are in millimetres. Actuators
-and loads are drawn on both (`comparisons.pictures.acting`).
+and loads are drawn on both (`comparisons.pictures.stage`).
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from comparisons.comparison.answer import Comparison
-from comparisons.pictures import acting, offscreen
+from comparisons.pictures import offscreen
 from comparisons.pictures.labels import place_labels
 from comparisons.pictures.plan import plan_mesh
-from comparisons.pictures.stage import Stage
+from comparisons.pictures.stage import Stage, draw
 from sheetbench.answers import style as plots
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import NoPicture
@@ -67,7 +67,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     right.surface(reference, difference, difference_limits, DIFFERENCES, 0)
     flat = np.column_stack([plan, np.zeros(len(plan))])
     shown = ((left, lattice), (middle, reference), (right, reference))
-    ends = [acting.draw(stage, solution) for stage, solution in shown[:2]]
+    ends = [draw(stage, solution) for stage, solution in shown[:2]]
     seen = np.vstack([flat, left.deformed(reference, plan), left.deformed(lattice, plan), *ends])
     probes = scene.probe_points()
     shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]

@@ -13,8 +13,7 @@ import numpy as np
 
 from comparisons.identification.columns import read_columns
 from comparisons.identification.measurements import require_flat_start
-from sheetbench.answers.history import History
-from sheetbench.answers.measured_history import COMPONENTS, Measured
+from sheetbench.answers.history import COMPONENTS, History, Measured
 from sheetbench.errors import BadInput
 
 HEADER = ("time", "probe", *COMPONENTS)

@@ -46,17 +46,16 @@ def compare_motion(
 ) -> MotionComparison:
     """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
 
-    elements: 8 along the shorter side unless given. uncertainty: move the reference twice more, on elements
-    twice as large and with steps twice as long. models: that move it too, external codes and plug-ins
-    among them; leave_out: without those that refuse the scene, which the answer names. every [s]: distance of
-    samples, 1/100 of the lowest period unless given. frames: whole displacements to keep. store: a folder in
-    which every run of ours has one to stream to; runs that were stopped go on from there.
+    uncertainty: move the reference twice more, on elements twice as large and with steps twice as long.
+    leave_out: models that refuse the scene, which the answer names. every [s]: distance of samples. frames:
+    whole displacements to keep. store: a folder in which every run of ours has one to stream to and go on
+    from.
     Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
     scene = scene_of(scene)
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
-    beside = [parse(one) if isinstance(one, str) else one for one in models]
+    beside = [parse(one) for one in models]
     left_out = {one.model: why for one in beside if leave_out and (why := refusal(scene, one))}
     beside = [one for one in beside if one.model not in left_out]
     for one in (finest, *beside):

@@ -14,8 +14,7 @@ from comparisons.comparison.measures import Measures, difference, leading, measu
 from comparisons.models.spec import Lattice
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.history import History
-from sheetbench.answers.measured_history import COMPONENTS
+from sheetbench.answers.history import COMPONENTS, History
 from sheetbench.answers.report import Film, Picture, Write
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number

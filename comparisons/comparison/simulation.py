@@ -10,8 +10,7 @@ from typing import Any
 from comparisons.comparison.frames import write_frames
 from comparisons.comparison.measured import left_out
 from comparisons.models.grading import choice_notes
-from sheetbench.answers.history import History
-from sheetbench.answers.measured_history import Measured
+from sheetbench.answers.history import History, Measured
 from sheetbench.answers.report import Film, Picture, Write
 from sheetbench.answers.table import Table, quantity
 from sheetbench.scenes import Scene

@@ -14,7 +14,6 @@ import numpy as np
 
 from comparisons.external import plugins
 from comparisons.external.bricks import GRADINGS, Bricks
-from comparisons.external.kratos.problem import Triangles
 from comparisons.external.plugins import Model
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import FieldMesh, Solution, Status
@@ -154,8 +153,8 @@ class Code(ABC):
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Any) -> Reached:
         """Return what it finds of a scene that it does not refuse."""
 
-    def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Bricks | Triangles:
-        """Return the mesh, of bricks. Raises BadInput without the code or for settings it cannot use."""
+    def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Any:
+        """Return the mesh, `Bricks` or alike. Raises BadInput without the code, or for bad settings."""
         elements, layers, grading = (settings[name] for name in ("elements", "layers", "grading"))
         require_count(elements)
         if type(layers) is not int or layers < 2 or layers % 2:

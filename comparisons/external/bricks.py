@@ -45,8 +45,8 @@ from sheetbench.scenes import (
     held_axes,
     holds_director,
 )
+from sheetbench.scenes.meaning.composition import weights
 from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
-from sheetbench.scenes.meaning.payloads import weights
 from sheetbench.scenes.objects.shapes import Shape
 from sheetbench.scenes.objects.supports import AnySupport, place
 
@@ -157,8 +157,7 @@ class Bricks:
         steps = self.sites[column, 1]
         inside = np.where(steps % 2 == 1, 4.0, 2.0)
         rule = np.where(np.isin(steps, (0, steps.max())), 1.0, inside)
-        mean: np.ndarray = rule / rule.sum()
-        return mean
+        return np.asarray(rule / rule.sum())
 
     def sides(self, load: EdgeLoad) -> tuple[np.ndarray, np.ndarray]:
         """Eight nodes of every brick's face that a load acts on (f, 8), corners and then mid-edges, and the

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from comparisons.identification.measurements import Displacements, Measured
-from comparisons.identification.residual_test import Outlier, Runs
+from comparisons.identification.residuals import Outlier, Runs
+from comparisons.identification.unknowns import Estimate
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture
@@ -20,24 +21,6 @@ UNKNOWNS = (
     *(NUMBER(".6g", "on finer cells"), NUMBER(".6g", "start")),
 )
 SHOWN = 20  # residuals on the terminal; all of them are in the files
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """An unknown's value, its 95 % interval, the value the search started from and the unit.
-
-    refined: about where a lattice with cells half as large would put it, None where that is not known;
-    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh;
-    determined: whether the data see it by itself.
-    """
-
-    value: float
-    interval: tuple[float, float]
-    start: float
-    unit: str
-    refined: float | None
-    noise_interval: tuple[float, float]
-    determined: bool
 
 
 @dataclass(frozen=True, repr=False)
@@ -76,24 +59,14 @@ class Identification(Answer):
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
-        return {
+        own = {name: value for name, value in vars(self).items() if name not in ("measured", "without")}
+        return own | {
             "scene": self.scene.name,
-            "model": self.model,
-            "settings": self.settings,
             "unknowns": {name: asdict(u) for name, u in self.unknowns.items()},
-            "residuals": self.residuals,
             "points": self.measured.points,
-            "noise": self.noise,
-            "relative": self.relative,
-            "evaluations": self.evaluations,
-            "converged": self.converged,
-            "explained": self.explained,
             "runs": {**asdict(self.runs), "probability": self.runs.probability},
-            "starts": self.starts,
-            "grids": [list(grid) for grid in self.grids],
             "outliers": [asdict(one) for one in self.outliers],
             "without_outliers": {name: asdict(u) for name, u in self.without.items()},
-            "warnings": list(self.warnings),
         }
 
     def tables(self) -> tuple[Table, ...]:

@@ -17,6 +17,8 @@ from dataclasses import dataclass
 from math import isfinite, nan
 from pathlib import Path
 
+import numpy as np
+
 from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes.language.reading import read_text
 from sheetbench.scenes.language.units import quantity
@@ -77,6 +79,10 @@ class Columns:
 
     names: tuple[str, ...]
     rows: tuple[Row, ...]
+
+    def numbers(self, name: str) -> np.ndarray:
+        """Return the numbers (n,) in a column. Raises BadInput where there is none."""
+        return np.array([row.number(name) for row in self.rows])
 
 
 def read_columns(path: Path, units: Mapping[str, str] = MOTION) -> Columns:

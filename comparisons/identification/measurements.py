@@ -25,9 +25,8 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.identification.c3d import read_markers
 from comparisons.identification.columns import Columns, Row, read_columns
-from comparisons.identification.ply import read_points
+from comparisons.identification.point_files import read_markers, read_points
 from sheetbench.errors import BadInput, foreign
 from sheetbench.scenes import Scene, Sheet
 

@@ -63,6 +63,24 @@ class Unknown:
         )
 
 
+@dataclass(frozen=True)
+class Estimate:
+    """An unknown's value, its 95 % interval, the value the search started from and the unit.
+
+    refined: about where a lattice with cells half as large would put it, None where that is not known;
+    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh;
+    determined: whether the data see it by itself.
+    """
+
+    value: float
+    interval: tuple[float, float]
+    start: float
+    unit: str
+    refined: float | None
+    noise_interval: tuple[float, float]
+    determined: bool
+
+
 def unknown(scene: Scene, name: str) -> Unknown:
     """Return a parameter of this scene, by its name or its SYMBOLS. A damping that the scene has at 0 is
     sought from FIRST_RATIO on. Raises BadInput where there is none of that name, or another is 0."""

@@ -33,7 +33,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.calibration.answer import to_toml as springs_to_toml
+from comparisons.calibration.calibrate import to_toml as springs_to_toml
 from comparisons.live.panel import Panel, Question
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve

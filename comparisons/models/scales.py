@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.scenes import EDGES, EdgeLoad, Scene
-from sheetbench.scenes.meaning.payloads import weights
+from sheetbench.scenes.meaning.composition import weights
 from sheetbench.scenes.meaning.region import area_in, edge_length, resultant
 from sheetbench.scenes.objects.supports import held_axes, place
 

@@ -281,11 +281,14 @@ def references(kind: str, elements: Iterable[str]) -> list[Elements]:
     return [Elements(kind, parse_elements(text, f"--{kind}")) for text in elements]
 
 
-def parse(text: str) -> Spec:
-    """Return the spec of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, and `:key=value,key=value`.
+def parse(text: Spec | str) -> Spec:
+    """Return a spec as it is, or that of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, and
+    `:key=value,key=value`.
 
     Values are as in JSON, `8x4` is a list of numbers, anything else plain text. Raises BadInput.
     """
+    if isinstance(text, Spec):
+        return text
     if (found := _PROGRAM.fullmatch(text)) is not None:
         name, rest = found["file"], found["rest"] or ""
     elif (found := _FROM_FILE.fullmatch(text)) is not None:

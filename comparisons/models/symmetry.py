@@ -138,7 +138,7 @@ def _image_of(part: Any, scene: Scene, axis: int) -> Any:
         return part.replace(at=(at[0], at[1]), force=_times(part.force, flip))
     if isinstance(part, EdgeLoad):
         part = part.replace(force_per_length=_times(part.force_per_length, flip))
-    edge = getattr(part, "edge", None)
+    edge: Any = getattr(part, "edge", None)
     crosses = edge is None or EDGES[edge].normal_axis != axis
     return part if crosses else part.replace(edge=OTHER_END[edge])
 

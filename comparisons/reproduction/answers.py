@@ -71,15 +71,11 @@ def masses() -> tuple[int, int, int]:
     return side, side, int(given["layers"])
 
 
-def bending_stiffness() -> float:
-    """D [N·m] of the published sheet."""
-    given = published_inputs()
-    return float(given["young"] * given["thickness"] ** 3 / (12.0 * (1.0 - given["poisson"] ** 2)))
-
-
 def matched_layer_distance() -> float:
     """√(D/k) [m], with which a lattice of the published k bends like the published sheet."""
-    return sqrt(bending_stiffness() / published_inputs()["k"])
+    given = published_inputs()
+    bending = given["young"] * given["thickness"] ** 3 / (12.0 * (1.0 - given["poisson"] ** 2))
+    return sqrt(bending / given["k"])
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,19 @@
-"""Findings of the reproduction, a sentence or two each, with their numbers."""
+"""Findings of the reproduction, a sentence or two each, with their numbers.
+
+Which sheets come nearest to the published tables is among them. Could the lattice of Habibi et al. have
+computed the published model's table, and could a plate have shown the published experiment's? Each was tried
+for both tests, alone and together, over a row of values and by searches in ever more numbers. The rows and
+sentences are stored results, `data/nearest.json`, which names the commit that has the searches.
+"""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from functools import cache
+from importlib import resources
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -12,7 +21,17 @@ from comparisons.reproduction.answers import ReproducedTest, of_model, published
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling
 from sheetbench.answers.habibi import PROBES, published_inputs
 from sheetbench.answers.solution import Status
-from sheetbench.answers.table import Column, number, percent, quantity
+from sheetbench.answers.table import (
+    MEGAPASCALS,
+    MILLIMETRES,
+    PERCENT,
+    Column,
+    Table,
+    TableUnit,
+    number,
+    percent,
+    quantity,
+)
 
 
 @dataclass(frozen=True)
@@ -78,3 +97,52 @@ def _settling(settling: Settling) -> Iterator[tuple[str, str]]:
             f"included; {published_inputs()['run_time']:g} s are published as the average of one simulation, "
             "whose length and machine are not named.",
         )
+
+
+SOUGHT = {
+    "young": MEGAPASCALS(".3g", "E"),
+    "k": TableUnit("N/m", "N/m")(".3g", "k"),
+    "layer_distance": MILLIMETRES(".3g", "lz"),
+    "tilt": TableUnit("rad", "°", 180.0 / np.pi)(".2g", "tilt"),
+    "curvature": TableUnit("1/m", "1/m")(".3g", "κ"),
+}
+COLUMNS = (
+    *("tests", "rod", "of", Column("table", detail=True), *SOUGHT.values(), "by"),
+    *(PERCENT(".3g", "rms"), PERCENT(".3g", "error"), "met"),
+)
+RODS = {0: "–", 1: "ends up", -1: "ends down"}
+TEXT = (
+    "sheet: a plate (consistent springs), of the published experiment; lattice: equal springs, of the "
+    "published model. A number is given where it was sought, else it is as published. tilt: the supports "
+    "turned as one, > 0 downwards. by: nearest by the least misfit, or the one of the scan with most entries "
+    "met. rms and error: of the differences, over the largest published component. met: entries within 10 % "
+    "of themselves. Stored results of {}."
+)
+
+
+@cache
+def stored() -> dict[str, Any]:
+    """Return the results: `made` (by what), `findings`, `fits`."""
+    file = resources.files("comparisons.reproduction").joinpath("data", "nearest.json")
+    document: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    return document
+
+
+def stored_findings() -> list[Finding]:
+    """Return the findings on the published inputs and on the nearest sheets."""
+    return [Finding(**one) for one in stored()["findings"]]
+
+
+def nearest_table() -> Table:
+    """Return a row per fit, the sheet of a kind that comes nearest to a published table: what was sought,
+    what was found (SI), how near, and how many components of the table it has."""
+    rows = [
+        (
+            " and ".join(map(str, fit["tests"])),
+            "sought" if "curvature" in fit["sought"] else RODS[fit["sense"]],
+            *(fit["kind"], fit["table"], *(fit["sought"].get(name) for name in SOUGHT), fit["by"]),
+            *(fit["rms"], fit["error"], f"{fit['met']} of {fit['entries']}"),
+        )
+        for fit in stored()["fits"]
+    ]
+    return Table.listed("The nearest sheets", COLUMNS, rows, "nearest", text=TEXT.format(stored()["made"]))

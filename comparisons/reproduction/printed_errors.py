@@ -10,18 +10,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import floor
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from comparisons.reproduction.answers import COMPONENTS, printed
 from comparisons.reproduction.findings import Finding
 from sheetbench.answers.habibi import PROBES, published_errors, published_inputs
-from sheetbench.answers.table import PERCENT, Column, Table, percent
+from sheetbench.answers.table import PERCENT, Table, percent
 
 TEXT = (
     "|model − experiment| of the published tables, relative to the one and to the other. * the printed error "
     "is not relative to the experiment: the normalisation changes there."
+)
+COLUMNS = (
+    *("test", "u", "probe", PERCENT(".1f", "printed"), PERCENT(".2f", "of experiment")),
+    *(PERCENT(".2f", "of model"), "relative to", "digits"),
 )
 PRINTED = 1e-3  # the last digit of a printed error, 0.1 %
 _SLACK = 1e-6  # of that digit, for what decimals leave
@@ -35,11 +39,11 @@ class Cell:
     changes: whether it is relative to something else than the experiment, as an error is."""
 
     test: int
-    component: Annotated[str, Column("u")]
+    component: str
     probe: str
-    printed: Annotated[float, PERCENT(".1f")]
-    of_experiment: Annotated[float, PERCENT(".2f")]
-    of_model: Annotated[float, PERCENT(".2f")]
+    printed: float
+    of_experiment: float
+    of_model: float
     of_larger: float
     of: str
     digits: str
@@ -53,16 +57,6 @@ class Cell:
     def changes(self) -> bool:
         """Whether the cell is not relative to the experiment."""
         return self.of not in ("experiment", "both")
-
-    @property
-    def relative_to(self) -> str:
-        """Whose magnitude it is relative to, with an asterisk where that is not the experiment."""
-        return f"{self.of} *" if self.changes else self.of
-
-    @property
-    def digits_kept(self) -> Annotated[str, Column("digits")]:
-        """How its digits follow, "no" where they do not."""
-        return self.digits or "no"
 
 
 def cells() -> list[Cell]:
@@ -112,12 +106,17 @@ def findings(cells: list[Cell]) -> list[Finding]:
 
 
 def table(cells: list[Cell]) -> Table:
-    """Return a row per printed error: of the experiment, of the model, and which of the two it is."""
-    fields = (
-        "test", "component", "probe", "printed", "of_experiment", "of_model", "relative_to", "digits_kept"
-    )  # fmt: skip
-    caption = "Printed errors, computed again"
-    return Table.of(Cell, cells, caption, "errors", fields=fields, grouped=True, text=TEXT)
+    """Return a row per printed error: of the experiment, of the model, whose magnitude it is relative to,
+    with an asterisk where that is not the experiment, and how its digits follow."""
+    rows = (
+        (
+            *(c.test, c.component, c.probe, c.printed, c.of_experiment, c.of_model),
+            c.of + " *" * c.changes,
+            c.digits or "no",
+        )
+        for c in cells
+    )
+    return Table.listed("Printed errors, computed again", COLUMNS, rows, "errors", grouped=True, text=TEXT)
 
 
 def as_dict(cells: list[Cell]) -> dict[str, Any]:

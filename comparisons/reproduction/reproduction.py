@@ -18,7 +18,7 @@ import numpy as np
 from comparisons.comparison.frames import write_frames
 from comparisons.models.grids import Elements
 from comparisons.pictures.array_files import write_mesh
-from comparisons.reproduction import findings, nearest, printed_errors
+from comparisons.reproduction import findings, printed_errors
 from comparisons.reproduction.answers import (
     COMPONENTS,
     SETS,
@@ -82,7 +82,7 @@ class Reproduction(Answer):
         return [
             *(printed_errors.findings(self.cells) if self.cells else ()),
             *findings.all_of(self.answers, self.settling),
-            *(nearest.findings() if "nearest" in self.parts else ()),
+            *(findings.stored_findings() if "nearest" in self.parts else ()),
         ]
 
     @property
@@ -107,7 +107,7 @@ class Reproduction(Answer):
         if self.cells:
             document["errors"] = printed_errors.as_dict(self.cells)
         if "nearest" in self.parts:
-            document["nearest"] = nearest.stored()["fits"]
+            document["nearest"] = findings.stored()["fits"]
         if self.answers:
             document["tests"] = [
                 {"test": one.test, "sense": one.sense, "name": one.name, **one.comparison.document()}
@@ -138,7 +138,7 @@ class Reproduction(Answer):
             Table.of(Finding, self.findings(), "Findings", "findings", grouped=True),
             *([printed_errors.table(self.cells)] if self.cells else ()),
             *(table for table, *_ in self._drawn()),
-            *([nearest.table()] if "nearest" in self.parts else ()),
+            *([findings.nearest_table()] if "nearest" in self.parts else ()),
         ]
 
     def figures(self) -> list[Picture]:

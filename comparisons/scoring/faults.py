@@ -12,7 +12,7 @@ Each is looked for in what is left when those before it are mended, so that seve
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
@@ -32,8 +32,8 @@ def faults(answers: Sequence[Answer]) -> list[str]:
     """Sentences, one a fault, that name the cases."""
     cases: dict[str, list[str]] = {}
     for answer in answers:
-        values = answer.values
-        for mend in (_unit, _sign, _time, _start, _swap):
+        values, of_modes = answer.values, answer.reference.suite == "modes"
+        for mend in (_frequency,) if of_modes else (_unit, _sign, _time, _start, _swap):
             sentences, values = mend(answer, values)
             for sentence in sentences:
                 cases.setdefault(sentence, []).append(answer.reference.name)
@@ -49,26 +49,23 @@ def _named(names: list[str], of: int) -> str:
 Mended = tuple[list[str], np.ndarray]
 
 
-def _unit(answer: Answer, values: np.ndarray) -> Mended:
-    truth = answer.reference.values
-    ratio = float(np.linalg.norm(values) / np.linalg.norm(truth))
-    if answer.reference.suite == "modes":
-        if abs(ratio / (2.0 * np.pi) - 1.0) < 0.1:
-            return ["frequencies are 2π times too large, as in rad/s for Hz,"], values / (2.0 * np.pi)
+def _frequency(answer: Answer, values: np.ndarray) -> Mended:
+    ratio = float(np.linalg.norm(values) / np.linalg.norm(answer.reference.values)) / (2.0 * np.pi)
+    if abs(ratio - 1.0) >= 0.1:
         return [], values
-    for factor, size in (
-        (FACTOR, "1000 times too large, as in mm for m,"),
-        (1.0 / FACTOR, "1000 times too small"),
-    ):
+    return ["frequencies are 2π times too large, as in rad/s for Hz,"], values / (2.0 * np.pi)
+
+
+def _unit(answer: Answer, values: np.ndarray) -> Mended:
+    ratio = float(np.linalg.norm(values) / np.linalg.norm(answer.reference.values))
+    for factor, size in ((FACTOR, "large, as in mm for m,"), (1.0 / FACTOR, "small")):
         if 1.0 / NEAR < ratio / factor < NEAR:
-            return [f"displacements are {size}"], values / factor
+            return [f"displacements are 1000 times too {size}"], values / factor
     return [], values
 
 
 def _sign(answer: Answer, values: np.ndarray) -> Mended:
     truth = answer.reference.values
-    if answer.reference.suite == "modes":
-        return [], values
     largest = np.abs(truth).max()
     flipped = [
         axis
@@ -123,23 +120,19 @@ def _start(answer: Answer, values: np.ndarray) -> Mended:
 
 
 def _swap(answer: Answer, values: np.ndarray) -> Mended:
-    truth = answer.reference.values
-    if answer.reference.suite == "modes":
-        return [], values
-    names = list(answer.reference.scene.probes)
+    truth, names = answer.reference.values, list(answer.reference.scene.probes)
     if len(names) < 2 or not _matters(answer, values):
         return [], values
-    swapped: Callable[[tuple[int, int]], np.ndarray] = lambda pair: _exchanged(values, *pair)  # noqa: E731
+
+    def swapped(pair: tuple[int, int]) -> np.ndarray:
+        found = values.copy()
+        found[list(pair)] = values[list(pair[::-1])]
+        return found
+
     best = min(combinations(range(len(names)), 2), key=lambda pair: _error(swapped(pair), truth))
     if _error(swapped(best), truth) > MENDED * _error(values, truth):
         return [], values
     return [f"probes {names[best[0]]} and {names[best[1]]} look swapped"], swapped(best)
-
-
-def _exchanged(values: np.ndarray, i: int, j: int) -> np.ndarray:
-    order = np.arange(len(values))
-    order[[i, j]] = order[[j, i]]
-    return values[order]
 
 
 def _matters(answer: Answer, values: np.ndarray) -> bool:

@@ -25,6 +25,7 @@ from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
 from comparisons.scoring.reference import Reference, document
 from comparisons.scoring.verdict import stiffness, verdict
+from comparisons.sweep.front import front
 from sheetbench.answers.answer import Answer as ShownAnswer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, number
@@ -121,8 +122,8 @@ class Score(ShownAnswer):
     @property
     def leaderboard(self) -> list[Place]:
         """These answers and other models on the same cases, the best first."""
-        front = self.front
-        return [replace(one, on_the_front=one.model in front) for one in self._ranked]
+        best = self.front
+        return [replace(one, on_the_front=one.model in best) for one in self._ranked]
 
     @property
     def _ranked(self) -> list[Place]:
@@ -136,13 +137,10 @@ class Score(ShownAnswer):
     def front(self) -> list[str]:
         """Models that none other is both quicker and better than, the quickest first. Answers that a slip has
         spoilt, or that are off by all of the displacement, are none however quick they are."""
-        kept: list[Place] = []
         wrong = self.faults or self.score >= 1.0
         timed = [one for one in self._ranked if one.seconds is not None and not (wrong and one.model == OWN)]
-        for one in sorted(timed, key=lambda one: (one.seconds, one.score)):
-            if not kept or one.score < kept[-1].score:
-                kept.append(one)
-        return [one.model for one in kept]
+        best = front([one.score for one in timed], [one.seconds or 0.0 for one in timed])
+        return [timed[i].model for i in best]
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench score`."""

@@ -84,11 +84,6 @@ class Suite(Answer):
         return {"suite": self.suite}
 
 
-def suite(suite: str | None = None) -> Suite:
-    """Return the cases of the reference set, or those of one suite."""
-    return Suite(suite)
-
-
 def _toml(case: Reference) -> str:
     from sheetbench.scenes.language.toml import to_toml
 

@@ -29,7 +29,7 @@ from typing import Any, TypedDict
 
 from comparisons.pictures.work import duration
 from comparisons.sweep import interrupts
-from comparisons.sweep.executors import Pool, Watched, processes, single_threaded
+from comparisons.sweep.executors import Pool, Processes, Watched, single_threaded
 from comparisons.sweep.store import FILE, Finished, Store
 from sheetbench.answers.files import plain
 from sheetbench.errors import BadInput
@@ -128,7 +128,7 @@ def carry_out(
     store: Store,
     *,
     workers: int = 1,
-    pool: Pool = processes,
+    pool: Pool = Processes,
     retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Finished]:

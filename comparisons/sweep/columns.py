@@ -26,7 +26,7 @@ def field_points(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     return points[there], weights[there] / weights[there].sum()
 
 
-def _bar(scene: Scene, answer: Solution) -> float | None:
+def own_bar(scene: Scene, answer: Solution) -> float | None:
     """By how much the model says that it may be off at the probes, a fraction."""
     if answer.bar is None:
         return None
@@ -37,6 +37,6 @@ def _bar(scene: Scene, answer: Solution) -> float | None:
 
 COLUMNS: dict[str, Callable[[Scene, Solution], Any]] = {
     "field": lambda scene, answer: answer.displacement(field_points(scene)[0]),
-    "bar": _bar,
+    "bar": own_bar,
     "model_error": lambda scene, answer: left.value if (left := model_error(scene, answer)) else None,
 }

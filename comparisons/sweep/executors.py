@@ -61,11 +61,6 @@ class Processes(ProcessPoolExecutor):
         super().shutdown(cancel_futures=cancel_futures)
 
 
-def processes(workers: int) -> Executor:
-    """Return a pool of that many single-threaded processes."""
-    return Processes(workers)
-
-
 @contextmanager
 def _interrupt_held_back() -> Iterator[None]:
     """A block in which Ctrl-C waits, in this thread and in the processes that it starts."""
@@ -101,7 +96,7 @@ def pool_of(
 ) -> Iterator[Pool]:
     """Processes of this machine, or the cluster of a scheduler's address (see `Cluster`)."""
     if scheduler is None:
-        yield processes
+        yield Processes
         return
     cluster = Cluster(scheduler, patient, say)
     try:

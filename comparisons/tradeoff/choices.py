@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
 
 from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import parse_elements
 from comparisons.models.resolve import resolve_each
-from comparisons.models.spec import Elements, Lattice, Spec, items, lattices, pairs, parse, references
+from comparisons.models.spec import Elements, Lattice, Spec, items, lattices, pairs, references
 from comparisons.tradeoff.usual import GRIDS, PAIRS, SPRINGS
 from sheetbench.choices import AUTO, CALIBRATION, REFERENCE
 from sheetbench.errors import BadInput
@@ -47,11 +46,6 @@ def of_references(
     sizes = {name: items(usual[name] if listed is None else listed) for name, listed in meshes.items()}
     every = [one for name, listed in sizes.items() for one in references(name, listed)]
     return [one.but(symmetry=True) if symmetry and one.model != "solid" else one for one in every]
-
-
-def named(models: Sequence[Any]) -> list[Spec]:
-    """Return models that are specs or their texts."""
-    return [parse(one) if isinstance(one, str) else one for one in models]
 
 
 def finest(elements: Count | str | None) -> Elements | None:

@@ -6,8 +6,8 @@ load factor or the time [s]. Statics take the last factor of every history and t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, Protocol
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from sheetbench.scenes import Chain, Scene
 from sheetbench.scenes.meaning.motion import let_go
@@ -15,32 +15,19 @@ from sheetbench.scenes.objects.actuators import CurvatureTable
 from sheetbench.scenes.objects.sheet import Gravity
 from sheetbench.scenes.objects.tables import PiecewiseLinear
 
-
-class Growing(Protocol):
-    def at(self, at: float, /) -> Any:
-        """The factor at a time [s] or load factor."""
-
-
-Factor = Growing | None  # None: constant
-
-
-class Ramp:
-    """What grows with the load factor."""
-
-    def at(self, at: float) -> float:
-        return at
+Factor = Callable[[float], Any] | None  # of a time [s] or load factor; None: constant
 
 
 def factor_at(factor: Factor, at: float) -> float:
     """The factor at a time [s] or load factor."""
-    return 1.0 if factor is None else float(factor.at(at))
+    return 1.0 if factor is None else float(factor(at))
 
 
 def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
     """Scenes with a part of the loads each, and the factor that it has: all of them in statics, in a motion
     one by one, without their histories and without those let go at the start."""
     if not moving:
-        yield scene, Ramp()
+        yield scene, float  # the load factor itself
         return
     scene = let_go(scene)
     bare = scene.replace(loads=(), gravity=None)
@@ -49,13 +36,13 @@ def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
             constant = load.replace(history=None)
             alone = {"gravity": constant} if isinstance(load, Gravity) else {"loads": (constant,)}
             table = load.history
-            yield bare.replace(**alone), PiecewiseLinear(table.time, table.factor) if table else None
+            yield bare.replace(**alone), PiecewiseLinear(table.time, table.factor).at if table else None
 
 
 def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
     """Scenes with a part of the chains' commands each, and the factor that the part has."""
     if not moving:
-        yield scene, Ramp()
+        yield scene, float  # the load factor itself
         return
     still = slack(scene)
     for number, chain in enumerate(scene.actuators):
@@ -63,7 +50,7 @@ def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
             over_time = chain.curvature if isinstance(chain.curvature, CurvatureTable) else None
             bent = chain.replace(curvature=1.0) if over_time else chain
             actuators = (*still.actuators[:number], bent, *still.actuators[number + 1 :])
-            factor = PiecewiseLinear(over_time.time, over_time.value) if over_time else None
+            factor = PiecewiseLinear(over_time.time, over_time.value).at if over_time else None
             yield still.replace(actuators=actuators), factor
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 
@@ -24,22 +23,15 @@ class SheetMotion:
     memory: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
-class Energies(NamedTuple):
-    """Energies [J]; potential: of constant dead loads, and of items that store it."""
-
-    kinetic: float
-    elastic: float
-    potential: float
-
-
-def energies(sheet: Discrete, motion: SheetMotion) -> Energies:
-    """Return the energies of a motion."""
+def energies(sheet: Discrete, motion: SheetMotion) -> tuple[float, float, float]:
+    """Return kinetic, elastic and potential energy [J] of a motion: of constant dead loads, and of items that
+    store it."""
     q, v, time = motion.q, motion.v, motion.time
     shape = sheet.shape(q, time, v)
     potential = sum(item.stored(shape) for item in sheet.items)
     elastic = sheet.elastic(shape) + sum(body.energy(q, time) for body in sheet.bodies)
     stored = sheet.branches.stored(motion.memory) if sheet.branches.times else 0.0
-    return Energies(0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential)
+    return 0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential
 
 
 def spent(sheet: Discrete, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:

@@ -15,7 +15,7 @@ Internal forces are those of the elements and of the rods (`discrete.rods`), ext
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar
@@ -25,16 +25,18 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
-from fem_reference.discrete.drag import Drag
-from fem_reference.discrete.items import Dead, Following, SheetItem
-from fem_reference.discrete.output import Output
+from fem_reference.discrete.items import Dead, Drag, Following, SheetItem
 from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads
-from fem_reference.surface.actuator_forces import OnEdge, exerted
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
+from fem_reference.surface.balance import Surface
 from fem_reference.surface.bound_rods import BoundRods
+from fem_reference.surface.location import interpolate
+from fem_reference.surface.mesh import Plan
 from fem_reference.surface.supports import Supports
+from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.motion import kinks
@@ -44,8 +46,8 @@ from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 Binding = Callable[[Scene], BoundRods]
 
 
-class Discrete(Output):
-    """N coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
+class Discrete(ABC):
+    """N = `size` coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
 
     norm: order of the norm that residuals are measured in. any_strain: whether the law of strain is meant for
     large strains. lever: the flat sheet's longer side [m]; scale: 1 of positions (N,), of directors the
@@ -60,6 +62,8 @@ class Discrete(Output):
     any_strain: bool = False
     own: bool = False
     natural: NaturalState | None = None
+    plan: Plan
+    size: int
     supports: Supports
     rods: Rods
     unknowns: int
@@ -274,6 +278,51 @@ class Discrete(Output):
     @abstractmethod
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
         """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
+
+    # what is shown
+
+    @abstractmethod
+    def displacement(self, q: np.ndarray) -> np.ndarray:
+        """Displacements (k, 3) [m] of the nodes, a view."""
+
+    def middles(self, displacement: np.ndarray) -> np.ndarray:
+        """Those (n, 3) [m] of the plan's nodes on the mid-surface."""
+        return displacement
+
+    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], of nodal ones as `displacement`."""
+        return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
+
+    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
+        """Forces (3,) [N] of what holds the sheet, of M ü + g (N,)."""
+        return self.supports.reactions(self.displacement(exerted))
+
+    @abstractmethod
+    def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
+        """The sheet for drawing, and the line force (n, 3) [N/m] of actuators on it."""
+
+    def mesh(self, displacement: np.ndarray) -> FieldMesh:
+        """The sheet for drawing, of nodal displacements as `displacement`."""
+        q = np.zeros(self.size)
+        self.displacement(q)[:] = displacement
+        return self.drawn(q)
+
+    @abstractmethod
+    def surface(self, q: np.ndarray) -> Surface:
+        """The sheet as it lies."""
+
+    @abstractmethod
+    def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
+        """Force and couple on the nodes of g (N,)."""
+
+    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
+        """What the rods exert, which pull at their sides' vectors (k, a, 3)."""
+        surface = self.surface(q)
+        return on_edges(self.rods.bound, pull, surface.position, surface.director)
+
+    @abstractmethod
+    def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Where, and with which forces of g (N,), the sheet is held, pairs (…, 3), its nodes first."""
 
     # when a state means nothing
 

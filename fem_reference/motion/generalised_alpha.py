@@ -12,12 +12,10 @@ longer lets them double. As Rannacher 1984 (Numer. Math. 43, 309–327) begins C
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.energies import SheetMotion, spent
 from fem_reference.discrete.relaxation import remembered
@@ -41,7 +39,6 @@ SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
-Linear = tuple[csc_matrix, Callable[[], csr_matrix], np.ndarray]  # Z, the matrix of x, and what is left of x
 REMEMBERED = ("_before", "_largest", "_local", "_euler", "failed")
 
 
@@ -64,10 +61,8 @@ class ConstrainedAlpha:
 
     state = SheetMotion
 
-    def __init__(
-        self, model: Discrete, step: float | None, error: float, first: float, radius: float = RADIUS
-    ):
-        self._usual = generalised(radius)
+    def __init__(self, model: Discrete, step: float | None, error: float, first: float):
+        self._usual = generalised(RADIUS)
         self.late = 1.0 - self._usual.af
         self._model, self.adapts, self._error = model, step is None, error
         self._first = first if step is None else step
@@ -232,6 +227,8 @@ class ConstrainedAlpha:
         return after
 
     def _advanced(self, motion: SheetMotion, h: float) -> SheetMotion:
+        """The end of a step of h [s] by Newton's iteration, factors kept as long as corrections shrink to the
+        share `QUICK`. Raises StepFailed, SingularMatrixError."""
         model, time, rule = self._model, motion.time + h, self._rule
         branches = self._branches(motion, time)
         self.late = 1.0 - rule.af
@@ -243,54 +240,27 @@ class ConstrainedAlpha:
             exerted = model.mass @ a + model.forces(model.shape(q, time, v, branches))
             return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
-        def linear(found: SheetMotion) -> Linear:
-            basis = model.basis(found.q)
-            return (
-                basis,
-                lambda: model.tangent(
-                    model.shape(found.q, time, found.v, branches), found.exerted, step.by_a, step.by_v
-                ),
-                basis.T @ found.exerted,
-            )
-
-        def solved(length: float, share: float, largest: float) -> bool:
-            enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
-            return length * min(share, 1.0) <= enough
-
-        found = self._solved(h, at(model.placed(step.guess, time)), at, linear, solved, QUICK)
-        return replace(found, memory=self._remembered(found.q, branches)) if branches else found
-
-    def _solved(
-        self,
-        h: float,
-        found: SheetMotion,
-        at: Callable[[np.ndarray], SheetMotion],
-        linear: Callable[[SheetMotion], Linear],
-        solved: Callable[[float, float, float], bool],
-        quick: float,
-        corrections: int = CORRECTIONS,
-    ) -> SheetMotion:
-        """Return the end of a step of h [s] by Newton's iteration from a guess, factors kept as long as
-        corrections shrink to the share `quick`. at: the motion at q; solved: whether it ends by the length
-        of a correction, its share of the one before and the largest displacement. Raises StepFailed."""
-        model = self._model
+        found = at(model.placed(step.guess, time))
         largest = max(self._largest, float(np.abs(model.displacement(found.q)).max()))
+        enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:
             self._factor = None
         last: float | None = None
-        for _ in range(corrections):
-            basis, matrix, left = linear(found)
+        for _ in range(CORRECTIONS):
+            basis = model.basis(found.q)
             if self._factor is None:
-                self._factor, self._taken = self._solver.factor(matrix()), h
-            step = basis @ self._factor.solve_unrefined(-left)
-            length = float(np.abs(model.displacement(step)).max())
+                shape = model.shape(found.q, time, found.v, branches)
+                matrix = model.tangent(shape, found.exerted, step.by_a, step.by_v)
+                self._factor, self._taken = self._solver.factor(matrix), h
+            move = basis @ self._factor.solve_unrefined(-(basis.T @ found.exerted))
+            length = float(np.abs(model.displacement(move)).max())
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")
-            found = at(model.moved(found.q, step))
+            found = at(model.moved(found.q, move))
             share = length / last if last else 1.0
-            if solved(length, share, largest):
-                return found
-            if last is not None and share > quick:
+            if length * min(share, 1.0) <= enough:
+                return replace(found, memory=self._remembered(found.q, branches)) if branches else found
+            if last is not None and share > QUICK:
                 self._factor = None
             last = length
         raise StepFailed("the corrections do not shrink")

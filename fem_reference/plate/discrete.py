@@ -10,7 +10,7 @@ displacements and ρh³/12 on the tilts.
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import ClassVar, cast
+from typing import ClassVar, NamedTuple, cast
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity
@@ -20,11 +20,10 @@ from fem_reference.discrete.relaxation import Strained, gain, with_branches
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import TILT_X, PlateElements, W
-from fem_reference.plate.natural import OwnStrains, own_strains
 from fem_reference.plate.validity import TURN_LIMIT, strained
 from fem_reference.surface import carried, rod
 from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS, integrated, shape
 from fem_reference.surface.bound_rods import BoundRods, on_surface
@@ -36,6 +35,31 @@ from sheetbench.scenes import EDGES, Scene, outside_model
 from sheetbench.scenes.meaning.natural_state import natural_at
 
 PARTS = ("membrane", "bending", "shear")
+
+
+class OwnStrains(NamedTuple):
+    """Membrane and bending strains (m, 9, 3) without stress; f (N,) [N, N·m] on all unknowns."""
+
+    strains: tuple[np.ndarray | float, np.ndarray | float] = (0.0, 0.0)
+    force: np.ndarray | float = 0.0
+
+
+def own_strains(
+    elements: PlateElements, section: Section, size: int, strain: np.ndarray, curvature: np.ndarray
+) -> OwnStrains:
+    """Return those of e0 and k0 at the Gauss points (m, 9, 2, 2): e0 of the middle and −k0 in bending,
+
+    f = ∫ (Bᵀ A e0 − Bᵀ D k0) dA,
+    W = ½ ∫ (e − e0)·A (e − e0) + (κ + k0)·D (κ + k0) dA = ½ u·K u − f·u + W₀
+    """
+    xx_yy_2xy = np.array([1.0, 1.0, 2.0])
+    strains = [xx_yy_2xy * form[..., [0, 1, 0], [0, 1, 1]] for form in (strain, -curvature)]
+    force = np.zeros(size)
+    parts = (elements.membrane, section.membrane), (elements.curvature, section.bending)
+    for (operator, stiffness), own in zip(parts, strains, strict=True):
+        stress = elements.areas[..., None] * (stiffness @ own[..., None])[..., 0]
+        np.add.at(force, elements.unknowns, np.einsum("mqic,mqi->mc", operator, stress))
+    return OwnStrains((strains[0], strains[1]), force)
 
 
 class DiscretePlate(Discrete):
@@ -231,9 +255,6 @@ class DiscretePlate(Discrete):
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return self._fields(q)[:, :3]
 
-    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
-        return self.supports.reactions(self.displacement(exerted))
-
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
         director = self.surface(q).director + np.pad(self._fields(q)[:, 3:], ((0, 0), (0, 1)))
@@ -247,10 +268,6 @@ class DiscretePlate(Discrete):
         nodal = self._fields(exerted)  # of the tilts' forces f the couple is e_z × f
         couple = np.column_stack([-nodal[:, 4], nodal[:, 3], np.zeros(len(nodal))])
         return HoldingForces(np.concatenate([nodal[:, :3], couple], axis=1), self.surface(q).position)
-
-    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
-        surface = self.surface(q)
-        return on_edges(self.rods.bound, pull, surface.position, surface.director)
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         surface, held = self.surface(q), np.where(self.is_held, exerted, 0.0)

@@ -32,7 +32,7 @@ from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
@@ -151,15 +151,11 @@ class DiscreteShell(DiscreteElements):
         step = np.concatenate(
             [np.where(self.supports.position, change[0], 0.0), to_unit(self.directors(shape.q))]
         )
-        held = self._held_directors
+        held = np.flatnonzero(self.supports.director)
         step[n + held] = change[1][held]
         if self.bodies:
             step[2 * n :][self.rods.bound.held] = -shape.q[6 * n :].reshape(-1, 3)[self.rods.bound.held]
         return step.ravel()
-
-    @cached_property
-    def _held_directors(self) -> np.ndarray:
-        return np.flatnonzero(self.supports.director)
 
     def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
         n, tilt = self.nodes, self.supports.tilt
@@ -320,9 +316,6 @@ class DiscreteShell(DiscreteElements):
     def displacement(self, q: np.ndarray) -> np.ndarray:
         return q.reshape(-1, 3)[: self.nodes]
 
-    def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
-        return self.supports.reactions(self.displacement(exerted))
-
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
         directors = self.directors(q)[: self.nodes]
@@ -336,10 +329,6 @@ class DiscreteShell(DiscreteElements):
         return HoldingForces(
             np.concatenate([force, cross(surface.director, turning)], axis=1), surface.position
         )
-
-    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
-        surface = self.surface(q)
-        return on_edges(self.rods.bound, pull, surface.position, surface.director)
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         frames, turning = self.frame(q, at), exerted[3 * self.nodes :].reshape(-1, 3)

@@ -1,5 +1,5 @@
 """Shells that are not flat at rest: natural strains where elements sample membrane and bending ones, shear
-having none, and sections of the natural sides (`fem_reference.surface.natural`)."""
+having none, and sections of the natural sides (`fem_reference.surface.materials.green`)."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import numpy as np
 
 from fem_reference.shell.element import BENDING, GRIDS, MEMBRANE, STRAINS, TABLES
 from fem_reference.surface.biquadratic import AT_GAUSS, product_grid, shape
-from fem_reference.surface.materials import Section, pulled_back
-from fem_reference.surface.natural import green
+from fem_reference.surface.materials import Section, green, pulled_back
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 

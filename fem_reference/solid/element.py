@@ -28,7 +28,7 @@ Sources: Bucalem & Bathe (1993) for the tying; Sussman & Bathe (1987) for the pr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -38,9 +38,11 @@ from skfem.refdom import RefHex
 
 from fem_reference.solid.materials import PAIRS, SolidLaw
 from fem_reference.surface.biquadratic import THREE, TYING, lagrange
-from fem_reference.surface.materials import pulled_back
+from fem_reference.surface.materials import green, pulled_back
 from sheetbench.numerics.kept import frozen
-from sheetbench.scenes import Constants, Material
+from sheetbench.scenes import Constants, Material, Scene
+from sheetbench.scenes.meaning.composition import of_sheet
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 NODES = 27
 RETAINED_SHEAR = (
@@ -236,6 +238,31 @@ class Bricks:
         modes = reference().modes
         gram = np.einsum("qr,eq,qs->ers", modes, self.volumes, modes)
         return np.linalg.solve(np.linalg.cholesky(gram), (modes * self.volumes[..., None]).swapaxes(1, 2))
+
+
+def at_rest(plain: Bricks, scene: Scene) -> tuple[Bricks, NaturalState | None]:
+    """Return the bricks of a scene from those of the sheet as drawn, and their natural strains (m, k): of the
+    stretch U(z) = 1 + e0 − z k0, which leaves the thickness alone, z from the plane that e0 is of."""
+    sampled = np.concatenate([np.array(sites) for sites in SAMPLED]).T
+    sites = shape((sampled + 1.0) / 2.0)[0].T @ plain.positions  # (m, k, 3)
+    points = shape(reference().points)[0].T @ plain.positions[..., :2]
+    state, mid_surface = natural_at(scene, sites[..., :2]), natural_at(scene, points)
+    if state is None or mid_surface is None:
+        return plain, None
+    plies = of_sheet(scene).plies
+    middle = -(plies[0].low + 0.5) * scene.sheet.thickness if plies else 0.0
+    height = (sites[..., 2] - middle)[..., None, None]
+    centre = plain.positions.mean(axis=1, keepdims=True)  # about which no digits are lost
+    sides, plan = plain.gradient(-centre)[..., :2], (plain.positions - centre)[..., :2]
+
+    def sample(strain: np.ndarray, curvature: np.ndarray) -> np.ndarray:
+        return np.einsum("ekic,ekcd,eid->ek", sides, green(strain - height * curvature), plan, optimize=True)
+
+    stretch = np.tile(np.eye(3), (*points.shape[:2], 1, 1))
+    stretch[..., :2, :2] += mid_surface.at()[0]
+    on = pulled_back(np.linalg.inv(stretch), PAIRS) @ plain.to_strain
+    volumes = np.linalg.det(stretch) * plain.volumes
+    return replace(plain, to_strain=on, volumes=volumes), state.made(sample)
 
 
 def tangent(gradient: np.ndarray, moduli: np.ndarray, stress: np.ndarray) -> np.ndarray:

@@ -28,16 +28,6 @@ class BoundRods:
     own: np.ndarray
     held: np.ndarray
 
-    def gather(self, vectors: np.ndarray) -> np.ndarray:
-        """Q (k, a, 3) of the model's vectors (N, 3)."""
-        return vectors[self.sites]
-
-    def scatter(self, of_sides: np.ndarray, count: int) -> np.ndarray:
-        """Sums (k, a, 3) of the sides into `count` vectors, (count, 3)."""
-        out = np.zeros((count, 3))
-        np.add.at(out, self.sites, of_sides)
-        return out
-
     def by_rod(self, of_sides: np.ndarray) -> list[np.ndarray]:
         """Values (k, …) of all sides, rod by rod."""
         return np.split(of_sides, np.cumsum([len(rod.nodes) for rod in self.rods])[:-1]) if self.rods else []

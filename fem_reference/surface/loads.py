@@ -14,7 +14,7 @@ the virtual work of a moment m t̂ on δd = δθ × d is δd · (m t̂ × d). Un
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 from skfem import MeshQuad
@@ -38,26 +38,6 @@ from sheetbench.scenes.objects.loads import AreaLoad
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
 _LINE, _LINE_SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
-
-
-class Follower(Protocol):
-    """A load that depends on the shape. elements: (k,) the elements it acts on; conservative: whether it has
-    a potential on the sheet as it is held, and so a symmetric tangent."""
-
-    @property
-    def elements(self) -> np.ndarray: ...
-
-    @property
-    def conservative(self) -> bool: ...
-
-    def force(self, vectors: np.ndarray) -> np.ndarray:
-        """Nodal force (k, 18, 3) at nodal vectors Q (k, 18, 3)."""
-
-    def tangent(self, vectors: np.ndarray) -> np.ndarray:
-        """Derivative of the force (k, 18, 3, 18, 3)."""
-
-    def work(self, vectors: np.ndarray) -> float:
-        """Of a conservative load, from the flat sheet to nodal vectors Q (k, 18, 3) [J]."""
 
 
 def _cross_matrix(a: np.ndarray) -> np.ndarray:
@@ -189,6 +169,9 @@ class FollowerMoment:
         slope = np.einsum("gi,eic->egc", _LINE_SLOPE, vectors[rows, self.line.sides])
         stretch = np.linalg.norm(slope, axis=-1, keepdims=True)
         return slope / stretch, stretch, np.einsum("gi,eic->egc", _LINE, vectors[rows, 9 + self.line.sides])
+
+
+Follower = FollowerPressure | FollowerMoment
 
 
 def area_force(

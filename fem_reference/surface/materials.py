@@ -57,6 +57,19 @@ def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.nda
     return out
 
 
+def green(stretch: np.ndarray) -> np.ndarray:
+    """E0 = ½ (U² − 1) of U − 1 (…, 2, 2), for sheets that are not flat at rest: with the natural stretch
+    U(z) = 1 + e0 − z k0 at the height z (`scenes.objects.natural`) a law of strain takes E − E0(z), of a
+    shell to first order in z
+
+        E0 = e0 + ½ e0²,    κ0 = −k0 − ½ (e0 k0 + k0 e0) = ½ (E0(1) − E0(−1)),
+
+    and its energy is that per natural area: strains of the natural sides are U⁻¹ (E − E0) U⁻¹, areas det U
+    times as large, U = 1 + e0 that of the mid-surface at the full share. Elements sample E0 where they do E.
+    """
+    return np.asarray(stretch + 0.5 * stretch @ stretch)
+
+
 def section_of(material: Material | Constants, thickness: float) -> Section:
     """The section of a sheet of this material, homogeneous through its thickness, or of its plies."""
     if isinstance(material, Constants) and material.plies:

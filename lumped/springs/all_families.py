@@ -70,8 +70,7 @@ class AllFamilies:
         rounded = [family.rounded() for family in families] if single else None
         self._rounded = None if rounded is None else AllFamilies(rounded, pattern)
         along = [family for family in families if isinstance(family, Links)]
-        self.links = along[0]
-        self.link_geometry = [(each.nodes, each.offset, each.rest_length) for each in along]
+        self.links, self.all_links = along[0], along
         self.conservative = all(family.conservative for family in families)
         self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
 

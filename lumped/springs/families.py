@@ -123,15 +123,9 @@ class Links(Family):
         rest = self.rest_length if self.natural is None else self.natural
         return typed(LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots))
 
-    def largest_strains(self, states: np.ndarray) -> np.ndarray:
-        """Return the largest relative change of length of the in-plane links at displacements (k, n, 3) [m],
-        (k,)."""
-        strains: np.ndarray = links.largest_strains(states, self.arrays)
-        return strains
-
     def largest_strain(self, u: np.ndarray) -> float:
-        """Return that at one displacement (n, 3) [m]."""
-        return float(self.largest_strains(u[None])[0])
+        """Return the largest relative change of length of the in-plane links at a displacement (n, 3) [m]."""
+        return float(links.strains(u[None], self.arrays, 0.0)[0][0])
 
     def rounded(self) -> Links:
         """Return the same links with their rest data in single precision."""

@@ -10,39 +10,37 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
-from lumped.statics.soundness import first_collapsed, first_inverted
+from lumped.springs import links
+from lumped.statics.soundness import first_inverted
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 
 COLLAPSED = 1e-6  # of a link's rest length
 
 
-def broken(assembly: Assembly, states: np.ndarray) -> tuple[int, Fault | None]:
-    """Return how many of the displacements (k, n, 3) [m] mean something before the first that does not, and
-    why that one does not: a number that is not finite, or a collapsed link, or an inverted cell."""
+def inspect(assembly: Assembly, states: np.ndarray) -> tuple[np.ndarray, Fault | None]:
+    """Return the largest strain of a link in a layer at each of the displacements (k, n, 3) [m] before the
+    first that means nothing, and why that one does not: a number that is not finite, or a collapsed link, or
+    an inverted cell."""
     lattice, sound, fault = assembly.lattice, len(states), None
     finite = np.isfinite(states[:, : lattice.mass_count])
     if not finite.all():
         sound = int(np.argmin(finite.all(axis=(1, 2))))
         where = place(lattice, int(np.argmin(finite[sound].all(axis=1))))
         fault = Fault(Status.NON_FINITE, f"the mass at {where} has left the range of numbers")
-    for nodes, offset, rest_length in assembly.all_families.link_geometry:
-        i, link = first_collapsed(states[:sound], nodes, offset, rest_length, COLLAPSED)
-        if i < sound:
-            where = place(lattice, int(nodes[link, 0]))
-            sound, fault = (
-                i,
-                Fault(Status.INVERTED, f"the link at {where} has no length left: refine the grid"),
-            )
+    of_families = []
+    for each in assembly.all_families.all_links:
+        found, link = links.strains(states[:sound], each.arrays, COLLAPSED)
+        of_families.append(found)
+        if len(found) < sound:
+            sound, where = len(found), place(lattice, int(each.nodes[link, 0]))
+            fault = Fault(Status.INVERTED, f"the link at {where} has no length left: refine the grid")
     columns, positions, areas = assembly.plan
     i, row, column = first_inverted(columns, positions, areas, states[:sound])
     if i < sound:
-        where = place(lattice, int(columns[row, column, 0]))
-        sound, fault = (
-            i,
-            Fault(Status.INVERTED, f"the cell at {where} has turned inside out: refine the grid"),
-        )
-    return sound, fault
+        sound, where = i, place(lattice, int(columns[row, column, 0]))
+        fault = Fault(Status.INVERTED, f"the cell at {where} has turned inside out: refine the grid")
+    return of_families[0][:sound], fault
 
 
 def place(lattice: Lattice, mass: int) -> str:

@@ -1,5 +1,5 @@
-"""What every answer and every sample of a motion is looked at for, as compiled loops: collapsed links and
-inverted cells (`lumped.statics.faults`), how sharply the sheet bends, what rounding its links carry
+"""What every answer and every sample of a motion is looked at for, as compiled loops: inverted
+cells (`lumped.statics.faults`), how sharply the sheet bends, what rounding its links carry
 (`lumped.statics.validity`)."""
 
 from __future__ import annotations
@@ -9,28 +9,8 @@ import math
 import numpy as np
 from numba import njit
 
-from lumped.springs.links import measure
-
 TINY = float(np.finfo(float).tiny)
 TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named
-
-
-@njit(cache=True)
-def first_collapsed(
-    states: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest_length: np.ndarray, limit: float
-) -> tuple[int, int]:
-    """Return the first of the displacements (k, n, 3) [m] with a link shorter than this share of its rest
-    length, k if none, and its shortest link; arrays as in `lumped.springs.links`."""
-    for k in range(len(states)):
-        least, which = np.inf, 0
-        for m in range(len(nodes)):
-            _, square, length, _ = measure(states[k], nodes, offset, rest_length, m)
-            rest = length * length
-            if square < least * rest:
-                least, which = square / rest, m
-        if least < limit * limit:
-            return k, which
-    return len(states), 0
 
 
 @njit(cache=True)

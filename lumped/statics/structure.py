@@ -15,7 +15,7 @@ import scipy.sparse as sp
 
 from lumped.actuators import Drive
 from lumped.items import Placed
-from lumped.statics.faults import broken
+from lumped.statics.faults import inspect
 from lumped.statics.problem import LatticeState, Problem, Residual
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
@@ -142,7 +142,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
 
     def inspect(self, path: Path[LatticeState, LatticeForces]) -> Fault | None:
         """Return why the path's last equilibrium means nothing, if it does."""
-        return broken(self.problem.assembly.at(path.state.load_factor), path.state.u[None])[1]
+        return inspect(self.problem.assembly.at(path.state.load_factor), path.state.u[None])[1]
 
     def loading(self) -> float:
         problem = self.problem

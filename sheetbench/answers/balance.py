@@ -15,8 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes.meaning.composition import mass_of
-from sheetbench.scenes.meaning.payloads import carried
+from sheetbench.scenes.meaning.composition import carried, mass_of
 from sheetbench.scenes.meaning.region import edge_length, resultant
 from sheetbench.scenes.objects.actuators import Chain
 from sheetbench.scenes.objects.loads import Pressure

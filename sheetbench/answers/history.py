@@ -6,7 +6,7 @@ Part of the question's language, as `Solution` is for statics: it holds no mecha
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,7 +14,6 @@ import numpy as np
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.measured_history import COMPONENTS, Measured
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table, number
@@ -28,7 +27,34 @@ UNDAMPED = (
     "this sheet has no damping and does not settle; to damp it, give [material] loss_factor, "
     "damping_time or damping_rate, or [air] its drag"
 )
+COMPONENTS = ("ux", "uy", "uz")
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One probe's measured history: time (n,) [s], displacement (n, 3) [m], nan where not measured."""
+
+    time: np.ndarray
+    displacement: np.ndarray
+
+    def within(self, start: float, end: float) -> np.ndarray:
+        """Which times (n,) lie between two [s]."""
+        within: np.ndarray = (self.time >= start) & (self.time <= end)
+        return within
+
+    def error(self, time: np.ndarray, displacement: np.ndarray) -> float | None:
+        """The error of a simulated history, times (m,) [s] and displacements (m, 3) [m], linear between them:
+        the largest |component of (simulated − measured)| within its times over the largest |measured
+        component|; None where nothing is measured there, or nothing moves."""
+        inside = self.within(time[0], time[-1])
+        truth = self.displacement[inside]
+        if not np.isfinite(truth).any() or np.nanmax(np.abs(truth)) == 0.0:
+            return None
+        simulated = np.column_stack(
+            [np.interp(self.time[inside], time, displacement[:, i]) for i in range(3)]
+        )
+        return float(np.nanmax(np.abs(simulated - truth)) / np.nanmax(np.abs(truth)))
 
 
 @dataclass(frozen=True)
@@ -96,23 +122,8 @@ class History(Answer):
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench simulate`: seconds, metres, joules, newtons."""
-        return {
-            "time": self.time,
-            "probes": self.probes,
-            "energy": self.balance,
-            "status": str(self.status),
-            "steps": self.steps,
-            "solve_seconds": self.solve_seconds,
-            "setup_seconds": self.setup_seconds,
-            "message": self.message,
-            "integrator": self.integrator,
-            "label": self.label,
-            "settings": self.settings,
-            "resumed_from": self.resumed_from,
-            "energies": self.accounts,
-            "reactions": self.reactions,
-            "actuators": self.actuators,
-        }
+        own = {one.name: getattr(self, one.name) for one in fields(History) if one.name != "extra"}
+        return {**own, "energy": self.balance, "status": str(self.status), "energies": self.accounts}
 
     def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
         """A row per probe: the displacement at the end, its largest excursion and, if measured, the error."""

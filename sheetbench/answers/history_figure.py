@@ -8,8 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
-from sheetbench.answers.history import History
-from sheetbench.answers.measured_history import Measured
+from sheetbench.answers.history import History, Measured
 from sheetbench.answers.style import COMPONENTS, MOST, plain
 
 DASHES: Any = {"uy": (0, (4, 2))}  # of a symmetric sheet it lies on ux

@@ -151,6 +151,12 @@ class ForceRow:
     force: Annotated[Mapping[str, float], NEWTONS("z.4f")]
 
 
+DOCUMENTED = (  # as they are, in the JSON document
+    "model", "label", "settings", "message", "stretch", "load_factor", "unknowns", "iterations",
+    "solve_seconds", "setup_seconds", "reactions", "energies",
+)  # fmt: skip
+
+
 @dataclass(frozen=True, repr=False)
 class Solution(Answer):
     """A model's answer to a static scene.
@@ -218,22 +224,11 @@ class Solution(Answer):
         points = self.points if scene is None else scene.probes
         moved = [*self.displacement(np.array([*points.values()]))] if points else []
         return {
-            "model": self.model,
-            "label": self.label,
-            "settings": self.settings,
+            **{name: getattr(self, name) for name in DOCUMENTED},
             "status": str(self.status),
             "advice": self.status.advice,
-            "message": self.message,
-            "stretch": self.stretch,
             "snaps": list(self.snaps),
-            "load_factor": self.load_factor,
-            "unknowns": self.unknowns,
-            "iterations": self.iterations,
-            "solve_seconds": self.solve_seconds,
-            "setup_seconds": self.setup_seconds,
             "probes": dict(zip(points, moved, strict=True)),
-            "reactions": self.reactions,
-            "energies": self.energies,
             "contacts": {name: asdict(contact) for name, contact in self.contacts.items()},
             "balance": self.balance.document() if self.balance is not None else None,
         }

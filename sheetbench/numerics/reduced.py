@@ -85,7 +85,7 @@ class ReducedSystem:
     ):
         self.symmetric, self.unknowns = symmetric, transform.shape[1]
         self._transform, self._pattern = transform, pattern
-        self._solver = DirectSolver(symmetric, self._fronts if pattern.cells is not None else None)
+        self._solver = DirectSolver(symmetric, None if pattern.cells is None else lambda: self._fronts)
         constrained = multipliers is not None and multipliers.any()
         self._multipliers = multipliers if symmetric and constrained else None
         self.band: banded.Band | None = None
@@ -108,11 +108,8 @@ class ReducedSystem:
         weight = found.weight if len(found.weight) else np.ones(len(rows))
         return banded.band_of(found.source, rows, columns, weight, *self._order)
 
-    def _fronts(self) -> Fronts:
-        return self._known_fronts
-
     @cached_property
-    def _known_fronts(self) -> Fronts:
+    def _fronts(self) -> Fronts:
         cells, transform = self._pattern.cells, self._transform
         assert cells is not None
         # what is no unknown itself depends on those of its own cells

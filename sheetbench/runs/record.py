@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -14,8 +15,7 @@ from sheetbench.answers.history import History
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod
-from sheetbench.runs.columns import split, width
-from sheetbench.runs.run import Observer, Run
+from sheetbench.runs.run import Observer, Part, Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 from sheetbench.scenes import Scene
@@ -60,6 +60,22 @@ def parted(options: dict[str, Any]) -> tuple[Keeping, dict[str, Any]]:
     """Return what options say of `Keeping`, and the others."""
     keeping = {name: options[name] for name in Keeping.__annotations__ if name in options}
     return cast(Keeping, keeping), {name: of for name, of in options.items() if name not in keeping}
+
+
+def width(columns: Sequence[Part]) -> int:
+    """How many numbers a row has."""
+    return sum(math.prod(shape) for _, _, shape in columns)
+
+
+def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
+    """Rows (n, width) as kind → name → (n, …)."""
+    parts: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in columns}
+    first = 0
+    for kind, name, shape in columns:
+        numbers = math.prod(shape)
+        parts[kind][name] = rows[:, first : first + numbers].reshape(len(rows), *shape)
+        first += numbers
+    return parts
 
 
 def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:

@@ -19,9 +19,9 @@ from scipy.optimize import curve_fit
 
 import fem_reference
 from comparisons.identification.answer import Identification
-from comparisons.identification.c3d import read_markers
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements
+from comparisons.identification.point_files import read_markers
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import Column
 from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet

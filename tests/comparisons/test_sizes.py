@@ -3,16 +3,17 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from commands import json_of, run
+from verbs import SMALL, write_inputs
 
 import lumped
 import sheetbench as sb
 from comparisons.external import memory
 from comparisons.models import sizes
 from comparisons.models.spec import spec_of
-from comparisons.pictures import work
 from comparisons.sweep.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
@@ -135,43 +136,34 @@ def test_every_candidate_is_looked_at_before_the_first_run(tmp_path, monkeypatch
             tradeoff(scene, [spec_of("shell", {"elements": 64})], store, pool=pytest.fail)
 
 
-MEASURED = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
-VERBS = {
-    "compare": (SCENE, "--lumped", "3", "--elements", "2", "--no-uncertainty"),
-    "calibrate": (SCENE, "--grid", "3", "--calibration", "fit-modal"),
-    "identify": (SCENE, "--measured", "MEASURED", "--lumped", "3"),
-    "modes": (SCENE, "--lumped", "3", "--elements", "2", "--count", "2"),
-    "simulate": (SCENE, "--lumped", "3", "--duration", "0.02"),
-    "tradeoff": (SCENE, "--lumped", "3", "--plate", "", "--shell", "", "--solid", "", "--elements", "4"),
-    "compare motions": (SCENE, "--duration", "0.004", "--lumped", "3", "--elements", "2"),
-    "tradeoff motions": (SCENE, "--duration", "0.004", "--lumped", "3", "--plate", "", "--shell", "2",
-        "--solid", ""),
-    "crosscheck motions": (SCENE, "--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--judges", ""),
-    "tradeoff tolerance": (SCENE, "--tolerance", "0.01"),
-    "stability": (SCENE, "--lumped", "3", "--elements", "2", "--vary", "grid"),
-}  # fmt: skip
+MOVED = "--duration 0.004 --lumped"
+LINES = [SMALL[name] for name in ("compare", "compare motion", "identify", "modes", "simulate")]
+MORE = [SMALL[name] for name in ("tradeoff", "tradeoff tolerance", "stability")]
+MORE += [f"calibrate {SCENE} --grid {grid}" for grid in ("3 --calibration fit-modal", "100000 --export out")]
+MORE += [f"tradeoff {SCENE} {MOVED} 3 --plate= --shell 2 --solid="]
+MORE += [f"crosscheck {SCENE} {MOVED} 3,4 --shell 1,2 --judges="]
 
 
 @pytest.fixture
-def arguments(verb, tmp_path, monkeypatch):
-    """Those of the verb, where next to nothing is free."""
+def little(tmp_path, monkeypatch):
+    """Next to nothing is free."""
+    monkeypatch.chdir(tmp_path)
+    write_inputs(tmp_path)
     room(monkeypatch, 1000.0)
-    measured = tmp_path / "measured.csv"
-    measured.write_text(MEASURED)
-    return [str(measured) if part == "MEASURED" else part for part in VERBS[verb]]
 
 
-@pytest.mark.parametrize("verb", VERBS)
-def test_every_verb_refuses_what_does_not_fit(verb, arguments, capsys):
-    assert run(verb.partition(" ")[0], *arguments) == 2
+@pytest.mark.parametrize("line", LINES + MORE)
+def test_every_verb_refuses_what_does_not_fit(line, little, capsys):
+    assert run(*line.split()) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said
+    assert not Path("out").exists()
 
 
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("verb", ["compare", "compare motions", "identify", "modes", "simulate"])
-def test_large_goes_on_all_the_same(verb, arguments, capsys):
-    assert json_of(capsys, verb.partition(" ")[0], *arguments, "--large")
+@pytest.mark.parametrize("line", LINES)
+def test_large_goes_on_all_the_same(line, little, capsys):
+    assert json_of(capsys, *line.split(), "--large")
 
 
 def written(root, files):
@@ -210,19 +202,3 @@ def test_what_is_free_is_the_least_that_anything_leaves(files, left, tmp_path, m
     (tmp_path / "proc/self").mkdir(parents=True, exist_ok=True)
     (tmp_path / "proc/self/status").write_text("VmPeak: 9 kB\nVmSize:\t  100000 kB\n")
     assert memory.available() == 300_000_000 - 102_400_000
-
-
-def test_without_any_word_of_memory_nothing_is_refused(monkeypatch):
-    room(monkeypatch, None)
-    sizes.require_room(scenes.load(SCENE), spec_of("lumped", {"grid": 5000}))
-
-
-def test_amounts_as_people_say_them():
-    assert [work.memory(x) for x in (5.4e9, 269e9, 8e6, 2.5e12)] == ["5.4 GB", "269 GB", "8 MB", "2.5 TB"]
-
-
-def test_an_export_too_large_for_the_memory_is_refused_before_its_first_array(tmp_path, capsys):
-    wanted = ("--grid", "100000", "--calibration", "uniform", "--export", str(tmp_path / "out"))
-    assert run("calibrate", "two-edges-clamped", *wanted) == 2
-    said = capsys.readouterr().err
-    assert "lumped 100000x100000x2" in said and "--grid" in said and not (tmp_path / "out").exists()

@@ -12,7 +12,7 @@ from commands import one_line, run
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import folder
 from sheetbench.answers.report import Report
-from sheetbench.files import only_writer, require_file, whole, writing
+from sheetbench.files import require_file, whole, writing
 from sheetbench.scenes import BadInput
 
 
@@ -37,20 +37,6 @@ def stand(path, kind):
         path.mkdir()
     else:
         os.mkfifo(path)
-
-
-@pytest.mark.parametrize("kind", ["link", "folder", "pipe"])
-def test_what_is_no_regular_file_is_neither_replaced_nor_followed(tmp_path, kind):
-    path, victim = tmp_path / "file.txt", tmp_path / "victim"
-    victim.write_text("mine")
-    stand(path, kind)
-    before = path.lstat()
-    refused = pytest.raises(BadInput, match=f"file.txt: cannot be written, a .*{kind}.* stands there")
-    with refused, whole(path):
-        raise AssertionError
-    assert victim.read_text() == "mine" and path.lstat() == before
-    with pytest.raises(BadInput, match="a device, pipe or socket stands there: choose another name"):
-        require_file(Path(os.devnull))
 
 
 def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path):
@@ -119,19 +105,6 @@ def test_a_fault_elsewhere_is_not_laid_at_the_files_door(tmp_path):
         Path("/nowhere/font.ttf").read_bytes()
 
 
-def test_a_folder_has_one_writer_until_that_ends_or_dies(tmp_path):
-    refused = pytest.raises(BadInput, match=f"{tmp_path}: another process writes here")
-    with only_writer(tmp_path), refused, only_writer(tmp_path):
-        pass
-    code = (
-        "import os, sys; from pathlib import Path; from sheetbench.files import only_writer\n"
-        "only_writer(Path(sys.argv[1])).__enter__(); os._exit(9)"
-    )
-    assert subprocess.run([sys.executable, "-c", code, str(tmp_path)]).returncode == 9
-    with only_writer(tmp_path):
-        pass
-
-
 def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):
     (tmp_path / "link").symlink_to(tmp_path / "nothing")
     with pytest.raises(BadInput, match="a link to nothing stands there"):
@@ -139,6 +112,8 @@ def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):
     (tmp_path / "file").touch()
     with pytest.raises(BadInput, match="Not a directory"):
         folder(tmp_path / "file" / "under")
+    with pytest.raises(BadInput, match="a device, pipe or socket stands there: choose another name"):
+        require_file(Path(os.devnull))
     for root in ("/", "//", "/usr/.."):
         with pytest.raises(BadInput, match="the root of the file system; name a folder in it"):
             folder(root)

@@ -109,7 +109,7 @@ def undraw(patch: pytest.MonkeyPatch) -> None:
 
 def run_here(patch: pytest.MonkeyPatch) -> None:
     """Run campaigns in this process: no worker has to start."""
-    patch.setattr(executors, "processes", Here)
+    patch.setattr(executors, "Processes", Here)
     patch.setitem(carry_out.__kwdefaults__, "pool", Here)
 
 

@@ -12,11 +12,10 @@ from comparisons.sweep.campaign import campaign
 from lumped.calibration.central_table import ROWS
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Clamped, EdgeLoad, Held
-from studies.transfer import study as studies
 from studies.transfer.drawn import Drawn, measure
 from studies.transfer.drawn_scenes import CATALOGUE, OBLIQUE, drawn_sheets
 from studies.transfer.scenes import TRAINING, transfer_scenes
-from studies.transfer.study import FITTED, _Study, transfer
+from studies.transfer.study import _Study, transfer
 from studies.transfer.training import HELD, _displacement, _scene, trained_to_bend
 
 SCENES = transfer_scenes()
@@ -35,10 +34,6 @@ def study(tmp_path_factory):
             return found
 
         yield carried_out
-
-
-def by_scene(rows, key="errors"):
-    return {(row["scene"], row["method"]): row[key] for row in rows}
 
 
 @pytest.mark.parametrize("method", ["consistent", "moduli"])
@@ -89,31 +84,10 @@ def test_wrong_limits_are_measured_and_predicted(study):
     assert rows["consistent"]["extrapolated"] < 0.004 and rows["consistent"]["predicted_limit"] < 0.001
 
 
-def test_long_cells(study, monkeypatch):
-    monkeypatch.setattr(studies, "LONG_EVERYWHERE", ((9, 25),))
-    found = study(methods=["moduli"], grids=[9], scenes=SEED, parts=["aspect"])
-    assert {row["aspect"] for row in found.aspect} == {1.0, 1.5, 2.0, 3.0}
-    assert max(row["error"] for row in found.aspect) < 0.02
-
-
 def test_leave_one_out(study):
     found = study(methods=["fit-static"], grids=[9], scenes=SEED, parts=["left-out"])
     assert [row["left_out"] for row in found.left_out] == SEED
     assert max(row["error"] for row in found.left_out) < 0.03
-
-
-def test_tables_have_a_column_per_method_and_a_row_per_scene(study):
-    found = study(methods=["consistent", "uniform"], grids=[5, 9], scenes=SEED, parts=["static", "modal"])
-    over_all, *made = found.tables()
-    assert [column.name for column in made[0].columns] == ["scene", "consistent", "uniform"]
-    assert [row[0] for row in made[0].rows] == SEED
-    uniform = by_scene(found.static)[SEED[0], "uniform"], by_scene(found.static)[SEED[1], "uniform"]
-    coarse, fine = zip(*uniform, strict=True)
-    method, *cells, where = over_all.rows[1]
-    assert method == "uniform" and where == SEED[fine.index(max(fine))]
-    assert cells[:4] == pytest.approx([sum(coarse) / 2, max(coarse), sum(fine) / 2, max(fine)])
-    assert len(made) == 5 and len(made[-1].rows) == 2 * 3 * 3
-    assert found.static[0]["trained_on"] is False and "fit-static" in FITTED
 
 
 def test_command(tmp_path, in_process, capsys):
@@ -132,8 +106,9 @@ def test_the_whole_study(study):
     at = {row["scene"]: row["errors"] for row in found.static if row["method"] == "moduli"}
     assert all(errors[1] < 0.02 for errors in at.values())
     assert max(row["error"] for row in found.aspect) < 0.02
-    modal = by_scene([row for row in found.modal if row["masses"] == "gregory"], "misses")
-    assert all(np.abs(modal[name, "fit-modal"][0]).max() < 0.01 for name in SEED)
+    modal = [row for row in found.modal if row["masses"] == "gregory" and row["method"] == "fit-modal"]
+    assert {row["scene"] for row in modal} >= {*SEED}
+    assert all(np.abs(row["misses"][0]).max() < 0.01 for row in modal if row["scene"] in SEED)
 
 
 def test_springs_and_grading_are_those_of_auto_where_that_is_a_method():

@@ -1,7 +1,7 @@
 """The process in which Kratos solves: `python -m comparisons.external.kratos.process PROBLEM ANSWER`.
 
 Apart from ours, for Kratos prints as it is imported, and a fault in it takes its process down. Reads arrays
-of the file PROBLEM (`comparisons.external.kratos.problem`), and leaves in ANSWER displacement (n, 3) [m], the
+of the file PROBLEM (`comparisons.external.kratos.model`), and leaves in ANSWER displacement (n, 3) [m], the
 load factor of the last step that converged, and the number of iterations, each one factorisation; of a
 problem with `times` the displacement after every step, (steps, n, 3).
 
@@ -31,14 +31,11 @@ def solve(problem: Any) -> dict[str, Any]:
     kratos.Logger.GetDefaultOutput().SetSeverity(kratos.Logger.Severity.WARNING)
     part = kratos.Model().CreateModelPart("sheet", 2)
     part.ProcessInfo[kratos.DOMAIN_SIZE] = 3
-    for variable in (kratos.DISPLACEMENT, kratos.ROTATION, kratos.REACTION, kratos.REACTION_MOMENT):
-        part.AddNodalSolutionStepVariable(variable)
+    motions = (kratos.DISPLACEMENT, kratos.ROTATION, kratos.REACTION, kratos.REACTION_MOMENT)
     rates = (kratos.VELOCITY, kratos.ACCELERATION, kratos.ANGULAR_VELOCITY, kratos.ANGULAR_ACCELERATION)
-    for variable in rates:
-        part.AddNodalSolutionStepVariable(variable)
-    for variable in (kratos.VOLUME_ACCELERATION, mechanics.POINT_LOAD, mechanics.SURFACE_LOAD):
-        part.AddNodalSolutionStepVariable(variable)
-    for variable in (kratos.POSITIVE_FACE_PRESSURE, kratos.NEGATIVE_FACE_PRESSURE):
+    loads = (kratos.VOLUME_ACCELERATION, mechanics.POINT_LOAD, mechanics.SURFACE_LOAD)
+    pressures = (kratos.POSITIVE_FACE_PRESSURE, kratos.NEGATIVE_FACE_PRESSURE)
+    for variable in (*motions, *rates, *loads, *pressures):
         part.AddNodalSolutionStepVariable(variable)
     nodes = [part.CreateNewNode(i, *map(float, at)) for i, at in enumerate(problem["positions"], 1)]
     of = part.CreateNewProperties(1)
@@ -74,15 +71,10 @@ def solve(problem: Any) -> dict[str, Any]:
     if times is not None:
         scheme = kratos.ResidualBasedBossakDisplacementScheme(BOSSAK)
     parameters = kratos.Parameters('{"solver_type": "LinearSolversApplication.sparse_lu"}')
+    criteria = kratos.DisplacementCriteria(CORRECTION, 1e-15)
+    builder = kratos.ResidualBasedBlockBuilderAndSolver(factory.ConstructSolver(parameters))
     strategy = kratos.ResidualBasedNewtonRaphsonStrategy(
-        part,
-        scheme,
-        kratos.DisplacementCriteria(CORRECTION, 1e-15),
-        kratos.ResidualBasedBlockBuilderAndSolver(factory.ConstructSolver(parameters)),
-        ITERATIONS,
-        False,
-        False,
-        True,
+        part, scheme, criteria, builder, ITERATIONS, False, False, True
     )
     strategy.SetEchoLevel(0)
     strategy.Initialize()

@@ -7,6 +7,7 @@ test: uniaxial, pure-shear (a wide strip held along its width) or equibiaxial
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,16 +18,14 @@ from sheetbench.errors import BadInput, require_choice
 
 TESTS = ("uniaxial", "pure-shear", "equibiaxial")
 ENGINEERING, TRUE = ("engineering_stress", "nominal_stress"), ("true_stress", "cauchy_stress")
-UNITS = {
-    "stretch": "",
-    "strain": "",
-    "engineering_strain": "",
-    "true_strain": "",
-    "displacement": "m",
-    "extension": "m",
-    "force": "N",
-    "stress": "Pa",
+STRETCH: dict[str, Callable[[np.ndarray], np.ndarray]] = {  # of a column's numbers
+    "stretch": np.asarray,
+    "engineering_strain": lambda e: 1.0 + e,
+    "strain": lambda e: 1.0 + e,
+    "true_strain": np.exp,
 }
+LENGTHS = ("displacement", "extension")  # and of these over the gauge
+UNITS = dict.fromkeys(STRETCH, "") | dict.fromkeys(LENGTHS, "m") | {"force": "N", "stress": "Pa"}
 UNITS |= dict.fromkeys((*ENGINEERING, *TRUE), "Pa")
 FEWEST = 3  # rows: of one constant with two degrees of freedom left
 BACK = 0.005  # of the range of stretch, that it may go back by noise
@@ -109,21 +108,15 @@ def require_loading(curve: Curve, columns: Columns | None = None) -> None:
 
 
 def _stretch(path: Path, columns: Columns, gauge: float | None) -> np.ndarray:
-    for name, law in (
-        ("stretch", lambda e: e),
-        ("engineering_strain", lambda e: 1.0 + e),
-        ("strain", lambda e: 1.0 + e),
-        ("true_strain", np.exp),
-    ):
-        if name in columns.names:
-            return np.asarray(law(np.array([row.number(name) for row in columns.rows])))
-    for name in ("displacement", "extension"):
-        if name in columns.names:
-            if gauge is None:
-                raise BadInput(f"{path}: {name}: give the undeformed length between the grips, --gauge 33mm")
-            return 1.0 + np.array([row.number(name) for row in columns.rows]) / gauge
-    named = ", ".join(filter(None, columns.names)) or "none"
-    raise BadInput(f"{path}: columns {named}; needed is stretch, strain, true_strain or displacement")
+    found = next((name for name in (*STRETCH, *LENGTHS) if name in columns.names), None)
+    if found is None:
+        named = ", ".join(filter(None, columns.names)) or "none"
+        raise BadInput(f"{path}: columns {named}; needed is stretch, strain, true_strain or displacement")
+    if found in STRETCH:
+        return STRETCH[found](columns.numbers(found))
+    if gauge is None:
+        raise BadInput(f"{path}: {found}: give the undeformed length between the grips, --gauge 33mm")
+    return 1.0 + columns.numbers(found) / gauge
 
 
 def _stress(path: Path, columns: Columns, area: float | None) -> np.ndarray:
@@ -134,7 +127,7 @@ def _stress(path: Path, columns: Columns, area: float | None) -> np.ndarray:
         )
     if not found:
         raise BadInput(f"{path}: needed is engineering_stress, true_stress or force")
-    values = np.array([row.number(found[0]) for row in columns.rows])
+    values = columns.numbers(found[0])
     if found[0] != "force":
         return values
     if area is None:

@@ -71,7 +71,7 @@ class CompiledNewton:
             system.scratch,
             system.damping.rate,
             system.damping.drag,
-            csr_arrays(system.mass),
+            system.mass_rows,
             csr_arrays(system.transform[:, band.order]),
             len(band.order),
             band.width,

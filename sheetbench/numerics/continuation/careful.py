@@ -2,25 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Protocol, TypeVar
-
 from sheetbench.answers.solution import Status
+from sheetbench.numerics.continuation.newton import Predictor
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.stability import stability
 from sheetbench.numerics.continuation.structure import Forces, State
 from sheetbench.numerics.direct import Factor, SingularMatrixError
-
-Linear = TypeVar("Linear", covariant=True)
-
-
-class Reached(Protocol[Linear]):
-    """A linear step: the state it leads to, its length, and the load factor that it is for."""
-
-    @property
-    def state(self) -> Linear: ...
-
-    length: float
-    target: float
 
 
 def careful_budget(path: Path[State, Forces]) -> int:
@@ -52,7 +39,7 @@ def negatives(factor: Factor | None) -> int:
 
 def continuous(
     path: Path[State, Forces],
-    first: Reached[State],
+    first: Predictor[State, Forces],
     state: State,
     negative: int,
     found: Factor | None,

@@ -17,6 +17,7 @@ from sheetbench.scenes.meaning.region import area_in, require_rectangle
 from sheetbench.scenes.objects.cells import NUMBERS, Constants
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.layers import plies
+from sheetbench.scenes.objects.loads import AreaLoad, PointLoad
 from sheetbench.scenes.objects.orthotropy import in_own_axes
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.shapes import COINCIDENT, straight_sides
@@ -151,6 +152,27 @@ def mass_of(scene: SceneFields) -> float:
     if scene.pierced:
         per_area *= shares_of(scene.region, x, y)
     return float(np.diff(y) @ per_area @ np.diff(x))
+
+
+def carried(scene: SceneFields) -> float:
+    """Return the mass [kg] of all payloads."""
+    return sum(payload.mass for payload in scene.masses)
+
+
+def weights(scene: SceneFields) -> tuple[PointLoad | AreaLoad, ...]:
+    """Return the payloads' weight as loads, with gravity's history; none without gravity."""
+    if scene.gravity is None:
+        return ()
+    found: list[PointLoad | AreaLoad] = []
+    for payload in scene.masses:
+        x, y, z = (payload.mass * np.array(scene.gravity.acceleration)).tolist()
+        if payload.at is not None:
+            found.append(PointLoad(at=payload.at, force=(x, y, z), history=scene.gravity.history))
+            continue
+        area = area_in(scene, payload.where)
+        spread = AreaLoad(force_per_area=(x / area, y / area, z / area), where=payload.where)
+        found.append(spread.replace(history=scene.gravity.history))
+    return tuple(found)
 
 
 def mass_over_stiffness(scene: SceneFields) -> float:

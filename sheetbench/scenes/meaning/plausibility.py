@@ -15,8 +15,7 @@ from warnings import warn
 
 from sheetbench.errors import Implausible
 from sheetbench.scenes.language.summary import few
-from sheetbench.scenes.meaning.composition import mass_of
-from sheetbench.scenes.meaning.payloads import weights
+from sheetbench.scenes.meaning.composition import mass_of, weights
 from sheetbench.scenes.meaning.region import resultant
 from sheetbench.scenes.meaning.strains import STRETCH_LIMIT, WEIGHT_LIMIT, weight_strain
 from sheetbench.scenes.objects.fields import SceneFields

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import degrees, hypot
 
-from sheetbench.scenes.meaning.composition import mass_of
+from sheetbench.scenes.meaning.composition import carried, mass_of
 from sheetbench.scenes.meaning.distances import nearest
 from sheetbench.scenes.meaning.natural_words import natural_in_words
-from sheetbench.scenes.meaning.payloads import carried
 from sheetbench.scenes.meaning.region import area_in, resultant
 from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions
 from sheetbench.scenes.objects.actuators import Actuator, Chain, CurvatureTable

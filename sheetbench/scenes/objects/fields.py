@@ -12,9 +12,8 @@ from sheetbench.scenes.objects import cutouts
 from sheetbench.scenes.objects.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.objects.air import Air
 from sheetbench.scenes.objects.cutouts import Cutout
-from sheetbench.scenes.objects.initial import Initial
 from sheetbench.scenes.objects.layers import Layer
-from sheetbench.scenes.objects.loads import AreaLoad, Load
+from sheetbench.scenes.objects.loads import AreaLoad, Initial, Load
 from sheetbench.scenes.objects.masses import Mass
 from sheetbench.scenes.objects.material import Material
 from sheetbench.scenes.objects.natural import Natural, Temperature

@@ -8,7 +8,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from sheetbench.scenes.objects.quantities import Number, PlanPoint, Unit, Vector3
+from sheetbench.scenes.objects.quantities import Frozen, Number, PlanPoint, Unit, Vector3
 from sheetbench.scenes.objects.shapes import Shape
 from sheetbench.scenes.objects.sheet import EdgeName
 from sheetbench.scenes.objects.tables import Loading
@@ -26,6 +26,15 @@ class _Load(Loading):
                 "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
             )
         return self
+
+
+class Initial(Frozen):
+    """Where a motion starts; statics do not depend on it."""
+
+    shape: Literal["static"]
+    """"static": at rest in the equilibrium under all that acts at t = 0, loads with hold = true among it,
+    which are let go then; unstable ones are refused. Without this table the sheet starts flat, or as bent and
+    tilted supports alone shape it."""
 
 
 class PointLoad(_Load):

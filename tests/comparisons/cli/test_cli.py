@@ -1,5 +1,6 @@
 """The command line: exit statuses, one line for bad input, one JSON document, and quick help."""
 
+import gc
 import json
 import subprocess
 import sys
@@ -13,7 +14,7 @@ from commands import run
 from scene_files import written
 from terminals import Terminal
 
-from comparisons.cli import interruption
+from comparisons.cli import interruption, startup
 from comparisons.sweep import here as table
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
@@ -63,23 +64,15 @@ def test_a_shell_can_complete_the_verbs(monkeypatch, capsys):
     assert {"simulate", "stability", "study"} <= set(capsys.readouterr().out.split())
 
 
-@pytest.mark.parametrize(
-    ("grid", "verb"),
-    [
-        ("2x2", ["compare"]),
-        ("3x2", ["compare"]),
-        ("2x2", ["modes", "--count", "1"]),
-        ("2x2", ["simulate", "--duration", "0.01"]),
-    ],
-)
-def test_a_grid_whose_masses_are_all_held_is_named(tmp_path, grid, verb, capsys):
+def test_a_grid_whose_masses_are_all_held_is_named(tmp_path, capsys):
     edges = "".join(f'[[support]]\nedge = "{edge}"\nkind = "clamped"\n' for edge in ("x0", "x1", "y0", "y1"))
     text = "name = 'frame'\n[sheet]\nlength_x = 0.2\nlength_y = 0.2\nthickness = 0.002\n"
     text += "[material]\nyoung = 1e6\npoisson = 0.3\ndensity = 1000.0\n"
     path = written(tmp_path, text + edges)
-    assert run(verb[0], str(path), "--lumped", grid, *verb[1:]) == 2
-    said = capsys.readouterr().err.splitlines()[-1]
-    assert f"{grid.replace('x', '×')}×2" in said and "every mass" in said
+    for grid, verb in (("3x2", "compare"), ("2x2", "modes")):
+        assert run(verb, str(path), "--lumped", grid) == 2
+        said = capsys.readouterr().err.splitlines()[-1]
+        assert f"{grid.replace('x', '×')}×2" in said and "every mass" in said
 
 
 @pytest.mark.parametrize(
@@ -152,3 +145,10 @@ def test_an_output_that_nobody_reads_on_is_no_fault(line):
         process.stdout.close()
         said = process.stderr.read()
     assert (process.returncode, said) == (141, b"")
+
+
+def test_collections_are_as_usual_once_a_verb_works():
+    startup.begin()
+    assert gc.get_threshold()[0] == startup.ALLOCATIONS > startup.USUAL[0]
+    assert run("check", "two-edges-clamped") == 0
+    assert gc.get_threshold() == startup.USUAL

@@ -1,20 +1,24 @@
-"""What is said while people wait: what is solved, how large it is, how far it has come; little in a pipe."""
+"""What is said while people wait: what is solved, how large it is, how far it has come; little in a pipe and
+nothing with --quiet; in characters that a terminal has."""
 
 import io
+import logging
 from concurrent.futures import Executor, Future
 from typing import Any
 
 import pytest
 from campaigns import task
+from commands import run
 from rich.console import Console
 
 import fem_reference
 import lumped
 import sheetbench as sb
 from comparisons.calibration.calibrate import calibrate
-from comparisons.cli import console
+from comparisons.cli import characters, console
 from comparisons.cli import lines as cli_lines
 from comparisons.cli.lines import BETWEEN, QUIET, Lines
+from comparisons.cli.verb import as_verb
 from comparisons.models.context import running
 from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
@@ -173,3 +177,68 @@ def test_an_even_pace_tells_what_is_left(monkeypatch):
     now[0] += 3.0
     assert pace.left(1.0) == pytest.approx(6.0)
     assert [work.duration(s) for s in (4.2, 120.0, 7200.0)] == ["4 s", "2 min", "2.0 h"]
+
+
+SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
+
+
+@pytest.fixture
+def chatty(monkeypatch):
+    """A command that says all that there is to say."""
+    monkeypatch.setattr(cli_lines, "QUIET", 0.0)
+    monkeypatch.setattr(work, "LONG", 0.0)
+
+    def command():
+        with console.progress() as show:
+            show(Progress(1, 2, "a run", "converged", None))
+        console.tell("kernels are compiled first")
+        console.note("the result")
+        console.warn("a warning")
+
+    return as_verb("any", command)
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_quiet_leaves_results_and_warnings(chatty, quiet, capsys):
+    chatty(quiet=quiet, verbose=False, no_pictures=False)
+    printed = capsys.readouterr()
+    assert printed.out == "the result\n"
+    progress = [] if quiet else ["1/2 a run: converged", "kernels are compiled first"]
+    assert printed.err.splitlines() == [*progress, "a warning"]
+
+
+def test_quiet_is_quiet_of_what_the_packages_log(capsys):
+    from comparisons.cli import messages
+
+    with messages.in_lines(), console.speaking(quiet=True):
+        logging.getLogger("sheetbench").info("compiling")
+    assert capsys.readouterr().err == ""
+
+
+def test_a_comparison_says_in_a_pipe_what_lasts_and_nothing_where_it_is_quiet(monkeypatch, capsys):
+    monkeypatch.setattr(cli_lines, "QUIET", 3600.0)  # however slow this machine is today
+    assert run(*SMALL) == 0 and capsys.readouterr().err == ""
+    monkeypatch.setattr(work, "LONG", 0.0)
+    assert run(*SMALL, "--quiet") == 0
+    quiet = capsys.readouterr()
+    assert quiet.err == "" and quiet.out.startswith("{")
+    assert run(*SMALL) == 0  # it is over with the command
+    assert "solving shell, 2 × 2 elements (125 unknowns, about 0 s) …" in capsys.readouterr().err.splitlines()
+
+
+@pytest.mark.parametrize(
+    ("encoding", "text", "printed"),
+    [
+        ("ascii", "ν = 0.48, κ₀ −1.5e−3 ± 2 %, 9 × 9", "nu = 0.48, kappa0 -1.5e-3 +- 2 %, 9 x 9"),
+        ("ascii", "ρ² m⁻¹ Σ ½ é ω̇ │─┼ …", "rho^2 m^-1 Sigma 1/2 e omega |-+ ..."),
+        ("latin-1", "µ ± ² × é −", "µ ± ² × é -"),
+        ("utf-8", "ν ω̇ ❤", "ν ω̇ ❤"),
+        ("ascii", "❤", "?"),
+    ],
+)
+def test_what_an_encoding_lacks_is_spelled(encoding, text, printed):
+    stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    characters.adapt(stream)
+    stream.write(text)
+    stream.flush()
+    assert stream.buffer.getvalue().decode(encoding) == printed == characters.spelled(text, encoding)

@@ -10,8 +10,8 @@ from commands import json_of, one_line, run
 
 import sheetbench as sb
 from comparisons.codes.cell import MESHES, Cell, cell_of
+from comparisons.codes.cell_moduli import parameters_of
 from comparisons.codes.coefficients import limit_error, moduli_of, nearest
-from comparisons.codes.parameters import parameters_of
 from comparisons.codes.table import CODES
 from lumped import moduli
 from lumped.lattice import STEPS

@@ -10,17 +10,18 @@ import meshio
 import numpy as np
 import pytest
 from commands import run
+from contact_cases import bent_over, laid_strip
 
 from comparisons.codes.cell import HINGES, _hinge, _triangle
+from comparisons.codes.cell_moduli import undamped
 from comparisons.codes.coefficients import moduli_of
-from comparisons.codes.files import OWN_MASSES, WRITERS
-from comparisons.codes.parameters import undamped
+from comparisons.codes.files import OWN_MASSES, WRITERS, _geom
 from comparisons.codes.setup import setup
 from comparisons.codes.sheet_mesh import sheet_mesh
 from comparisons.scoring.reference import references
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeLoad, PointLoad
+from sheetbench.scenes import EdgeLoad, Plane, PointLoad, Sphere
 
 SCENE = scenes.load("two-edges-clamped").replace(
     loads=(PointLoad(at=(0.188, 0.188), force=(0.01, 0.0, 0.05)),)
@@ -232,3 +233,41 @@ def test_dampers_stand_in_the_files_or_are_said_to_be_left_out(code):
     assert not undamped(made.code, SCENE.material)
     texts = "".join(write.keywords["text"] for write in made.files().values())
     assert all(name in texts and f"{times[name]:.6g}"[:5] in texts for name in known)
+
+
+@pytest.mark.usefixtures("coarse_limits")
+@pytest.mark.parametrize("code", ["mujoco", "newton"])
+def test_obstacles_are_written(code, tmp_path):
+    scene = laid_strip(
+        0.1,
+        obstacles=(Plane(position=(0, 0, -0.2), normal=(1, 0, 3)), Sphere(position=(1, 0, -0.3), radius=0.1)),
+    )
+    for name, write in setup(scene, code, 2, best=False).files().items():
+        write(tmp_path / name)
+    sheet = json.loads((tmp_path / "sheet.json").read_text())
+    assert [one["kind"] for one in sheet["obstacles"]] == ["plane", "sphere"]
+    assert sheet["offset"] == 0.0025
+    if code == "mujoco":
+        mujoco = pytest.importorskip("mujoco")
+        model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
+        assert model.ngeom == 2
+        assert not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONTACT
+
+
+@pytest.mark.usefixtures("coarse_limits")
+def test_others_refuse_them():
+    note = " ".join(setup(bent_over(), "genesis", 2, best=False).notes())
+    assert "No files: obstacle: Genesis" in note
+
+
+def test_mujocos_cylinder_is_long_and_friction_has_tangents():
+    """Its size is radius and half length; condim 3 is a normal and two tangents, 1 a normal alone."""
+    rod = {
+        "kind": "cylinder",
+        "position": [0.0] * 3,
+        "axis": [0.0, 1.0, 0.0],
+        "radius": 0.01,
+        "friction": 0.3,
+    }
+    assert 'size="0.01 0.5"' in _geom(rod) and 'condim="3"' in _geom(rod)
+    assert 'condim="1"' in _geom({**rod, "friction": 0.0})

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from cases import OBLONG, RUBBER, SHEET, SILICONE
+from cases import CLAMP, OBLONG, RUBBER, SHEET, SILICONE
 from commands import run
 from exported import BLOWN, DRAWN, HALF, spring_set
 from scipy.io import loadmat
@@ -16,6 +16,7 @@ from comparisons.codes.tables import NAMES, arrays
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Hinged, Scene
+from sheetbench.scenes.objects.springs import DamperSet
 
 
 def table(path):
@@ -162,3 +163,19 @@ def test_verbs_export_the_lattice_that_they_answer_with(tmp_path, capsys):
     quick = ["--lumped", "3", "--elements", "2", "--no-uncertainty", "--export", str(tmp_path / "e")]
     assert run("compare", "one-edge-clamped", "--calibration", "uniform", *quick) == 0
     assert "calibration uniform" in (tmp_path / "e" / "README.md").read_text(encoding="utf-8")
+
+
+def test_dampers_are_those_of_the_motion():
+    material = RUBBER.model_copy(update={"damping_time": 4e-3, "damping_rate": 2.0})
+    scene = Scene(name="damped", sheet=SHEET, material=material, support=(CLAMP,))
+    found = lumped.describe(scene, spring_set(scene, 3))
+    np.testing.assert_allclose(found.links.damping, 4e-3 * found.links.stiffness)
+    for cells in found.cells:
+        np.testing.assert_allclose(cells.damping, 4e-3 * cells.stiffness)
+    assert found.damping_rate == 2.0
+    own = scene.model_copy(update={"dampers": DamperSet(axial=3.0, vertical=5.0)})
+    found = lumped.describe(own, spring_set(scene, 3))
+    ends = found.links.masses[found.links.damping > 0.0]
+    assert set(found.links.family[found.links.damping > 0.0]) == {"axial", "vertical"}
+    assert len({tuple(pair) for pair in found.links.masses.tolist()}) == len(found.links.masses)
+    assert len(ends) == 24 + 9 and not any(cells.damping.any() for cells in found.cells)

@@ -13,8 +13,8 @@ SEED = load("two-edges-clamped")
 FAKE = '''
 import numpy as np
 from pathlib import Path
-from sheetbench.answers.solution import FieldMesh, Solution, Status
-from sheetbench.scenes import BadInput, Chain
+from fake_solutions import solution
+from sheetbench.answers.solution import Status
 
 
 class Fake:
@@ -36,18 +36,15 @@ class Fake:
             kept.write(f"{self.name} {settings['elements']}\\n")
         n = settings["elements"]
         u = np.array([0.1, 0.2, 1.0]) * (self.limit + self.error / n**2)
-        status = Status.CONVERGED
         if self.fails == "refuses" or scene.actuators:
             status = Status.REFUSED
         elif self.fails == "raises":
             raise RuntimeError("out of luck")
-        elif self.fails == "diverges" and n == 8:
-            status = Status.DIVERGED
-        mesh = FieldMesh(np.zeros((1, 3)), [("vertex", np.array([[0]]))], {"displacement": np.zeros((1, 3))})
-        return Solution(
-            self.name, f"{self.name} {n}", {"elements": [n, n]}, status, 0, 1, 0.0, 0.0,
-            lambda points: np.tile(u, (len(points), 1)), {}, {}, mesh,
-            load_factor=1.0 * (status == "converged"),
+        else:
+            status = Status.DIVERGED if self.fails == "diverges" and n == 8 else Status.CONVERGED
+        return solution(
+            scene, self.name, label=f"{self.name} {n}", settings={"elements": [n, n]}, status=status,
+            sample=lambda points: np.tile(u, (len(points), 1)), load_factor=1.0 * (status == "converged"),
             remarks=("takes no such scene",) if status is Status.REFUSED else (),
         )
 

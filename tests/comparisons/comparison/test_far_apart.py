@@ -4,7 +4,6 @@ import pytest
 from cases import sheet
 from fake_solutions import solution
 
-from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.far_apart import far_apart_note, reasons
 from comparisons.models.resolve import resolve
@@ -26,7 +25,7 @@ def test_pressure_on_a_few_masses_between_tilted_clamps():
     report = found.report()
     assert found.disagreement in report.complaints
     assert "both converged" in report.to_markdown()
-    assert found.succeeded
+    assert found.succeeded and found.error(found.solutions[0]) > 2.6  # the error of too coarse a grid stands
 
 
 def said(first, finer, lattice=LATTICE, **known):
@@ -43,19 +42,6 @@ def fine(size, **changes):
 def test_what_is_near_or_no_equilibrium_says_nothing():
     assert said(-0.0119, fine(-0.01)) == ""
     assert said(0.01, fine(0.01), shell={"status": Status.UNSTABLE}) == ""
-
-
-@pytest.mark.parametrize("known", [True, False])
-def test_answers_on_different_branches_have_no_error(known):
-    """Where only the grid is too coarse the error stands."""
-    pair = (solution(SCENE, size=0.01), solution(SCENE, "shell"))
-    finer = solution(SCENE, size=0.0101 if known else -0.007, settings={"grid": [9, 5, 2]})
-    note, other_branch = far_apart_note(resolve(SCENE, LATTICE), pair, 0.01, lambda other: finer)
-    assert other_branch is known
-    found = Comparison(SCENE, pair, disagreement=note, several=known, other_branch=other_branch)
-    assert (found.error(pair[0]) is None) is known
-    assert all((difference.relative is None) is known for difference in found.differences)
-    assert found.succeeded and found.document()["apart"] in found.report().complaints
 
 
 def test_another_branch_stays_where_it_is():

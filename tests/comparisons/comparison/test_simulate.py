@@ -12,7 +12,7 @@ from dynamic_cases import make_scene, springs
 import lumped
 from comparisons.comparison import measured as histories
 from comparisons.comparison.frames import frames
-from sheetbench.answers.measured_history import Measured
+from sheetbench.answers.history import Measured
 from sheetbench.scenes import load
 from sheetbench.scenes.language.toml import to_toml
 

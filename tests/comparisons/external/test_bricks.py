@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from comparisons.external.bricks import Bricks, forces, held, materials
-from comparisons.external.calculix.deck import deck
-from comparisons.external.kratos.problem import Triangles, problem
+from comparisons.external.calculix.model import deck
+from comparisons.external.kratos.model import Triangles, problem
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import nodes_of
 from sheetbench.scenes import Clamped, EdgeLoad, Hinged, PointLoad, Sheet, load

@@ -6,7 +6,6 @@ import os
 import shutil
 import signal
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,6 @@ from sheetbench.errors import BadInput
 STRIP = Path(__file__).parents[3] / "docs" / "strip.sh"
 SCENE = scenes.load("one-edge-clamped")
 ANSWER = {"status": "converged", "probes": {name: [0.0, 0.0, -0.04] for name in SCENE.probes}}
-Make = Callable[..., str]
 
 
 @pytest.fixture

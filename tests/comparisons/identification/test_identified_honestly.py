@@ -16,7 +16,7 @@ from comparisons.identification.fit import Fit, nearest
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface
 from comparisons.identification.model import Model, Prediction, lattice_model
-from comparisons.identification.residual_test import UNLIKELY, explained, outliers, runs
+from comparisons.identification.residuals import UNLIKELY, explained, outliers, runs
 from comparisons.identification.unknowns import Unknown, unknown
 from comparisons.models.grading import lines_on_shapes
 from comparisons.models.spec import Lattice
@@ -72,26 +72,6 @@ def test_a_growing_part_of_a_motion_leads_past_minima_that_are_out_of_step():
     assert abs(fit.search(np.zeros(1)).x[0] - log(1 / 0.7)) > 0.05
     best, tried = nearest(fit, lambda one: one.noise < 0.05, anything)
     assert best.x[0] == pytest.approx(log(1 / 0.7), abs=0.002) and tried == 1
-
-
-def helix(value, measured):
-    """Turns six times as fast as it rises with the logarithm: a turn away is a minimum of its own."""
-    turned = 6.0 * log(value)
-    return np.outer(measured.points[:, 0], [np.cos(turned), np.sin(turned), 0.05 * turned])
-
-
-def test_other_starts_are_tried_where_the_first_leaves_more_than_noise():
-    measured = Displacements(POINTS, np.zeros((64, 3)))
-    measured = replace(measured, displacement=noisy(helix(2.5, measured), 2))
-    fit = fit_of(helix, measured, 2.5 * np.exp(-np.pi / 3.0))
-    plain = fit.search(np.zeros(1))
-    assert plain.noise > 0.05 and abs(plain.x[0]) < 0.1
-
-    def enough(one):
-        return explained(one.noise, runs(measured, fit.per_point(one.residuals)))
-
-    best, tried = nearest(fit, enough, anything)
-    assert tried > 1 and enough(best) and best.x[0] == pytest.approx(np.pi / 3.0, abs=0.01)
 
 
 @pytest.mark.parametrize("kind", ["space", "time", "surface"])

@@ -18,21 +18,6 @@ def misfit(displacement):
     return Fit(Displacements(POINTS, np.asarray(displacement)), (), Model({}, AXES, lambda *_: None))
 
 
-def test_residuals_are_shares_of_the_largest_measurement_and_come_back_in_metres():
-    measured = MODEL * [1.0, 1.0, 1.25]
-    measured[1, 2] = np.nan
-    slope = np.arange(9.0).reshape(3, 3)
-    one = misfit(measured)
-    residuals, slopes = one.residuals(Prediction(MODEL, [slope, 2.0 * slope]))
-    scale = 1.25 * 1.1e-2
-    given = np.isfinite(measured)
-    np.testing.assert_allclose(residuals, (MODEL - measured)[given] / scale)
-    np.testing.assert_allclose(slopes, np.stack([slope[given], 2.0 * slope[given]], axis=1) / scale)
-    back = one.per_point(residuals)
-    np.testing.assert_allclose(back[given], (MODEL - measured)[given], atol=1e-18)
-    np.testing.assert_array_equal(np.isnan(back), ~given)
-
-
 @pytest.mark.parametrize(
     ("factors", "opposite"),
     [

@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 
 import fem_reference
 import lumped
-from comparisons.identification import c3d
+from comparisons.identification import point_files as c3d
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, read
 from comparisons.models.spec import Lattice

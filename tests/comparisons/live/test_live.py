@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from commands import run
 from live_server import got, posted, serving
+from matrix_rows import pairwise, require_balanced
 from terminals import COMMAND, Terminal
 
 import sheetbench as sb
@@ -21,6 +22,7 @@ from comparisons.live import server
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
+from sheetbench import load
 from sheetbench.answers.solution import Status
 from sheetbench.choices import CALIBRATIONS
 from sheetbench.errors import BadInput
@@ -159,7 +161,7 @@ def test_answers_are_those_of_compare(address, panel):
 
 
 def test_there_is_no_error_where_the_lattice_has_no_answer(panel, monkeypatch):
-    question = panel.first()
+    question = panel.read(query_of(panel, 0))
     found = replace(server.solved(SCENE, question), status=Status.DIVERGED)
     monkeypatch.setattr(server, "solved", lambda *_: found)
     assert server.shell(SCENE, question)["error"] is None
@@ -263,8 +265,34 @@ def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is
     panel = Panel(scene, elements=2, lattice=Lattice(5))
     assert {"young_1", "young_2", "angle", "patch1.young", "loads"} <= set(panel.sliders)
     assert "uniform" not in panel.calibrations
-    question = panel.first()
+    question = panel.read(query_of(panel, 0))
     turned = {**question.values, "angle": 0.5, "loads": 2.0}
     moved = panel.scene_of(question.model_copy(update={"values": turned}))
     assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0
     assert server.shell(moved, question)["error"] < 0.2
+
+
+PANEL = Panel(load("curved-edge"), 2, Lattice(3, "uniform", k=550.0))
+FEW = {"grid": (3, 4), "elements": (2, 3)}  # larger ones answer alike, later
+ENDS = [
+    tuple((name, value) for value in FEW.get(name, (slider.low, slider.high)))
+    for name, slider in PANEL.sliders.items()
+]
+ROWS = pairwise([*ENDS, tuple(("calibration", name) for name in PANEL.calibrations)])
+
+
+@pytest.mark.sweep(6)
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: " ".join(f"{name}={value}"[:24] for name, value in row))
+def test_every_pair_of_ends_has_an_answer_or_a_reason(row):
+    values = dict(row)
+    message = json.dumps({"number": 1, "calibration": values.pop("calibration"), "values": values})
+    question = PANEL.read(message)
+    try:
+        scene = PANEL.scene_of(question)
+        solution = server.solved(scene, question)
+    except BadInput as error:
+        assert 0 < len(str(error)) < 300
+        return
+    require_balanced({**solution.document(scene), "label": solution.label})
+    said = json.dumps(server.lattice(scene, question), allow_nan=False)
+    assert f'"status": "{solution.status}"' in said

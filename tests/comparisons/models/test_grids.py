@@ -10,8 +10,7 @@ from commands import json_of, one_line, run
 import lumped
 from comparisons.models.grids import parse_grid
 from fem_reference.surface.mesh import divisions
-from sheetbench.face import solve
-from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable, load
+from sheetbench.scenes import BadInput, Clamped, Scene, Sheet, SpringTable
 from sheetbench.scenes.objects.grid import grid_of, near_square
 
 LONG = Sheet(length_x=0.2, length_y=0.1, thickness=0.003)
@@ -84,19 +83,6 @@ def pasted(grid, tmp_path, capsys):
     assert (tmp_path / "out" / "springs.toml").read_text(encoding="utf-8") == springs
     path.write_text(TEXT + springs)
     return path
-
-
-def test_pasted_springs_bring_their_grid(tmp_path, capsys):
-    scene = load(pasted("9x9", tmp_path, capsys))
-    assert scene.springs is not None and scene.springs.grid == (9, 9, 2)
-    springs = lumped.calibrate(LONG, RUBBER, (9, 9))
-    found = lumped.given(scene)
-    assert (found.grid, found.springs, found.masses) == (springs.grid, springs.springs, springs.masses)
-    for own in (lumped.solve(scene), solve(scene, "lumped"), solve(scene, "lumped", grid=(9, 9))):
-        assert own.settings["grid"] == [9, 9, 2]
-        np.testing.assert_array_equal(own.displacement(END), lumped.solve(scene, springs).displacement(END))
-    half = scene.model_copy(update={"springs": springs.springs})  # springs alone go with any grid
-    assert lumped.given(half).grid == (17, 9, 2)
 
 
 @pytest.mark.parametrize("verb", ["compare", "modes", "simulate"])

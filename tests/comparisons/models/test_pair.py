@@ -71,13 +71,6 @@ def test_where_one_of_two_is_no_equilibrium_the_finer_stands_alone():
     assert found.displacement(points) == pytest.approx(alone(scene, 5).displacement(points))
 
 
-def test_grading_is_of_both_grids():
-    found = solve(load("curved-edge"), "lumped-pair", grid=5, grading="auto", symmetry=True)
-    assert found.settings["grading"] == 0.3
-    assert found.settings["coarser"] == [3, 3, 2]
-    assert "layer" in found.settings["grading_reason"] or "edge" in found.settings["grading_reason"]
-
-
 def test_the_bar_stands_in_the_comparison():
     other = spec_of("lumped-pair", {"grid": 5, "coarser": 3})
     found = compare("two-edges-clamped", Lattice(5, "consistent"), elements=2, models=[other])

@@ -38,14 +38,6 @@ def test_both_models_agree_and_files_are_left(tmp_path, capsys):
     assert np.abs(np.abs(first) - np.abs(second)).max() < 0.02 * np.abs(second).max()
 
 
-def test_a_free_sheet_has_its_rigid_motions_left_out():
-    scene = scenes.load("one-edge-clamped").model_copy(update={"supports": ()})
-    found = spectra(scene, Lattice((7, 7, 2)), count=3, elements=4)
-    assert [spectrum.rigid for spectrum in found] == [6, 6]
-    assert found[0].frequencies[0] == pytest.approx(found[1].frequencies[0], rel=0.1)
-    assert any("rigid-body modes" in said for said in found.report().notes)
-
-
 def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs():
     found = spectra(STRIP, count=6, elements=8)
     lattice, shell = (spectrum.frequencies for spectrum in found)

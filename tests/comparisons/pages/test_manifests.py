@@ -34,15 +34,3 @@ def test_a_manifest_of_another_shape_costs_a_sentence(tmp_path, capsys, damaged)
     said = capsys.readouterr()
     assert "1 study in" in said.out
     assert "odd/manifest.json: damaged, cannot be read: " in said.err and "Traceback" not in said.err
-
-
-@pytest.mark.sweep
-@pytest.mark.parametrize("key", ["notes", "warnings", "findings", "solutions", "scene", "errors"])
-@pytest.mark.parametrize(
-    "value", [5, "text", {"a": None}, [None], [[1]], 10**400], ids=lambda value: str(value)[:9]
-)
-def test_a_document_of_another_shape_costs_a_sentence_at_most(tmp_path, capsys, key, value):
-    (tmp_path / "manifest.json").write_text(json.dumps({"runs": {"compare": RUN}}))
-    (tmp_path / "comparison.json").write_text(json.dumps({"solutions": [], key: value}))
-    assert run("report", str(tmp_path)) == 0
-    assert "Traceback" not in capsys.readouterr().err

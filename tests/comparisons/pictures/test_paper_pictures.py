@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 import pytest
 from commands import run
-from fake_solutions import solution
+from fake_solutions import history, solution
 from matplotlib.figure import Figure
 
 from comparisons.comparison import figure as comparing
@@ -17,8 +17,8 @@ from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.spec import Lattice
+from comparisons.modes import figure as responding
 from comparisons.modes import figure as swinging
-from comparisons.modes import state_figure as responding
 from comparisons.modes.spectra import spectra
 from comparisons.modes.state_space import linearise
 from comparisons.sweep.solved import Ask
@@ -31,8 +31,6 @@ from fem_reference.verification.rows import relatively
 from sheetbench import scenes
 from sheetbench.answers import history_figure as moving
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
-from sheetbench.answers.history import ENERGIES, History
-from sheetbench.answers.solution import Status
 from sheetbench.answers.style import STYLE, save
 from sheetbench.errors import BadInput
 
@@ -60,10 +58,6 @@ def comparison(scene):
 def composed(scene, comparison):
     time = np.linspace(0.0, 1.0, 5)
     moved = {"tip": np.outer(time, [0.0, 0.0, 1e-3])}
-    energies = dict.fromkeys(ENERGIES, time)
-    history = History(
-        "lumped", "verlet", {}, Status.CONVERGED, "", time, moved, energies, {}, {}, 4, 0.0, 0.0
-    )
     rows = [
         TradeoffRow(
             Ask(scene, Lattice((n, n, 2), "consistent")), "converged", error=0.1 / n,
@@ -81,10 +75,10 @@ def composed(scene, comparison):
     swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
-        "history": partial(moving.compose, history, scene.title, {}),
+        "history": partial(moving.compose, history(time, moved), scene.title, {}),
         "tradeoff": partial(trading.compose, trade),
         "locking": partial(locking.compose, locked),
-        "responses": partial(responding.compose, linear),
+        "responses": partial(responding.responses, linear),
         "modes": partial(swinging.compose, swings),
     }
 
@@ -105,6 +99,7 @@ def test_what_a_figure_may_be():
 NAMES = ("probes", "history", "tradeoff", "locking", "responses", "modes")
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", NAMES)
 def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name):
     with matplotlib.rc_context(STYLE):

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from commands import run
 
-from comparisons.reproduction import figure, nearest
+from comparisons.reproduction import findings
 from comparisons.reproduction.answers import answer, published, scene
-from comparisons.reproduction.printed_errors import Cell, cells, means
+from comparisons.reproduction.printed_errors import cells, means
 from comparisons.reproduction.reproduction import Reproduction, reproduce
 from comparisons.reproduction.settling import settling
 from sheetbench.answers.habibi import published_inputs
@@ -87,14 +87,9 @@ def test_every_printed_error_is_of_the_larger_value():
     assert mean["printed"] == pytest.approx(0.0492, abs=5e-5) and mean["of_experiment"] > mean["printed"]
 
 
-def test_a_printed_error_of_neither_is_said_to_be():
-    cell = Cell(1, "ux", "P1", 0.09, 0.0571, 0.0606, 0.0571, "neither", "")
-    assert cell.changes and not cell.by_larger
-
-
 def test_what_is_kept_of_the_nearest_sheets_says_where_it_comes_from():
-    stored = nearest.stored()
-    assert "at commit f525c8e5" in stored["made"] and stored["made"] in nearest.table().text
+    stored = findings.stored()
+    assert "at commit f525c8e5" in stored["made"] and stored["made"] in findings.nearest_table().text
     for fit in stored["fits"]:
         assert 0 <= fit["met"] < fit["entries"] and 0.0 < fit["rms"] < fit["error"]
     text = " ".join(one["finding"] for one in stored["findings"])
@@ -125,8 +120,3 @@ def test_the_verb_writes_a_page_and_says_what_it_found(tmp_path, capsys):
     assert page.startswith("# The study of Habibi et al., reproduced") and "model \\*" in page
     assert json.loads((tmp_path / "reproduction.json").read_text())["parts"] == ["errors"]
     assert (tmp_path / "errors.csv").read_text().count("\n") == 25
-
-
-def test_every_source_has_a_mark_and_a_colour_of_its_own():
-    marks = [*figure.PUBLISHED.values(), *figure.OURS]
-    assert all(len(set(each)) == len(marks) for each in zip(*marks, strict=True))

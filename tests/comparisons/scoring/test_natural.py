@@ -1,7 +1,9 @@
-"""Cases that are not flat at rest: the kept values beside closed forms, which their bars must cover."""
+"""Cases that are not flat at rest, and of contact: the kept values beside closed forms and shooting, which
+their bars must cover."""
 
 import numpy as np
 import pytest
+from contact_cases import CYLINDER_TIP, laid_shape
 
 from comparisons.scoring.reference import references
 
@@ -40,13 +42,6 @@ def test_bimetal_strip_has_timoshenkos_curvature():
     assert end / middle == pytest.approx(2.0, abs=0.25)
 
 
-def test_band_lifts_its_end_against_the_weight():
-    known = references("natural")["muscle-band"]
-    middle, end = known.values[0, 2], known.values[2, 2]
-    assert middle < 0.0 < end
-    assert known.scene.material.young == 20e6
-
-
 def test_heated_plate_has_buckled():
     """Far over what its weight alone would bend it by: 0.00406 w a⁴/B of a hinged square plate."""
     known = references("natural")["heated-plate"]
@@ -55,3 +50,41 @@ def test_heated_plate_has_buckled():
     stiffness = young * thickness**3 / 12.0 / (1.0 - poisson**2)
     by_weight = 0.00406 * scene.material.density * thickness * 9.81 * scene.sheet.length_x**4 / stiffness
     assert -known.values[0, 2] > 20.0 * by_weight
+
+
+PROBES = references("contact")["pressed"].scene.probes
+
+
+@pytest.mark.parametrize("drop", [0.05, 0.2])
+def test_laid_strips_are_the_heavy_elastica(drop):
+    known = references("contact")[f"laid-{drop:g}"]
+    exact = laid_shape(drop, [x for x, _ in PROBES.values()])
+    off = np.abs(known.values[:, [0, 2]] - exact).max()
+    assert off < known.bar * np.abs(exact).max()
+    lying = exact[:, 1] == -drop
+    assert lying.any()
+    assert known.values[lying, 2] == pytest.approx(-drop, rel=1e-6)
+
+
+def test_strip_over_a_cylinder_is_the_elastica():
+    known = references("contact")["over-cylinder"]
+    tip = list(PROBES).index("P4")
+    assert abs(known.values[tip, 2] - CYLINDER_TIP) < known.bars[tip, 2]
+
+
+def test_pressed_strip_touches_the_plate_where_it_came_to():
+    known = references("contact")["pressed"]
+    plate = known.scene.obstacles[0]
+    surface = plate.position[2] + plate.displacement(1.0)[2] - known.scene.sheet.thickness / 2.0
+    assert surface == pytest.approx(0.15)
+    heights = known.values[:, 2]
+    assert heights[-1] == pytest.approx(surface, rel=1e-6)
+    assert (heights[:-1] < surface).all()
+
+
+def test_the_lattice_agrees_within_half_a_percent():
+    """17 masses across: an independent model, whose own errors are as large."""
+    for suite in ("natural", "contact"):
+        for known in references(suite).values():
+            (lattice,) = [one for one in known.judges if one["model"] == "lumped"]
+            assert lattice["error"] < 5e-3, known.name

@@ -2,19 +2,14 @@
 
 import csv
 import json
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
 from commands import json_of, one_line, run
 
 from comparisons.scoring.answers import HEADERS
-from comparisons.scoring.reference import Reference, references
+from comparisons.scoring.reference import references
 from comparisons.scoring.score import score
-
-Change = Callable[[Reference, np.ndarray], np.ndarray]
-Write = Callable[..., Path]
 
 
 @pytest.fixture
@@ -96,19 +91,6 @@ def test_faults_are_named(write, change, said, capsys):
     printed = capsys.readouterr()
     assert said in " ".join(printed.err.split())
     assert json.loads(printed.out)["faults"] == found.faults
-
-
-def test_faults_at_once_are_named_each(write):
-    faults = score(write(change=lambda case, u: 1000.0 * u[[1, 0, 2, 3]] * [1, 1, -1])).faults
-    assert any("1000 times" in said for said in faults) and any("opposite sign" in said for said in faults)
-    assert any("P1 and P2 look swapped" in said for said in faults)
-
-
-def test_a_model_that_is_merely_bad_has_no_fault(write):
-    """0.6 to 1.4 times each value, as a poor calibration has it: an error, not a slip."""
-    noise = np.random.default_rng(0)
-    found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4, u.shape)))
-    assert not found.faults and found.score > 0.1
 
 
 @pytest.mark.parametrize(
@@ -261,11 +243,12 @@ def test_the_verdict_comes_first_and_says_what_is_off_throughout(write, suite, f
 def test_noise_is_no_stiffness(write):
     noise = np.random.default_rng(0)
     found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4)))
-    assert found.document()["stiffer"] is None
+    assert found.document()["stiffer"] is None and not found.faults
     slipped = score(write(change=lambda case, u: 1e3 * u))
     assert "1000 times" in slipped.report().lead
 
 
+@pytest.mark.nightly
 def test_the_sheet_and_the_picture(write, tmp_path):
     out = tmp_path / "out"
     assert run("score", str(write(seconds=0.02)), "--case", "thick", "--out", str(out)) == 0

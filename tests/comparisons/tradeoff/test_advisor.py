@@ -110,14 +110,6 @@ def test_the_choice_meets_the_tolerance(name, tolerance):
     assert actual_error(advice) <= tolerance
 
 
-def test_a_loose_tolerance_costs_no_more_than_a_tight_one():
-    scene = scenes.load("curved-edge")
-    loose, tight = advise(scene, 0.05), advise(scene, 0.003)
-    assert loose.seconds is not None and tight.seconds is not None
-    assert loose.seconds < tight.seconds
-    assert tight.choice is not None and tight.choice.model == "shell"
-
-
 def test_lattices_are_tried_with_what_auto_chooses():
     """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
     nearer than the usual ones on the same grid, and the advice says why, or why not."""
@@ -137,13 +129,10 @@ def test_lattices_are_tried_with_what_auto_chooses():
     assert all(errors[grid, 0.0] < usual[grid] for grid in both if grid[0] > 3)
     assert curved.calibration.endswith("ν = 0.48 is above 0.4")
     assert curved.calibration.startswith("calibration consistent-membrane")
-    assert curved.document()["calibration"] == curved.calibration
     assert "bent by 4 1/m" in curved.grading and curved.document()["grading"] == curved.grading
     taken = spec_of("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
     line = replace(curved, choice=taken).report().document["command"]
     assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"
-    line = replace(curved, choice=taken.but(calibration="consistent-membrane")).report().document["command"]
-    assert line.endswith("--lumped 9x9x2 --calibration consistent-membrane --grading 0.3")
 
 
 def test_the_advice_says_why_nothing_is_graded():
@@ -183,13 +172,6 @@ def test_a_scene_with_actuators():
     assert actual_error(advice) <= 0.05
 
 
-def test_the_document_has_the_promised_keys(capsys):
-    document = json_of(capsys, "tradeoff", "one-edge-clamped", "--tolerance", "0.02")
-    assert set(document["choice"]) == {"model", "settings"}
-    assert document["predicted"]["error"] <= 0.02 and document["predicted"]["solve_seconds"] > 0
-    assert "bending" in document["needs"]
-
-
 def test_the_printed_command_solves_the_choice(capsys, monkeypatch):
     advice = json_of(capsys, "tradeoff", "curved-edge", "--tolerance", "0.02")
     solved: list[Spec] = []
@@ -226,16 +208,6 @@ def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law, said):
         there = pulled((pull * 1e6 * 0.002, 0.0), strip.sheet, material)
         moved = answer(resolve(there, Lattice(9, "consistent")))
         assert moved.displacement([[0.2, 0.1]])[0, 0] / (0.2 * stretch) == pytest.approx(0.98, abs=2e-3)
-
-
-def test_an_unstable_scene_gets_no_choice_but_the_reason():
-    base = scenes.load("one-edge-clamped")
-    upright = base.model_copy(
-        update={"gravity": Gravity(acceleration=(-200.0, 0.0, 0.0)), "supports": (Clamped(edge="x0"),)}
-    )
-    advice = advise(upright, 0.01)  # a sheet that stands on its edge and is too heavy to
-    assert advice.choice is None and not advice.succeeded
-    assert "unstable" in advice.message
 
 
 def test_one_rule_says_what_a_tolerance_is_held_against():

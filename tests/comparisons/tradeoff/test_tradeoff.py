@@ -2,15 +2,10 @@
 
 import csv
 import json
-import signal
-import subprocess
-import sys
-from pathlib import Path
 
-import campaigns
 import numpy as np
 import pytest
-from campaigns import Here, rows_in
+from campaigns import Here
 from cases import sheet
 from commands import run
 from matplotlib.figure import Figure
@@ -23,7 +18,6 @@ from comparisons.sweep.campaign import campaign
 from comparisons.sweep.columns import field_points
 from comparisons.sweep.peak_memory import with_peak_memory
 from comparisons.sweep.solved import Ask, Solved
-from comparisons.sweep.store import FILE
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.answer import Tradeoff, folded
 from comparisons.tradeoff.figure import compose, logarithmic
@@ -38,23 +32,6 @@ SMALL = [
     *("tradeoff", "two-edges-clamped", "--lumped", "3,5", "--calibration", "consistent,uniform"),
     *("--plate", "", "--shell", "2,4", "--solid", "", "--elements", "8", "--repeats", "2"),
 ]
-KILLED = """
-import os, signal, sys
-sys.path.insert(0, {here!r})
-from campaigns import Here
-from comparisons.cli import main
-from comparisons.sweep import campaign, executors
-from comparisons.sweep.store import Store
-campaign.carry_out.__kwdefaults__["pool"] = executors.processes = Here
-kept, add = [], Store.add
-def add_and_die(store, task, arguments, outcome):
-    add(store, task, arguments, outcome)
-    kept.append(outcome)
-    if len(kept) == 4:
-        os.kill(os.getpid(), signal.SIGKILL)
-Store.add = add_and_die
-main()
-"""
 
 
 @pytest.fixture(scope="module")
@@ -64,20 +41,11 @@ def scene():
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
-    """The folder of a small trade-off, killed once in the middle, resumed, and requested once more."""
+    """The folder of a small trade-off."""
     folder = tmp_path_factory.mktemp("tradeoff")
-    arguments = [*SMALL, "--out", str(folder)]
-    killing = KILLED.format(here=str(Path(campaigns.__file__).parent))
-    killed = subprocess.run([sys.executable, "-c", killing, *arguments], stderr=subprocess.DEVNULL)
-    assert killed.returncode == -signal.SIGKILL
-    kept = rows_in(folder / FILE)
-    assert len(kept) == 4
     with pytest.MonkeyPatch.context() as patch:
         run_here(patch)
-        assert run(*arguments) == 0
-    after = rows_in(folder / FILE)
-    assert len(after) == 9
-    assert {key: after[key] for key in kept} == kept  # time stamps and all
+        assert run(*SMALL, "--out", str(folder)) == 0
     return folder
 
 
@@ -133,7 +101,7 @@ def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(scene, monkey
     assert (found.rows[0].error is not None) == (found.rows[0].field_error is not None) == known
 
 
-def test_killed_and_resumed_tradeoff_has_all_its_rows(finished):
+def test_a_tradeoff_has_all_its_rows(finished):
     document = json.loads((finished / "tradeoff.json").read_text(encoding="utf-8"))
     rows = document["rows"]
     assert [row["model"] for row in rows] == ["lumped"] * 4 + ["shell"] * 2

@@ -7,7 +7,7 @@ from dynamic_cases import springs
 
 import fem_reference
 import lumped
-from fem_reference.discrete.drag import Drag
+from fem_reference.discrete.items import Drag
 from fem_reference.sheets import shell
 from sheetbench.scenes import Air, Gravity
 

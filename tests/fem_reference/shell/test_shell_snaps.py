@@ -10,7 +10,6 @@ from scipy.optimize import minimize_scalar
 
 import lumped
 from comparisons.comparison.comparison import error
-from fem_reference.discrete.course import Ramp
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell import statics as shell
@@ -107,7 +106,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     sheet.supports = replace(sheet.supports, turning=(closer,))
     point = np.array([at * SIDE, WIDTH / 2])
     dead = point_force(sheet.plan, point, np.array([0.0, 0.0, -1.5 * LIMIT]))
-    sheet.items.append(Dead(sheet.on_coordinates(dead), Ramp()))
+    sheet.items.append(Dead(sheet.on_coordinates(dead), float))
     moved, turned = np.zeros((2, len(nodes), 3))
     moved[:, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)
     phase, high = np.pi * nodes[:, 0] / SIDE, bent * height(shorter)

@@ -35,7 +35,7 @@ def test_factors_of_a_large_lattice_take_no_library(problem, monkeypatch):
         tracemalloc.stop()
     matrix = factors.matrix
     # the factors and the matrix; in the making what fronts leave waits beside them, and the widest front
-    assert held < 8 * problem.system._fronts().kept[-1] + 1.1 * matrix.data.nbytes
+    assert held < 8 * problem.system._fronts.kept[-1] + 1.1 * matrix.data.nbytes
     assert peak < 2.5 * held
     b = np.random.default_rng(3).standard_normal(matrix.shape[0])
     assert np.abs(matrix @ factors.solve(b) - b).max() < 1e-9

@@ -5,8 +5,8 @@ import pytest
 import sheetbench as sb
 from sheetbench.errors import SceneError
 from sheetbench.scenes import PointLoad, load
+from sheetbench.scenes.meaning.composition import weights
 from sheetbench.scenes.meaning.parameters import parameter, put
-from sheetbench.scenes.meaning.payloads import weights
 from sheetbench.scenes.meaning.plausibility import slips
 from sheetbench.scenes.meaning.words import in_words
 

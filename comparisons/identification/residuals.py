@@ -1,4 +1,4 @@
-"""Residuals: the runs test for noise, and rows that do not fit.
+"""Residuals: the runs test for noise, rows that do not fit, and warnings about a fit.
 
 Independent noise gives two neighbouring residuals the same sign as often as not. Neighbours are consecutive
 samples of a motion at one point, and points joined by the minimal spanning tree of the plan at rest. A tree
@@ -14,6 +14,7 @@ off. Up to MOST rows are tried in turn, one in FEWEST at most.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +25,12 @@ from scipy.special import bdtrc
 
 from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.measurements import MOVED, Displacements, Measured
+from comparisons.identification.unknowns import Estimate
+from fem_reference.pulled_strip import curving, laws_of
+from sheetbench.answers.table import quantity
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.scenes import Scene
+from sheetbench.scenes.language.summary import few
 
 UNLIKELY = 1e-3  # probability below which as many equal signs are not noise
 SMALL = 2e-3  # standard deviation of residuals, of the largest measurement, below which no test is made
@@ -136,3 +143,91 @@ def _named(measured: Displacements, residuals: np.ndarray, row: int) -> Outlier:
     worst = int(np.argmax(np.nan_to_num(np.abs(residuals[row]))))
     value = float(measured.displacement[row, worst])
     return Outlier(row, measured.name_of(row), MOVED[worst], value, value + float(residuals[row, worst]))
+
+
+NOTED = 0.01  # share of the force from which on it is reported
+RUBBERS = "neo-hookean"
+CELLS = "cells half as large"
+
+
+def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list[str]:
+    """Return the rows that do not fit, and the values without them."""
+    if not odd:
+        return []
+    values = "; ".join(
+        f"{name} = {quantity(u.value, u.unit)}, 95 % {quantity(u.interval[0], u.unit)} to "
+        f"{quantity(u.interval[1], u.unit)}"
+        for name, u in without.items()
+    )
+    rows = "this row" if len(odd) == 1 else "these rows"
+    return [f"{'; '.join(map(str, odd))}. Is it a mistake? Without {rows}: {values}"]
+
+
+def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
+    """Return why residuals are more than noise, and what may be done."""
+    names = ", ".join(u.name for u in fit.unknowns)
+    tried = f"the best of {starts} starts" if starts > 1 else "the search"
+    deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
+    size = f"{tried} leaves residuals of {deviation}, {few(100 * best.noise)} % of the largest measurement"
+    if best.noise > POOR:
+        turned = " and ".join(fit.turned(best.residuals))
+        return [
+            f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
+            + (f": the measured {turned} have the opposite sign of the model's" if turned else "")
+        ]
+    if explained(best.noise, left):
+        return []
+    return [
+        f"not explained: {size}, and are not noise: {left}. Something is missing in the model (supports, "
+        "loads, an unknown, finer cells), and the interval, which assumes noise, is too narrow",
+    ]
+
+
+def on_bounds(fit: Fit, best: Nearest) -> list[str]:
+    """Return the unknowns that ended at a bound of the search."""
+    return [
+        f"{u.name} hit its search bound {quantity(u.value(x), u.unit)}: the data do not constrain it"
+        for u, x, active in zip(fit.unknowns, best.x, best.against_bounds, strict=True)
+        if active
+    ]
+
+
+def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str]:
+    """Return what the lattice's cells, or the elements of another model, do to the values."""
+    lattice = model == "lumped"
+    other, error = (CELLS, "grid's") if lattice else ("elements twice as large", "mesh's")
+    seen = [u for u in found.values() if u.determined]
+    if looked and seen and all(u.interval == u.noise_interval for u in seen):
+        return [f"{other} could not be solved: the {error} error is not known, nor in the interval"]
+    more = "masses (--lumped), or leave the grid to the fit" if lattice else "--elements"
+    finer = {
+        name: "" if u.refined is None else f" would be {quantity(u.refined, u.unit)} on {CELLS}"
+        for name, u in found.items()
+        if u.determined and _wide(u)
+    }
+    rest = f"most of its interval is the {error} error; take more {more}"
+    return [f"{name}{value}: {rest}" for name, value in finer.items()]
+
+
+def on_law(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
+    """Return a sentence where laws of strain differ at the largest stretch of the sheet with the values
+    found."""
+    material = scene.material
+    own = law or material.law or STRAIN_LAW
+    differences = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}
+    other = max(differences, key=lambda name: differences[name])
+    off = differences[other] * (stretch or 0.0)
+    if off <= NOTED:
+        return []
+    remedy = f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
+    remedy = "" if own in (RUBBERS, material.law) else remedy
+    return [
+        f"values are those of the law {own}: at {few(100.0 * (stretch or 0.0))} % stretch, as here, the "
+        f"force of {other} is some {few(100.0 * off)} % another{remedy}"
+    ]
+
+
+def _wide(found: Estimate) -> bool:
+    """Return whether the grid widens an interval to more than twice the noise's."""
+    whole, noise = np.ptp(found.interval), np.ptp(found.noise_interval)
+    return bool(whole > 2.0 * noise and whole > 1e-2 * abs(found.value))

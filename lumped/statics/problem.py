@@ -171,7 +171,7 @@ class Problem:
         """Return the residual at u."""
         others = self.assembly.coupling is not None or self.assembly.natural is not None or self.items
         flat = not (others or u.any())  # where springs are at rest
-        internal = np.zeros_like(u) if flat else self.internal(u, load_factor)[1]
+        internal = np.zeros(u.shape) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:

@@ -71,7 +71,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         return self.problem.multipliers
 
     def rest(self) -> LatticeState:
-        return LatticeState(np.zeros_like(self.problem.loads.dead), 0.0)
+        return LatticeState(np.zeros(self.problem.loads.dead.shape), 0.0)
 
     def start(self, u: np.ndarray) -> Start[LatticeState]:
         """Return the start at full load beside a displacement (n, 3) [m]."""

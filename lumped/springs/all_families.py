@@ -65,7 +65,8 @@ class AllFamilies:
         found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
         where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
-        arrays = SpringArrays(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_), where)
+        layers, middle, faces = (CellArrays(*parts) for parts in cells_)
+        arrays = SpringArrays(LinkArrays(*links_), layers, middle, faces, where)
         self.springs, self._found, self._pattern = typed(arrays), found, pattern
         self._cells = {at: family for at, family in found.items() if isinstance(family, SpringCells)}
         self._others = [family for place, family in found.items() if place < 0]

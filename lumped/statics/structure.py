@@ -123,6 +123,13 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     ) -> LatticeState:
         return self.problem.advance(state.u, step, load_factor, forces.moved)
 
+    def correct(
+        self, state: LatticeState, forces: LatticeForces, load_factor: float, count: Count
+    ) -> tuple[Factor, np.ndarray, np.ndarray, LatticeState] | None:
+        if self._iterates or state.stresses is None or state.load_factor != load_factor:
+            return None
+        return self.problem.correct(state, forces.residual.reduced, count)
+
     def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
         return state._replace(stresses=of.stresses)
 

@@ -151,15 +151,11 @@ class DiscreteShell(DiscreteElements):
         step = np.concatenate(
             [np.where(self.supports.position, change[0], 0.0), to_unit(self.directors(shape.q))]
         )
-        held = self._held_directors
+        held = np.flatnonzero(self.supports.director)
         step[n + held] = change[1][held]
         if self.bodies:
             step[2 * n :][self.rods.bound.held] = -shape.q[6 * n :].reshape(-1, 3)[self.rods.bound.held]
         return step.ravel()
-
-    @cached_property
-    def _held_directors(self) -> np.ndarray:
-        return np.flatnonzero(self.supports.director)
 
     def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
         n, tilt = self.nodes, self.supports.tilt

@@ -2,6 +2,7 @@
 solver gets them."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -54,7 +55,7 @@ def carried_out(runs, *_, **__):
 
 
 @pytest.fixture(autouse=True)
-def caught(monkeypatch):
+def caught(monkeypatch, tmp_path):
     for name in CONSUMERS:
         monkeypatch.setattr(lumped, name, used)
     monkeypatch.setattr(solved, "carry_out", carried_out)
@@ -62,79 +63,70 @@ def caught(monkeypatch):
     monkeypatch.setattr(lumped, "explicit_limit", lambda *_: 1.0)
     for module in (solvers, task):
         monkeypatch.setattr(module, "warm", lambda _: None)
-    monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, _of_panel(panel)))
+    monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, of_panel(panel)))
+    monkeypatch.chdir(tmp_path)
+    Path("measured.csv").write_text(FILE, encoding="utf-8")
 
 
-def _of_panel(panel):
+def of_panel(panel):
     return resolve(panel.scene, panel.first().lattice).springs
 
 
-def verb(name, *others):
+def verb(words):
     """The command line with the options of a lattice."""
 
-    def ask(scene, folder, **options):
+    def ask(scene, **options):
         flags = {f"--{key.replace('_', '-')}": options[key] for key in options}
-        more = [part.format(scene=scene, folder=folder) for part in others]
-        run(name, *more, *(str(part) for pair in flags.items() for part in pair))
+        run(*words.format(scene).split(" "), *(str(part) for pair in flags.items() for part in pair))
 
     return ask
 
 
-def python(ask):
+def python(function, *given, **fixed):
     """A function of the package: a grid as text is a number there, or numbers."""
 
-    def call(scene, folder, grid=None, **options):
+    def call(scene, grid=None, **options):
         shape = {} if grid is None else {"grid": int(grid) if str(grid).isdigit() else grid}
-        found = ask(sb.load(scene), folder, **shape, **options)
+        found = function(sb.load(scene), *given, **fixed, **shape, **options)
         if isinstance(found, lumped.Calibration):
             raise Used(found)
 
     return call
 
 
-def of_advice(scene, folder, **options):
+def of_advice(scene, **options):
     """Of the last lattice of 9 × 9 masses that may be chosen."""
     found = TrialSolves(scene, Lattice(**options), ["lumped"]).candidates(linear=False)
     (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
     return resolve(scene, last).springs
 
 
-def listed(scene, folder, grid=9, calibration="consistent", **options):
+def listed(scene, grid=9, calibration="consistent", **options):
     return sb.tradeoff(scene, grid=[grid], calibration=[calibration], shell=(), **options)
 
 
-MEASURED = ("--measured", "{folder}/measured.csv", "--unknown", "thickness")
 FILE = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
 GRIDS = WORDS - {"k", "layer_distance"}
 VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
-    "compare": (verb("compare", "{scene}"), WORDS),
-    "simulate": (verb("simulate", "{scene}", "--duration", "0.01"), WORDS),
-    "modes": (verb("modes", "{scene}"), WORDS),
-    "state space": (verb("modes", "{scene}", "--state-space", "20"), WORDS),
-    "identify": (verb("identify", "{scene}", *MEASURED), WORDS),
-    "calibrate": (verb("calibrate", "{scene}", "--export", "{folder}/lattice"), WORDS),
-    "tradeoff of a motion": (verb("tradeoff", "{scene}", "--duration", "0.01"), WORDS),
-    "tradeoff": (verb("tradeoff", "{scene}", "--shell", "", "--solid", "", "--plate", ""), WORDS),
-    "crosscheck": (verb("crosscheck", "{scene}", "--grid", "9,13", "--shell", ""), WORDS - {"grid"}),
+    "compare": (verb("compare {}"), WORDS),
+    "simulate": (verb("simulate {} --duration 0.01"), WORDS),
+    "modes": (verb("modes {}"), WORDS),
+    "state space": (verb("modes {} --state-space 20"), WORDS),
+    "identify": (verb("identify {} --measured measured.csv --unknown thickness"), WORDS),
+    "calibrate": (verb("calibrate {} --export lattice"), WORDS),
+    "tradeoff of a motion": (verb("tradeoff {} --duration 0.01"), WORDS),
+    "tradeoff": (verb("tradeoff {} --shell= --solid= --plate="), WORDS),
+    "crosscheck": (verb("crosscheck {} --grid 9,13 --shell="), WORDS - {"grid"}),
     "advise": (python(of_advice), WORDS - {"grid"}),
-    "live": (verb("live", "{scene}", "--no-browser"), GRIDS),
-    "sb.solve": (python(lambda scene, _, **own: sb.solve(scene, **own)), WORDS),
-    "sb.compare": (python(lambda scene, _, **own: sb.compare(scene, **own)), WORDS),
-    "sb.compare of a motion": (
-        python(lambda scene, _, **own: sb.compare(scene, duration=0.01, **own)),
-        WORDS,
-    ),
-    "sb.simulate": (python(lambda scene, _, **own: sb.simulate(scene, 0.01, **own)), WORDS),
-    "sb.modes": (python(lambda scene, _, **own: sb.modes(scene, **own)), WORDS),
-    "sb.modes of a state space": (
-        python(lambda scene, _, **own: sb.modes(scene, state_space=20, **own)),
-        WORDS,
-    ),
-    "sb.identify": (
-        python(lambda scene, at, **own: sb.identify(scene, at / "measured.csv", "thickness", **own)),
-        WORDS,
-    ),
-    "sb.calibrate": (python(lambda scene, _, **own: sb.calibrate(scene, **own)), WORDS),
+    "live": (verb("live {} --no-browser"), GRIDS),
+    "sb.solve": (python(sb.solve), WORDS),
+    "sb.compare": (python(sb.compare), WORDS),
+    "sb.compare of a motion": (python(sb.compare, duration=0.01), WORDS),
+    "sb.simulate": (python(sb.simulate, 0.01), WORDS),
+    "sb.modes": (python(sb.modes), WORDS),
+    "sb.modes of a state space": (python(sb.modes, state_space=20), WORDS),
+    "sb.identify": (python(sb.identify, "measured.csv", "thickness"), WORDS),
+    "sb.calibrate": (python(sb.calibrate), WORDS),
     "sb.tradeoff": (python(listed), WORDS),
 }
 ANEW = {"calibrate", "sb.calibrate", "identify", "sb.identify"}  # make the springs, whatever the scene has
@@ -145,9 +137,8 @@ UNABLE = {"live": ("5x7", "0.4:x0")}  # one number for the grid, one grading for
 
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", VERBS)
-def test_the_same_words_are_the_same_lattice(name, tmp_path):
+def test_the_same_words_are_the_same_lattice(name):
     ask, words = VERBS[name]
-    (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
     scene = sb.load(SCENE)
     for options in OPTIONS:
         if not words >= options.keys() or not set(UNABLE.get(name, ())).isdisjoint(options.values()):
@@ -155,7 +146,7 @@ def test_the_same_words_are_the_same_lattice(name, tmp_path):
         usual = {**LISTS, **({"calibration": "uniform"} if "k" in options else {})} if name in NAMED else {}
         meant = Lattice(**{**usual, **options})
         with pytest.raises(Used) as used:
-            ask(SCENE, tmp_path, **{**usual, **options})
+            ask(SCENE, **{**usual, **options})
         expected = resolve(scene, meant).springs
         assert constants(used) == constants(expected), options
 
@@ -166,19 +157,18 @@ def test_k_alone_is_the_uniform_lattice_of_that_k():
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name.startswith("sb.") and name != "sb.solve"])
-def test_a_spec_is_what_its_flat_keywords_are(name, tmp_path):
+def test_a_spec_is_what_its_flat_keywords_are(name):
     """Flat keywords beside a spec change it."""
-    (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
     spec = sb.Lattice(grid=5, calibration="uniform", k=550.0)
     expected = constants(resolve(sb.load(SCENE), spec.but(layer_distance=0.004)).springs)
     listed = {"grid": 5, "calibration": "uniform"} if name in NAMED else {}
     with pytest.raises(Used) as used:
-        VERBS[name][0](SCENE, tmp_path, **listed, lattice=spec, layer_distance=0.004)
+        VERBS[name][0](SCENE, **listed, lattice=spec, layer_distance=0.004)
     assert constants(used) == expected
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
-def test_so_are_a_scene_s_own_springs(name, tmp_path):
+def test_so_are_a_scene_s_own_springs(name):
     """Where nothing is named the scene's own [springs] are meant, but where springs are to be made; in any
     case their grid is the usual one."""
     ask, words = VERBS[name]
@@ -186,12 +176,11 @@ def test_so_are_a_scene_s_own_springs(name, tmp_path):
     springs = lumped.calibrate(plain.sheet, plain.material, grid=(4, 6), method="uniform", k=400.0)
     table = {**springs.document()["springs"], "layer_distance": springs.layer_distance, "grid": [4, 6, 2]}
     scene = plain.replace(springs=SpringTable.model_validate(table))
-    scene.save(tmp_path / "own.toml")
-    (tmp_path / "measured.csv").write_text(FILE, encoding="utf-8")
+    scene.save("own.toml")
     for options in ({}, {"calibration": "van-gelder"}, {"k": 550.0}):
         if words >= options.keys() and not (name == "live" and options):  # whose grid is the slider's
             with pytest.raises(Used) as used:
-                ask(str(tmp_path / "own.toml"), tmp_path, **options)
+                ask("own.toml", **options)
             expected = resolve(scene, Lattice(**options), own=name not in ANEW).springs
             assert constants(used) == constants(expected), options
             assert tuple(expected.grid) == (4, 6, 2)

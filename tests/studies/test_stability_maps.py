@@ -32,11 +32,6 @@ def test_other_units_of_force_change_nothing(model):
     assert row["status"] == "converged" and row["error"] < (1e-8 if model == "plate" else 1e-12)
 
 
-def test_a_family_out_of_proportion_has_an_answer_of_another_sheet():
-    row = study.out_of_proportion("axial", 10.0)
-    assert row["status"] == "converged" and row["error"] > 0.5
-
-
 def off(scene, masses, elements=12):
     """How a lattice ended beside the shell, and its error."""
     ours, shell = solve(resolve(scene, Lattice(masses))), solve(resolve(scene, Elements("shell", elements)))

@@ -93,16 +93,6 @@ def test_what_does_not_swing_has_no_period():
     assert (measured.peak, measured.period, measured.decay) == (None, None, None)
 
 
-@pytest.mark.nightly  # by day: tests/fem_reference/motion/test_moving_rods.py, of the chain's pull too
-def test_lattice_and_shell_move_alike_with_a_driven_chain():
-    """Its segments are rigid, the shell's rod is not: 0.1 to 0.2 % of the peak are the rod's."""
-    both = sb.compare("actuated-edge", duration=0.06, grid=9, elements=2, uncertainty=False)
-    (off,) = both.differences
-    assert both.succeeded and off["largest"] < 0.01
-    shell, lattice = both.histories["shell"].energies["work"], both.histories["lumped"].energies["work"]
-    assert shell[-1] == pytest.approx(lattice[-1], rel=0.02)
-
-
 def test_the_reference_has_a_bar_by_mesh_and_by_step():
     both = sb.compare("two-edges-settling", duration=0.05, **SMALL)
     assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2

@@ -53,9 +53,6 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
 @pytest.mark.parametrize(("ask", "said"), [
     (lambda scene: sb.modes(scene, sb.Lattice(symmetry=True)), "symmetry: no effect on modes"),
     (lambda scene: sb.simulate(scene, lattice=sb.Lattice(masses="gregory")), "masses: no effect on motion"),
-    (lambda scene: sb.compare(scene, duration=0.1, branch="buckled"), "branch: no effect with duration"),
-    (lambda scene: sb.compare(scene, every=0.1), "every: no effect without duration"),
-    (lambda scene: sb.compare(scene, duration=0.1, symmetry=True), "symmetry: no effect with duration"),
     (lambda scene: sb.tradeoff(scene, tolerance=0.1, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
     (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),
     (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'"),

@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from browser import browser, colours, opened, pixels  # noqa: F401
 from commands import run
@@ -73,15 +72,12 @@ def test_what_a_scene_says_stays_text(shown):
     assert "notes.xyz" in shown.locator("main").text_content()
 
 
-def test_the_sheets_are_drawn_and_turn(shown):
+def test_the_sheets_are_drawn(shown):
+    """Turned and coloured they are in test_viewer.py."""
     shown.locator(".sv-stage").scroll_into_view_if_needed()
-    first = pixels(shown, VIEW)
-    assert colours(first) > 100
-    shown.locator(VIEW).press("ArrowLeft")
-    assert (np.abs(pixels(shown, VIEW) - first) > 20).any(axis=2).mean() > 0.01
+    assert colours(pixels(shown, VIEW)) > 100
     options = shown.get_by_label("Show", exact=True).locator("option").all_text_contents()
     assert options[:3] == ["lumped and plate", "lumped", "plate"]
-    assert "Difference: lumped" in options
     shown.get_by_label("Show", exact=True).select_option("difference")
     assert "Distance from the reference [mm]" in shown.locator(".sv-legend").text_content()
 

@@ -177,11 +177,6 @@ def test_views_fields_and_what_is_under_the_pointer(page):
     assert re.search(r"Shell at [\d., ]+ mm: moved 0, 0, −[\d.]+ mm", said)
 
 
-def test_masses_without_links_are_not_drawn(page):
-    lattice = "{style: 'lattice', points: [0, 0, 0, 1, 0, 0, 2, 0, 0], lines: [0, 1]}"
-    assert page.evaluate(f"[...new (view.sheets.get('shell').constructor)({lattice}).linked]") == [0, 1]
-
-
 def test_a_motion_plays(page):
     page.get_by_label("Show", exact=True).select_option("motion")
     slider = page.get_by_label("Time")

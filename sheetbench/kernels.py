@@ -66,7 +66,7 @@ from numba.core.runtime import rtsys  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 SHIPPED = Path(__file__).resolve().parent / "compiled"
-OURS = ("lumped", "fem_reference", "sheetbench.numerics")
+OURS = ("lumped", "fem_reference", "sheetbench.numerics", "sheetbench.runs")
 IMPORTS = re.compile(rf"^from ((?:{'|'.join(OURS)})[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 COMPILED = re.compile(r"\b(njit|NamedTuple|intrinsic|OPTIONS)\b")
 NOTICE = "compiling for this machine, once: a minute or two …"

@@ -110,42 +110,27 @@ class SheetCalibration(Calibration):
     it is known; modes: the damping of the lowest ones; lattice: files for another code, and what is not in
     them."""
 
-    found: Calibration | None = None
-    scene: Scene | None = None
+    scene: Scene = field(kw_only=True)
     expected: ExpectedError | None = None
     modes: tuple[ModeDamping, ...] = ()
     lattice: tuple[dict[str, Write], list[str]] = field(default=({}, []), compare=False)
 
-    @property
-    def parts(self) -> tuple[Calibration, Scene]:
-        """The springs as they were found, and the scene that they are of."""
-        assert self.found is not None and self.scene is not None
-        return self.found, self.scene
-
     def heading(self) -> tuple[str, str, str]:
-        found, scene = self.parts
-        return (*found.heading()[:2], sheet_in_words(scene.sheet, scene.material))
+        return (*super().heading()[:2], sheet_in_words(self.scene.sheet, self.scene.material))
 
     def document(self) -> dict[str, Any]:
-        springs, scene = self.parts
-        found = springs.document()
-        if self.expected is not None:
-            found["expected_error"] = self.expected.as_dict()
-        return found | damping.document(scene.material, self.modes)
+        known = {} if self.expected is None else {"expected_error": self.expected.as_dict()}
+        return super().document() | known | damping.document(self.scene.material, self.modes)
 
     def tables(self) -> tuple[Table, ...]:
-        found, scene = self.parts
-        return (*found.tables(), *damping.tables(scene.material, self.modes))
+        return (*super().tables(), *damping.tables(self.scene.material, self.modes))
 
     def notes(self) -> tuple[str, ...]:
         expected = () if self.expected is None else (f"in this scene: {self.expected}",)
-        return (*self.parts[0].notes(), *expected, *self.lattice[1])
+        return (*super().notes(), *expected, *self.lattice[1])
 
     def files(self) -> dict[str, Write]:
         return {"springs.toml": partial(write_text, text=to_toml(self)), **self.lattice[0]}
-
-    def choices(self) -> dict[str, Any]:
-        return dict(self.parts[0].choices())
 
 
 def to_toml(springs: Calibration) -> str:

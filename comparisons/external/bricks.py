@@ -157,8 +157,7 @@ class Bricks:
         steps = self.sites[column, 1]
         inside = np.where(steps % 2 == 1, 4.0, 2.0)
         rule = np.where(np.isin(steps, (0, steps.max())), 1.0, inside)
-        mean: np.ndarray = rule / rule.sum()
-        return mean
+        return np.asarray(rule / rule.sum())
 
     def sides(self, load: EdgeLoad) -> tuple[np.ndarray, np.ndarray]:
         """Eight nodes of every brick's face that a load acts on (f, 8), corners and then mid-edges, and the

@@ -62,7 +62,8 @@ class Program:
         return sha256(self.path.read_bytes()).hexdigest()
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """Return the program's answer. Raises BadInput where it refuses the scene, or a limit is not one."""
+        """Return the program's answer at the probes, none elsewhere. Raises BadInput where it refuses the
+        scene, or a limit is not one."""
         seconds, most = _limits(settings)
         own = {key: value for key, value in settings.items() if key not in SETTINGS}
         options = [f"--{key}" if value is True else f"--{key}={written(value)}" for key, value in own.items()]
@@ -73,14 +74,36 @@ class Program:
             raise BadInput(f"{self.path}: cannot be run: {error.strerror}") from None
         if ended.code == REFUSED and not ended.stopped:
             raise BadInput(f"{self.name}: {ended.complaint or 'refused, without a reason'}")
-        label = " ".join([self.name, *options])
         document, why = {}, ended.fault
         if not why:
             try:
                 document = _read(scene, ended.answer)
             except BadInput as error:
                 why = f"its answer cannot be read: {error}"
-        return _solution(scene, label, self.name, own, document, ended.seconds, why)
+        nowhere, points = np.full(3, np.nan), scene.probe_points()
+        at = {scene.probes[probe]: u for probe, u in document.get("probes", {}).items()}
+
+        def sample(wanted: np.ndarray) -> np.ndarray:
+            return np.array([at.get(tuple(p), nowhere) for p in wanted.tolist()]).reshape(-1, 3)
+
+        solving = float(document.get("solve_seconds", ended.seconds))
+        places, vertices = np.column_stack([points, np.zeros(len(points))]), np.arange(len(points))[:, None]
+        return Solution(
+            model=self.name,
+            label=document.get("label", " ".join([self.name, *options])),
+            settings=own,
+            status=Status(document["status"]) if document else Status.FAILED,
+            unknowns=int(document.get("unknowns", 0)),
+            iterations=int(document.get("iterations", 0)),
+            setup_seconds=max(0.0, ended.seconds - solving),
+            solve_seconds=solving,
+            sample=sample,
+            reactions=document.get("reactions", {}),
+            energies={},
+            mesh=FieldMesh(places, [("vertex", vertices)], {"displacement": sample(points)}),
+            load_factor=float(document.get("load_factor", 1.0)) if document else 0.0,
+            remarks=tuple(filter(None, [why, document.get("message", "")])),
+        )
 
 
 def _limits(settings: Mapping[str, Any]) -> tuple[float, int | None]:
@@ -134,43 +157,6 @@ def _number(value: Any, name: str) -> float:
     if type(value) not in (int, float) or not 0.0 <= value <= LARGEST:
         raise BadInput(f"{name} = {str(value)[:SHOWN]}: a number, not below 0, and at most {LARGEST:g}")
     return float(value)
-
-
-def _solution(
-    scene: Scene,
-    label: str,
-    name: str,
-    settings: dict[str, Any],
-    document: dict[str, Any],
-    seconds: float,
-    why: str,
-) -> Solution:
-    """Return the answer at the probes, none elsewhere; `why` there is none at all."""
-    nowhere = np.full(3, np.nan)
-    at = {scene.probes[probe]: u for probe, u in document.get("probes", {}).items()}
-    solving = float(document.get("solve_seconds", seconds))
-    points = scene.probe_points()
-    values = np.array([at.get(tuple(point), nowhere) for point in points.tolist()]).reshape(-1, 3)
-    return Solution(
-        model=name,
-        label=document.get("label", label),
-        settings=settings,
-        status=Status(document["status"]) if document else Status.FAILED,
-        unknowns=int(document.get("unknowns", 0)),
-        iterations=int(document.get("iterations", 0)),
-        setup_seconds=max(0.0, seconds - solving),
-        solve_seconds=solving,
-        sample=lambda wanted: np.array([at.get(tuple(p), nowhere) for p in wanted.tolist()]).reshape(-1, 3),
-        reactions=document.get("reactions", {}),
-        energies={},
-        mesh=FieldMesh(
-            np.column_stack([points, np.zeros(len(points))]),
-            [("vertex", np.arange(len(points))[:, None])],
-            {"displacement": values},
-        ),
-        load_factor=float(document.get("load_factor", 1.0)) if document else 0.0,
-        remarks=tuple(filter(None, [why, document.get("message", "")])),
-    )
 
 
 def written(value: Any) -> str:

@@ -123,8 +123,7 @@ def _step(fit: Fit, x: np.ndarray) -> np.ndarray:
     except NotReached:
         return np.full(len(x), np.nan)
     step, *_ = np.linalg.lstsq(slopes, -residuals, rcond=Identifiability.threshold)
-    found: np.ndarray = step
-    return found
+    return np.asarray(step)
 
 
 __all__ = ["NotReached", "identify"]

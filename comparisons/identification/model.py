@@ -147,8 +147,7 @@ def _moved(
     if run.status is not Status.CONVERGED:
         raise NotReached(f"{run.label}: {run.status}: {run.message}")
     moved = CubicSpline(run.time, np.stack([run.probes[name] for name in probes], axis=1))(time)
-    rows: np.ndarray = moved[np.arange(len(time)), which.ravel()]
-    return rows
+    return np.asarray(moved[np.arange(len(time)), which.ravel()])
 
 
 def _by_differences(

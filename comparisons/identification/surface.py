@@ -83,5 +83,4 @@ def _place(plan: np.ndarray, displacement: Field) -> np.ndarray:
 def _tangents(plan: np.ndarray, displacement: Field) -> np.ndarray:
     flat = np.eye(3)[:, :2]
     moved = np.stack([displacement.at(plan, dx=1), displacement.at(plan, dy=1)], axis=-1)
-    tangents: np.ndarray = flat + moved
-    return tangents
+    return np.asarray(flat + moved)

@@ -6,7 +6,6 @@ types, that numbers are finite and within their slider's bounds. The bounds are 
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from math import pi
@@ -90,11 +89,6 @@ class Panel:
         for slider in self.sliders.values():
             slider.require(slider.value)
         require_choice("calibration", self.start, self.calibrations)
-
-    def first(self) -> Question:
-        """Return the question that the page starts with."""
-        values = {name: slider.value for name, slider in self.sliders.items()}
-        return self.read(json.dumps({"number": 0, "values": values, "calibration": self.start}))
 
     def document(self) -> dict[str, Any]:
         """Return the panel as the page builds it."""

@@ -70,22 +70,12 @@ class Linearisation(Answer):
     def upper(self) -> np.ndarray:
         """The poles of each pair above the real axis, and those on it [rad/s]."""
         poles = self.space.poles
-        found: np.ndarray = poles[poles.imag >= 0.0]
-        return found
+        return np.asarray(poles[poles.imag >= 0.0])
 
     def document(self) -> dict[str, Any]:
-        lattice = {"model": "lumped", "label": self.label, "frequencies_hz": self.modal.frequencies}
-        return {
-            "scene": self.scene.document(),
-            "about": self.about,
-            "solutions": [lattice],
-            "state_space": self.form(),
-        }
-
-    def form(self) -> dict[str, Any]:
         """Return poles, inputs, outputs and static gains, and what a reduction promises."""
         poles, matrices = self.space.poles, self.matrices
-        return {
+        form = {
             "label": self.label,
             "unknowns": matrices.mass.shape[0],
             "poles": np.column_stack([poles.real, poles.imag]),
@@ -95,6 +85,9 @@ class Linearisation(Answer):
             "jacobian": matrices.jacobian,
             **self._reduction,
         }
+        lattice = {"model": "lumped", "label": self.label, "frequencies_hz": self.modal.frequencies}
+        about = {"scene": self.scene.document(), "about": self.about}
+        return {**about, "solutions": [lattice], "state_space": form}
 
     @property
     def _reduction(self) -> dict[str, Any]:

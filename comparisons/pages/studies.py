@@ -13,7 +13,7 @@ from __future__ import annotations
 import csv
 import json
 import shlex
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property, partial
 from os.path import isdir, isfile, islink
@@ -160,61 +160,48 @@ def texts(value: Any) -> list[str]:
     return [str(one) for one in value] if isinstance(value, list) else []
 
 
-@dataclass(frozen=True)
+@dataclass
 class FolderContents:
     """Studies in the order of a page, other files with their sizes [bytes], and sentences on damaged ones."""
 
-    studies: list[Study]
-    others: list[tuple[str, int]]
-    troubles: list[str]
+    studies: list[Study] = field(default_factory=list)
+    others: list[tuple[str, int]] = field(default_factory=list)
+    troubles: list[str] = field(default_factory=list)
 
 
 def read(root: Path) -> FolderContents:
     """Return every study in a folder and those below it. Raises BadInput where there is no such folder."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
-    studies: list[Study] = []
-    others: list[tuple[str, int]] = []
-    troubles: list[str] = []
-    for folder in _folders(root, troubles):
-        place = folder.relative_to(root).as_posix().removeprefix(".")
-        record = _manifest(folder, place, troubles)
-        claimed: set[str] = set()
-        for verb, run in record.get("runs", {}).items():
-            names = tuple(run.get("files", ()))
-            claimed.update(names)
-            studies.append(Study(folder, place, verb, names, run, record))
-        claimed |= {*OURS}
-        for path in sorted(folder.iterdir()) if record else ():
-            if path.is_file() and path.name not in claimed and not path.name.startswith("."):
-                others.append((f"{place}/{path.name}".lstrip("/"), path.stat().st_size))
-    return FolderContents(studies, others, troubles)
+    found = FolderContents()
+    _collect(root, "", found)
+    return found
 
 
-def _folders(root: Path, troubles: list[str]) -> Iterator[Path]:
-    """Return the folder and all below it but those that a run keeps for itself, hidden ones and links."""
+def _collect(folder: Path, place: str, found: FolderContents) -> None:
+    """Add what is in a folder and in all below it but those that a run keeps for itself, hidden ones and
+    links; place: where it is, as the reader knows it."""
     try:
-        inside = sorted(root.iterdir())
+        inside = [path for path in sorted(folder.iterdir()) if not path.name.startswith(".")]
     except OSError as error:
-        troubles.append(f"{root}: cannot be read: {error.strerror}")
+        found.troubles.append(f"{folder}: cannot be read: {error.strerror}")
         return
-    yield root
-    series = {path.stem for path in root.glob("*.pvd")}
-    runs = _manifest(root, "", []).get("runs", {}).values()
-    kept = {name.rstrip("/") for run in runs for name in run.get("files", ()) if name.endswith("/")}
-    for path in inside:
-        if isdir(path) and not islink(path) and not path.name.startswith("."):
-            if path.name in series | kept or isfile(path / "run.json"):
-                continue
-            yield from _folders(path, troubles)
-
-
-def _manifest(folder: Path, place: str, troubles: list[str]) -> Mapping[str, Any]:
+    record: Mapping[str, Any] = {}
     try:
-        return manifest(folder)
+        record = manifest(folder)
     except BadInput as error:
-        troubles.append(f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {foreign(error)}")
-        return {}
+        damaged = f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {foreign(error)}"
+        found.troubles.append(damaged)
+    claimed = {*OURS}
+    for verb, run in record.get("runs", {}).items():
+        claimed.update(names := tuple(run.get("files", ())))
+        found.studies.append(Study(folder, place, verb, names, run, record))
+    beside = [path for path in inside if path.is_file() and path.name not in claimed] if record else []
+    found.others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]
+    kept = {path.stem for path in inside if path.suffix == ".pvd"} | {name.rstrip("/") for name in claimed}
+    for path in inside:
+        if isdir(path) and not islink(path) and path.name not in kept and not isfile(path / "run.json"):
+            _collect(path, f"{place}/{path.name}".lstrip("/"), found)
 
 
 MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded

@@ -187,5 +187,4 @@ def point_arrows(forces: np.ndarray) -> np.ndarray:
     if not largest:
         return np.zeros_like(forces)
     lengths = POINT * np.maximum(sizes / largest, SHORTEST)
-    arrows: np.ndarray = lengths * forces / np.where(sizes > 0.0, sizes, 1.0)
-    return arrows
+    return np.asarray(lengths * forces / np.where(sizes > 0.0, sizes, 1.0))

@@ -269,5 +269,4 @@ def _normals(stage: Stage, solution: Solution, plan: np.ndarray) -> np.ndarray:
         ends = [on_sheet(stage.scene, plan + sign * aside) for sign in (-1.0, 1.0)]
         tangents.append(stage.deformed(solution, ends[1]) - stage.deformed(solution, ends[0]))
     normal = np.cross(*tangents)
-    unit: np.ndarray = normal / np.linalg.norm(normal, axis=1, keepdims=True)
-    return unit
+    return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))

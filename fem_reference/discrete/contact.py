@@ -68,7 +68,8 @@ class Touching(SheetItem):
     def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, m, 9, 3) [N]."""
         found, _, (_, load, _) = self._sunk(shape)
-        return load[..., None] * found.normal + self._resisted(shape)[0]
+        pull = load[..., None] * found.normal
+        return pull + self._resisted(shape)[0] if self.resists else pull
 
     def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
@@ -93,10 +94,8 @@ class Touching(SheetItem):
         return (on, out.reshape(-1, 18, 3, 18, 3)) if len(on) else None
 
     def _resisted(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray]:
-        """Return forces (faces, m, 9, 3) [N] of dashpot and friction, in motion, and their derivatives by
-        points' velocities (faces, m, 9, 3, 3)."""
-        if not self.resists:
-            return np.zeros((*self.levers.shape, 3)), np.zeros((*self.levers.shape, 3, 3))
+        """Return forces (faces, m, 9, 3) [N] of dashpot and friction, and their derivatives by points'
+        velocities (faces, m, 9, 3, 3)."""
         found, _, (_, load, _) = self._sunk(shape)
         return found.resistance(load, self._points(shape.rates) - self.obstacle.velocity(shape.at))
 

@@ -52,16 +52,15 @@ class ReferenceObserver:
         found[:, 0], found[:, 4], found[:, 5] = samples.time, samples.dissipated, samples.work
         return found
 
-    def broken(self, samples: Sampled, count: int) -> tuple[int, Fault | None]:
-        """Return how many of the first samples have no element inside out, and a word on the next."""
+    def inspect(self, samples: Sampled, count: int) -> tuple[np.ndarray, Fault | None]:
+        """Return how far the sheet is strained in the first samples before one with an element inside out,
+        and a word on that."""
+        stretches = np.empty(count)
         for i, motion in enumerate(samples.motions[:count]):
             if inverted := self._model.inside_out(motion.q):
-                return i, Fault(Status.INVERTED, inverted)
-        return count, None
-
-    def stretches(self, samples: Sampled, count: int) -> np.ndarray:
-        """Return how far the sheet is strained in the first samples, (count,)."""
-        return np.array([self._model.shape(one.q, one.time).stretch for one in samples.motions[:count]])
+                return stretches[:i], Fault(Status.INVERTED, inverted)
+            stretches[i] = self._model.shape(motion.q, motion.time).stretch
+        return stretches, None
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

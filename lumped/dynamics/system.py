@@ -29,6 +29,7 @@ from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
+from sheetbench.numerics.maps import csr_arrays, product
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import kinks
 
@@ -82,6 +83,7 @@ class System:
         pattern = self.assembly.pattern
         self.mass = sp.csr_array(sp.bsr_array((mass_blocks, pattern.indices, pattern.indptr)))
         self.mass.eliminate_zeros()
+        self.mass_rows = csr_arrays(self.mass)
         algebraic = np.zeros((size, 3), dtype=bool) if self.coupling is None else self.coupling.algebraic
         self.algebraic = abs(self.transform).T @ algebraic.ravel() > 0.0
         self.moving_part = sp.csr_array(self.transform[:, np.flatnonzero(~self.algebraic)])
@@ -280,6 +282,10 @@ class System:
         """The free unknowns with mass of an admissible displacement (size, 3)."""
         return displacement.ravel()[self._own]
 
+    def momentum(self, v: np.ndarray) -> np.ndarray:
+        """M v, (size, 3)."""
+        return product(self.mass_rows, v.ravel()).reshape(-1, 3)
+
     def accelerate(self, force: np.ndarray) -> np.ndarray:
         """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
         return self.expand(self.solve_mass(self.reduce(force)))
@@ -290,14 +296,12 @@ class System:
         elastic, _, force = self.within(state).internal(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             elastic += self.maxwell.branches.stored(state.memory)
-        v = state.v.ravel()
         energies = {
-            "kinetic": 0.5 * float(v @ (self.mass @ v)),
+            "kinetic": 0.5 * float(np.vdot(state.v, self.momentum(state.v))),
             "elastic": elastic,
             "potential": -float(np.sum(self.problem.loads.dead * state.u)),
         }
-        inertia: np.ndarray = (self.mass @ state.a.ravel()).reshape(-1, 3)
-        return energies, inertia + force - self.external(state.u, state.time)
+        return energies, self.momentum(state.a) + force - self.external(state.u, state.time)
 
     def exerted(self, state: State) -> np.ndarray:
         """What supports and actuators exert on their masses, (size, 3)."""

@@ -37,15 +37,15 @@ def work(system: System, before: State, after: State) -> float:
 
 def kinetic_of(system: System, rate: np.ndarray) -> float:
     """Return the kinetic energy [J] of what is prescribed, at its velocities (size, 3) [m/s]."""
-    return 0.5 * float(rate.ravel() @ (system.mass @ rate.ravel()))
+    return 0.5 * float(np.vdot(rate, system.momentum(rate)))
 
 
 def kinetic_of_placed(system: System, state: State) -> float:
     """Return the kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but
     that of the free unknowns, which is separate since Tᵀ M ġ = 0."""
-    momentum = system.mass @ state.v.ravel()
-    free = system.moving_part.T @ momentum
-    return 0.5 * float(state.v.ravel() @ momentum - free @ system.solve_mass(free))
+    momentum = system.momentum(state.v)
+    free = system.reduce(momentum)
+    return 0.5 * float(np.vdot(state.v, momentum) - free @ system.solve_mass(free))
 
 
 def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) -> float:

@@ -75,8 +75,9 @@ class Family(ABC):
         """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J]."""
 
     @abstractmethod
-    def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """Return energies summed under the names that the springs have in a spring set [J]."""
+    def by_name(self, sums: list[float]) -> dict[str, float]:
+        """Return sums of energies [J], by kind of link or of both kinds of springs on cells, under the names
+        that the springs have in a spring set."""
 
     def rounded(self) -> Family:
         """Return the springs whose force is computed in single precision: these, with their rest data."""
@@ -123,15 +124,9 @@ class Links(Family):
         rest = self.rest_length if self.natural is None else self.natural
         return typed(LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots))
 
-    def largest_strains(self, states: np.ndarray) -> np.ndarray:
-        """Return the largest relative change of length of the in-plane links at displacements (k, n, 3) [m],
-        (k,)."""
-        strains: np.ndarray = links.largest_strains(states, self.arrays)
-        return strains
-
     def largest_strain(self, u: np.ndarray) -> float:
-        """Return that at one displacement (n, 3) [m]."""
-        return float(self.largest_strains(u[None])[0])
+        """Return the largest relative change of length of the in-plane links at a displacement (n, 3) [m]."""
+        return float(links.strains(u[None], self.arrays, 0.0)[0][0])
 
     def rounded(self) -> Links:
         """Return the same links with their rest data in single precision."""
@@ -144,11 +139,6 @@ class Links(Family):
         """Return the stresses of stretched links."""
         return np.maximum(self.stresses(u)[:, 0], 0.0)
 
-    @cached_property
-    def in_plane(self) -> np.ndarray:
-        """Numbers of the links that lie in a layer."""
-        return np.flatnonzero(self.offset[:, 2] == 0.0)
-
     def elongations(self, u: np.ndarray) -> np.ndarray:
         """Return the elongation of every link, (m,) [m]."""
         elongations: np.ndarray = links.elongations(u, self.arrays)
@@ -158,10 +148,8 @@ class Links(Family):
         """Return ½ k e² of every link."""
         return 0.5 * self.stiffness * self.elongations(u) ** 2
 
-    def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """Return sums by kind of link."""
-        sums = np.bincount(self.kind, energies, minlength=len(self.names))
-        return dict(zip(self.names, sums.tolist(), strict=True))
+    def by_name(self, sums: list[float]) -> dict[str, float]:
+        return dict(zip(self.names, sums, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,11 +230,12 @@ class SpringCells(Family):
     def energies(self, u: np.ndarray) -> np.ndarray:
         """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
         less that of the links along its sides."""
-        stored: np.ndarray = cells.energies(u, self.arrays, self._area_alone)
+        stored: np.ndarray = cells.energies(u, self.arrays, self.area_alone)
         return stored
 
     @cached_property
-    def _area_alone(self) -> Any:
+    def area_alone(self) -> Any:
+        """Return the law's constants of the area springs alone."""
         areas = self.constants.copy()
         areas[:, 1:] = 0.0
         return self.law.tag(areas)
@@ -255,10 +244,10 @@ class SpringCells(Family):
     def _there(self) -> tuple[bool, bool]:
         return bool(self.stiffness[:, 0].any()), bool(self.stiffness[:, 1:].any())
 
-    def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """Return both sums, of the springs that there are."""
-        sums = zip(self.names, energies.sum(axis=0).tolist(), self._there, strict=True)
-        return {name: energy for name, energy, has in sums if name and has}
+    def by_name(self, sums: list[float]) -> dict[str, float]:
+        return {
+            name: sum for name, sum, has in zip(self.names, sums, self._there, strict=True) if name and has
+        }
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""

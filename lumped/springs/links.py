@@ -23,9 +23,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.springs.laws import Vector, dot, elongation, less, mean_elongation, times
+from sheetbench.numerics.typed import njit
 
 HALF = 0.5
 
@@ -116,19 +116,24 @@ def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
 
 
 @njit(cache=True, error_model="numpy")
-def largest_strains(states: np.ndarray, links: LinkArrays) -> np.ndarray:
-    """Return the largest relative change of length of the links in a layer, of displacements (k, n, 3) [m]:
-    of those with the largest and least δg/g₀."""
+def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.ndarray, int]:
+    """Return the largest relative change of length of the links in a layer, of those with the largest and
+    least δg/g₀, at each of the displacements (k, n, 3) [m] before the first with a link no longer than the
+    `shortest` share of its length at rest; and the shortest link then, −1 if none is."""
     out = np.empty(len(states))
     for k in range(len(states)):
-        least = most = 0.0
+        least, most, collapsed, which = 0.0, 0.0, shortest * shortest, -1
         for m in range(len(links.nodes)):
-            if links.offset[m, 2] == 0.0:
-                change, _, length, _ = measure(states[k], links.nodes, links.offset, links.rest_length, m)
-                share = change / (length * length)
-                least, most = min(least, share), max(most, share)
+            change, square, length, _ = measure(states[k], links.nodes, links.offset, links.rest_length, m)
+            rest = length * length
+            if square < collapsed * rest:
+                collapsed, which = square / rest, m
+            if links.offset[m, 2] == 0.0 and not least * rest <= change <= most * rest:
+                least, most = min(least, change / rest), max(most, change / rest)
+        if which >= 0:
+            return out[:k], which
         out[k] = max(most / (1.0 + np.sqrt(1.0 + most)), -least / (1.0 + np.sqrt(1.0 + least)))
-    return out
+    return out, -1
 
 
 @njit(cache=True, error_model="numpy")

@@ -15,7 +15,7 @@ import scipy.sparse as sp
 
 from lumped.actuators import Drive
 from lumped.items import Placed
-from lumped.statics.faults import broken
+from lumped.statics.faults import inspect
 from lumped.statics.problem import LatticeState, Problem, Residual
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
@@ -76,7 +76,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def start(self, u: np.ndarray) -> Start[LatticeState]:
         """Return the start at full load beside a displacement (n, 3) [m]."""
         u = self.problem.project_to_supports(u, 1.0)
-        state = self.problem.advance(u, np.zeros_like(u), 1.0)
+        state = self.problem.advance(u, np.zeros(self.problem.system.unknowns), 1.0)
         return Start(state, 1.0, self.length(self.rest(), state), 0.0)
 
     def forces(self, state: LatticeState, load_factor: float) -> LatticeForces:
@@ -121,10 +121,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def advance(
         self, state: LatticeState, forces: LatticeForces, load_factor: float, step: np.ndarray
     ) -> LatticeState:
-        move = self.problem.expand(step)
-        if forces.moved is not None:
-            move += forces.moved
-        return self.problem.advance(state.u, move, load_factor)
+        return self.problem.advance(state.u, step, load_factor, forces.moved)
 
     def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
         return state._replace(stresses=of.stresses)
@@ -142,7 +139,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
 
     def inspect(self, path: Path[LatticeState, LatticeForces]) -> Fault | None:
         """Return why the path's last equilibrium means nothing, if it does."""
-        return broken(self.problem.assembly.at(path.state.load_factor), path.state.u[None])[1]
+        return inspect(self.problem.assembly.at(path.state.load_factor), path.state.u[None])[1]
 
     def loading(self) -> float:
         problem = self.problem

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from sheetbench.numerics.memory import load, store
+from sheetbench.numerics.typed import njit
 
 PANEL = 6  # the unknowns of a column of masses in two layers
 LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
@@ -136,9 +136,48 @@ def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     return out
 
 
+@njit(cache=True, nogil=True)
+def _corner(band: np.ndarray, k0: int) -> Any:
+    """The triangle L of a panel's own rows: its inverted diagonal, and its columns below that."""
+    own = band[k0 : k0 + PANEL]
+    diagonal = own[0, 0], own[1, 0], own[2, 0], own[3, 0], own[4, 0], own[5, 0]
+    first = own[0, 1], own[0, 2], own[0, 3], own[0, 4], own[0, 5]
+    second = own[1, 1], own[1, 2], own[1, 3], own[1, 4]
+    return diagonal, first, second, (own[2, 1], own[2, 2], own[2, 3]), (own[3, 1], own[3, 2]), own[4, 1]
+
+
+@njit(cache=True, nogil=True, fastmath=REORDERED)
+def _forward(corner: Any, b0: float, b1: float, b2: float, b3: float, b4: float, b5: float) -> Any:
+    """L⁻¹ b, in registers."""
+    diagonal, (c01, c02, c03, c04, c05), (c12, c13, c14, c15), (c23, c24, c25), (c34, c35), c45 = corner
+    i0, i1, i2, i3, i4, i5 = diagonal
+    x0 = b0 * i0
+    x1 = (b1 - c01 * x0) * i1
+    x2 = (b2 - c02 * x0 - c12 * x1) * i2
+    x3 = (b3 - c03 * x0 - c13 * x1 - c23 * x2) * i3
+    x4 = (b4 - c04 * x0 - c14 * x1 - c24 * x2 - c34 * x3) * i4
+    x5 = (b5 - c05 * x0 - c15 * x1 - c25 * x2 - c35 * x3 - c45 * x4) * i5
+    return x0, x1, x2, x3, x4, x5
+
+
+@njit(cache=True, nogil=True, fastmath=REORDERED)
+def _backward(corner: Any, b0: float, b1: float, b2: float, b3: float, b4: float, b5: float) -> Any:
+    """L⁻ᵀ b, in registers."""
+    diagonal, (c01, c02, c03, c04, c05), (c12, c13, c14, c15), (c23, c24, c25), (c34, c35), c45 = corner
+    i0, i1, i2, i3, i4, i5 = diagonal
+    x5 = b5 * i5
+    x4 = (b4 - c45 * x5) * i4
+    x3 = (b3 - c34 * x4 - c35 * x5) * i3
+    x2 = (b2 - c23 * x3 - c24 * x4 - c25 * x5) * i2
+    x1 = (b1 - c12 * x2 - c13 * x3 - c14 * x4 - c15 * x5) * i1
+    x0 = (b0 - c01 * x1 - c02 * x2 - c03 * x3 - c04 * x4 - c05 * x5) * i0
+    return x0, x1, x2, x3, x4, x5
+
+
 @njit(cache=True, nogil=True, fastmath=REORDERED)
 def factor(band: np.ndarray, n: int, width: int) -> bool:
-    """Turn the matrix into its Cholesky factor in place; False where it is not positive definite."""
+    """Turn the matrix into its Cholesky factor in place, with its diagonal inverted; False where it is not
+    positive definite."""
     for j in range(n, len(band)):
         band[j, 0] = 1.0
     flat, stride = band.ravel(), np.uint64(band.shape[1])
@@ -149,18 +188,13 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
                 pivot -= band[i, k - i] ** 2
             if not (pivot > 0.0 and pivot < np.inf):
                 return False
-            band[k, 0] = np.sqrt(pivot)
+            band[k, 0] = 1.0 / np.sqrt(pivot)
             for j in range(k + 1, k0 + PANEL):
                 total = band[k, j - k]
                 for i in range(k0, k):
                     total -= band[i, k - i] * band[i, j - i]
-                band[k, j - k] = total / band[k, 0]
-        own = band[k0 : k0 + PANEL]
-        i0, i1, i2 = 1.0 / own[0, 0], 1.0 / own[1, 0], 1.0 / own[2, 0]
-        i3, i4, i5 = 1.0 / own[3, 0], 1.0 / own[4, 0], 1.0 / own[5, 0]
-        c01, c02, c03, c04, c05 = own[0, 1], own[0, 2], own[0, 3], own[0, 4], own[0, 5]
-        c12, c13, c14, c15, c23 = own[1, 1], own[1, 2], own[1, 3], own[1, 4], own[2, 1]
-        c24, c25, c34, c35, c45 = own[2, 2], own[2, 3], own[3, 1], own[3, 2], own[4, 1]
+                band[k, j - k] = total * band[k, 0]
+        corner = _corner(band, k0)
         p0 = np.uint64(k0) * stride + np.uint64(PANEL)  # places of the row behind the panel
         p1 = p0 + stride - ONE
         p2 = p1 + stride - ONE
@@ -168,12 +202,9 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
         p4 = p3 + stride - ONE
         p5 = p4 + stride - ONE
         for i in range(_lanes(width)):
-            x0 = load(0, flat, p0 + i) * i0
-            x1 = (load(1, flat, p1 + i) - c01 * x0) * i1
-            x2 = (load(2, flat, p2 + i) - c02 * x0 - c12 * x1) * i2
-            x3 = (load(3, flat, p3 + i) - c03 * x0 - c13 * x1 - c23 * x2) * i3
-            x4 = (load(4, flat, p4 + i) - c04 * x0 - c14 * x1 - c24 * x2 - c34 * x3) * i4
-            x5 = (load(5, flat, p5 + i) - c05 * x0 - c15 * x1 - c25 * x2 - c35 * x3 - c45 * x4) * i5
+            b0, b1, b2 = load(0, flat, p0 + i), load(1, flat, p1 + i), load(2, flat, p2 + i)
+            b3, b4, b5 = load(3, flat, p3 + i), load(4, flat, p4 + i), load(5, flat, p5 + i)
+            x0, x1, x2, x3, x4, x5 = _forward(corner, b0, b1, b2, b3, b4, b5)
             store(0, flat, p0 + i, x0)
             store(1, flat, p1 + i, x1)
             store(2, flat, p2 + i, x2)
@@ -198,25 +229,29 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
     return True
 
 
+@njit(cache=True, nogil=True)
+def factored(blocks: np.ndarray, band: Band) -> tuple[np.ndarray, bool]:
+    """Cholesky factors of the matrix of blocks (b, 3, 3), and whether there are such."""
+    factors = stored(blocks, band)
+    return factors, factor(factors, len(band.order), band.width)
+
+
 @njit(cache=True, nogil=True, fastmath=REORDERED)
 def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
     """Solve with the factors in place, x in the band's order in a `padded_vector`."""
     last, count = (n - 1) // PANEL * PANEL, _lanes(width)
     for k0 in range(0, last + 1, PANEL):
-        for k in range(k0, k0 + PANEL):
-            x[k] /= factors[k, 0]
-            for j in range(k + 1, k0 + PANEL):
-                x[j] -= x[k] * factors[k, j - k]
-        rest = x[k0 + PANEL :]
+        own, rest, corner = x[k0 : k0 + PANEL], x[k0 + PANEL :], _corner(factors, k0)
+        f0, f1, f2, f3, f4, f5 = _forward(corner, own[0], own[1], own[2], own[3], own[4], own[5])
+        own[0], own[1], own[2], own[3], own[4], own[5] = f0, f1, f2, f3, f4, f5
         l0, l1, l2 = factors[k0, 6:], factors[k0 + 1, 5:], factors[k0 + 2, 4:]
         l3, l4, l5 = factors[k0 + 3, 3:], factors[k0 + 4, 2:], factors[k0 + 5, 1:]
-        f0, f1, f2, f3, f4, f5 = x[k0], x[k0 + 1], x[k0 + 2], x[k0 + 3], x[k0 + 4], x[k0 + 5]
         for i in range(count):
             taken = f0 * load(0, l0, i) + f1 * load(0, l1, i) + f2 * load(0, l2, i)
             taken += f3 * load(0, l3, i) + f4 * load(0, l4, i) + f5 * load(0, l5, i)
             store(1, rest, i, load(1, rest, i) - taken)
     for k0 in range(last, -1, -PANEL):
-        rest = x[k0 + PANEL :]
+        own, rest, corner = x[k0 : k0 + PANEL], x[k0 + PANEL :], _corner(factors, k0)
         l0, l1, l2 = factors[k0, 6:], factors[k0 + 1, 5:], factors[k0 + 2, 4:]
         l3, l4, l5 = factors[k0 + 3, 3:], factors[k0 + 4, 2:], factors[k0 + 5, 1:]
         s0 = s1 = s2 = s3 = s4 = s5 = 0.0
@@ -228,12 +263,8 @@ def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
             s3 += load(0, l3, i) * value
             s4 += load(0, l4, i) * value
             s5 += load(0, l5, i) * value
-        for q, total in enumerate((s0, s1, s2, s3, s4, s5)):
-            x[k0 + q] -= total
-        for k in range(k0 + PANEL - 1, k0 - 1, -1):
-            for j in range(k + 1, k0 + PANEL):
-                x[k] -= x[j] * factors[k, j - k]
-            x[k] /= factors[k, 0]
+        b0, b1, b2, b3, b4, b5 = own[0] - s0, own[1] - s1, own[2] - s2, own[3] - s3, own[4] - s4, own[5] - s5
+        own[0], own[1], own[2], own[3], own[4], own[5] = _backward(corner, b0, b1, b2, b3, b4, b5)
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)

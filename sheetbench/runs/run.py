@@ -20,7 +20,7 @@ from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod, StepFailed
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
-from sheetbench.runs.watch import GROWN, Watch
+from sheetbench.runs.watch import Watch
 
 Part = tuple[str, str, tuple[int, ...]]  # of the numbers of a sample: kind, name, shape
 
@@ -38,11 +38,9 @@ class Observer(Protocol):
     def rows(self, samples: Any) -> np.ndarray:
         """Return the numbers of samples, (k, width)."""
 
-    def broken(self, samples: Any, count: int) -> tuple[int, Fault | None]:
-        """Return how many of the first `count` samples mean something, and why the next does not."""
-
-    def stretches(self, samples: Any, count: int) -> np.ndarray:
-        """Return how far the sheet is strained at the first samples, (count,), as `beyond` takes it."""
+    def inspect(self, samples: Any, count: int) -> tuple[np.ndarray, Fault | None]:
+        """Return how far the sheet is strained, as `beyond` takes it, at those of the first `count` samples
+        before one that means nothing, and why that one does not."""
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the model does not hold that far, or farther, else ""."""
@@ -139,21 +137,18 @@ class Run(Generic[AnyState]):
 
     def _sound(self, samples: Any, rows: np.ndarray) -> tuple[int, Fault | None]:
         """How many samples are sound before the first that is not, and what is wrong with that one."""
-        grown, observer = self.watch.grown(rows), self._observer
-        sound = int(np.argmin(np.append(grown <= GROWN, False)))
-        count, fault = observer.broken(samples, sound + bool(np.isfinite(grown[sound : sound + 1]).any()))
-        if fault is None:
-            count = sound
-        self.watch.take(rows[:count])
-        self.watch.strained(rows[:count, 0], observer.stretches(samples, count), observer.beyond)
+        observer, (count, grown) = self._observer, self.watch.take(rows)
+        stretches, fault = observer.inspect(samples, count + np.isfinite(grown))
+        count = count if fault is None else len(stretches)
+        self.watch.strained(rows[:count, 0], stretches[:count], observer.beyond)
         if count == len(rows):
             return count, None
         when = f"at {rows[count, 0]:.6g} s"
         if fault is not None:
             return count, Fault(fault.status, f"{when} {fault.message}")
         where = observer.fastest(samples, count)
-        if np.isfinite(grown[count]):
-            share = f"by {100.0 * grown[count]:.3g} % of the largest, fastest at {where}: use smaller steps"
+        if np.isfinite(grown):
+            share = f"by {100.0 * grown:.3g} % of the largest, fastest at {where}: use smaller steps"
             return count, Fault(Status.DIVERGED, f"{when} the energy has grown from nothing, {share}")
         text = f"{when} a number overflowed, first at {where}: use smaller steps"
         return count, Fault(Status.NON_FINITE, text)

@@ -11,9 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
+from math import isfinite, isnan, nan
 from typing import Self
 
 import numpy as np
+from numba import njit
 
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import number
@@ -44,26 +46,13 @@ class Watch:
             if np.isnan(self.since) and beyond(largest):
                 self.since = float(times[[bool(beyond(one)) for one in stretches.tolist()].index(True)])
 
-    def grown(self, rows: np.ndarray) -> np.ndarray:
-        """Energy from nowhere at samples (k,), over the largest until then; nan where that is no number.
-        rows: (k, 6 or more), time, kinetic, elastic, potential and dissipated energy, work."""
-        with np.errstate(invalid="ignore", over="ignore"):
-            mechanical = rows[:, 1:4].sum(axis=1) - rows[:, 5]
-            lowest = np.minimum(self.lowest, np.minimum.accumulate(mechanical))
-            largest = np.maximum(self.largest, np.maximum.accumulate(np.abs(rows[:, 1:6]).max(axis=1)))
-            gained = (mechanical - lowest) / np.where(largest > 0.0, largest, 1.0)
-        return np.where(np.isfinite(rows).all(axis=1), gained, np.nan)
-
-    def take(self, rows: np.ndarray) -> None:
-        """Go on past sound samples."""
-        if not len(rows):
-            return
-        balance = rows[:, 1:5].sum(axis=1) - rows[:, 5]
-        if np.isnan(self.origin):
-            self.origin = float(balance[0])
-        self.lowest = min(self.lowest, float((rows[:, 1:4].sum(axis=1) - rows[:, 5]).min()))
-        self.largest = max(self.largest, float(np.abs(rows[:, 1:6]).max()))
-        self.off = max(self.off, float(np.abs(balance - self.origin).max()))
+    def take(self, rows: np.ndarray) -> tuple[int, float]:
+        """Go on past samples (k, 6 or more), time, kinetic, elastic, potential and dissipated energy, work;
+        return how many there are before the first that is unsound, and the energy from nowhere then, over the
+        largest until then: nan where some number is none, and where all are sound."""
+        sound, grown, *kept = take(rows, self.origin, self.lowest, self.largest, self.off)
+        self.origin, self.lowest, self.largest, self.off = kept
+        return sound, grown
 
     def ending(self, outside: str, steps: str = "") -> tuple[Status, str]:
         """Return the status of a run that came to its end, and what there is to say; outside: a clause on the
@@ -86,3 +75,25 @@ class Watch:
     def recall(cls, memory: np.ndarray) -> Self:
         """Take up what `memory` gave."""
         return cls(*memory.tolist())
+
+
+@njit(cache=True)
+def take(
+    rows: np.ndarray, origin: float, lowest: float, largest: float, off: float
+) -> tuple[int, float, float, float, float, float]:
+    """Return what `Watch.take` does, and what is kept then."""
+    for k in range(len(rows)):
+        row, most, finite = rows[k], largest, True
+        for value in row:
+            finite = finite and isfinite(value)
+        for energy in row[1:6]:
+            most = max(most, abs(energy))
+        mechanical = row[1] + row[2] + row[3] - row[5]
+        least = min(lowest, mechanical)
+        grown = (mechanical - least) / most if finite and most > 0.0 else 0.0
+        if not finite or grown > GROWN:
+            return k, grown if finite else nan, origin, lowest, largest, off
+        if isnan(origin):
+            origin = mechanical + row[4]
+        lowest, largest, off = least, most, max(off, abs(mechanical + row[4] - origin))
+    return len(rows), nan, origin, lowest, largest, off

@@ -97,7 +97,20 @@ class TensileFit(Answer):
         return "Tensile test", f"{rows} rows, stretch covered: {covered}", ""
 
     def tables(self) -> tuple[Table, ...]:
-        return constants(self.fits), misfits(self.fits, self.law)
+        """Return a row per constant of every law, and how well each fits and what speaks against it."""
+        constants = [
+            (f.law, key, unit("" if key == "limit" else "Pa"), value, *f.intervals[key])
+            for f in self.fits
+            for key, value in f.constants.items()
+        ]
+        misfits = [
+            (f.law, f.young, f.rms, f.largest, CHOSEN if f is self.law else _against(f)) for f in self.fits
+        ]
+        caption = "Constants and their 95 % intervals"
+        return (
+            Table.listed(caption, CONSTANTS, constants, "constants", grouped=True),
+            Table.listed("Misfit, of the largest stress (root mean square)", MISFITS, misfits, "misfits"),
+        )
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("tensile", "comparisons.identification.figure:tensile", (self,)),)
@@ -134,22 +147,6 @@ class TensileFit(Answer):
     @property
     def succeeded(self) -> bool:
         return self.law is not None
-
-
-def constants(fits: Sequence[Fit]) -> Table:
-    """Return a row per constant of every law."""
-    rows = [
-        (fit.law, key, unit("" if key == "limit" else "Pa"), value, *fit.intervals[key])
-        for fit in fits
-        for key, value in fit.constants.items()
-    ]
-    return Table.listed("Constants and their 95 % intervals", CONSTANTS, rows, "constants", grouped=True)
-
-
-def misfits(fits: Sequence[Fit], chosen: Fit | None) -> Table:
-    """Return a row per law: how well it fits, of the largest stress, and what speaks against it."""
-    rows = [(f.law, f.young, f.rms, f.largest, CHOSEN if f is chosen else _against(f)) for f in fits]
-    return Table.listed("Misfit, of the largest stress (root mean square)", MISFITS, rows, "misfits")
 
 
 def _against(fit: Fit) -> str:

@@ -113,14 +113,13 @@ class EsdirkStep:
         """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,
         and what is prescribed as it is prescribed."""
         stages, motion = self.stages, self.system.prescribed
-        u, v, a = stages.u[[0, -1]], stages.v[[0, -1]], stages.a[[0, -1]]
         if not motion.moving:
-            return polynomials(u, v, a, self.h, theta)
+            return polynomials(stages.u, stages.v, stages.a, self.h, theta)
         began, until = float(stages.time[0]), float(stages.time[-1])
         times = (began + self.h * theta).tolist()
-        u -= np.array([motion.place(began), motion.place(until)])
-        v -= np.array([motion.rate(began), motion.rate(until, before=True)])
-        found = polynomials(u, v, a, self.h, theta)
+        u = stages.u[[0, -1]] - [motion.place(began), motion.place(until)]
+        v = stages.v[[0, -1]] - [motion.rate(began), motion.rate(until, before=True)]
+        found = polynomials(u, v, stages.a, self.h, theta)
         found[0] += np.array([motion.place(time) for time in times])
         found[1] += np.array([motion.rate(time, before=True) for time in times])
         return found

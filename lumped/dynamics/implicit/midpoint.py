@@ -58,7 +58,7 @@ class Midpoint(Integrator):
         def residual(u: np.ndarray) -> np.ndarray:
             rate = velocity(u)
             gained = rate - state.v - jump  # the work of prescribed motion is separate
-            inertia: np.ndarray = (system.mass @ ((2.0 / h) * gained).ravel()).reshape(-1, 3)
+            inertia = system.momentum((2.0 / h) * gained)
             force = inertia + system.average_elastic(state, u, middle)
             return force + system.damping_force(mean(u), rate, middle)[1] - system.external(mean(u), middle)
 

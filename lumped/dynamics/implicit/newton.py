@@ -144,8 +144,7 @@ class Newton:
     def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
         """Inertia and internal less external forces (size, 3) [N]."""
         v, a = self.state(equation, u)
-        inertia: np.ndarray = (equation.system.mass @ a.ravel()).reshape(-1, 3)
-        return inertia - equation.system.unbalanced(u, v, equation.time)
+        return equation.system.momentum(a) - equation.system.unbalanced(u, v, equation.time)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from sheetbench.numerics.typed import njit
 
 
 @njit(cache=True)
@@ -11,9 +12,9 @@ def polynomials(
     displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
 ) -> np.ndarray:
     """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h [s], by
-    the polynomial with those of both its ends, (2, n, 3) each."""
+    the polynomial with those of both its ends, the first and last of (s, n, 3) each."""
     u0, v0, a0 = displacement[0].ravel(), velocity[0].ravel(), acceleration[0].ravel()
-    u1, v1, a1 = displacement[1].ravel(), velocity[1].ravel(), acceleration[1].ravel()
+    u1, v1, a1 = displacement[-1].ravel(), velocity[-1].ravel(), acceleration[-1].ravel()
     curve, out = np.empty((6, len(u0))), np.empty((3, len(theta), len(u0)))
     for i in range(len(u0)):
         change = u1[i] - u0[i] - h * v0[i] - 0.5 * h * h * a0[i]

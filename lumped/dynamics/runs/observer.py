@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.dynamics.drag import LatticeDrag, add_drag
 from lumped.dynamics.integrator import LatticeSamples
@@ -19,12 +18,12 @@ from lumped.mid_surface import MidSurface
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
-from lumped.statics.faults import broken, fastest
+from lumped.statics.faults import fastest, inspect
 from lumped.statics.structure import STRETCH
 from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.typed import njit, typed
 from sheetbench.runs.record import width
 from sheetbench.runs.run import Part
 from sheetbench.scenes import outside_model
@@ -77,7 +76,7 @@ class LatticeObserver:
             observed = Observed(
                 system.packing,
                 system.scratch,
-                csr_arrays(system.mass),
+                system.mass_rows,
                 system.damping.rate,
                 system.damping.drag,
                 system.problem.loads.dead,
@@ -86,21 +85,17 @@ class LatticeObserver:
             )
             self._observed = typed(observed)
 
-    def broken(self, samples: LatticeSamples, count: int) -> tuple[int, Fault | None]:
-        """Return how many of the first samples mean something: `lumped.statics.faults`."""
-        return broken(self._system.assembly, samples.u[:count])
-
-    def stretches(self, samples: LatticeSamples, count: int) -> np.ndarray:
-        """Return the largest strain of a link in each of the first samples, (count,)."""
-        assembly = self._system.assembly
-        if assembly.any_strain:
-            return np.zeros(count)
+    def inspect(self, samples: LatticeSamples, count: int) -> tuple[np.ndarray, Fault | None]:
+        """Return the largest strain of a link in each of the first samples before one that means nothing, and
+        why that one does not: `lumped.statics.faults`."""
+        assembly, strains, fault = self._system.assembly, np.empty(0), None
         if assembly.natural is None:
-            return assembly.links.largest_strains(samples.u[:count])
-        found = np.empty(count)
-        for i, time in enumerate(samples.time[:count].tolist()):
-            found[i] = assembly.at(time=time).links.largest_strain(samples.u[i])
-        return found
+            return inspect(assembly, samples.u[:count])
+        while fault is None and len(strains) < count:
+            i = len(strains)
+            found, fault = inspect(assembly.at(time=float(samples.time[i])), samples.u[i : i + 1])
+            strains = np.append(strains, found)
+        return strains, fault
 
     def beyond(self, stretch: float) -> str:
         """Return a clause where the law of strain does not hold that far, else ""."""

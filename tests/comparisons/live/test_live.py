@@ -161,7 +161,7 @@ def test_answers_are_those_of_compare(address, panel):
 
 
 def test_there_is_no_error_where_the_lattice_has_no_answer(panel, monkeypatch):
-    question = panel.first()
+    question = panel.read(query_of(panel, 0))
     found = replace(server.solved(SCENE, question), status=Status.DIVERGED)
     monkeypatch.setattr(server, "solved", lambda *_: found)
     assert server.shell(SCENE, question)["error"] is None
@@ -265,7 +265,7 @@ def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is
     panel = Panel(scene, elements=2, lattice=Lattice(5))
     assert {"young_1", "young_2", "angle", "patch1.young", "loads"} <= set(panel.sliders)
     assert "uniform" not in panel.calibrations
-    question = panel.first()
+    question = panel.read(query_of(panel, 0))
     turned = {**question.values, "angle": 0.5, "loads": 2.0}
     moved = panel.scene_of(question.model_copy(update={"values": turned}))
     assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0

@@ -34,11 +34,6 @@ def test_factors_by_fronts_solve(shape):
     np.testing.assert_allclose(found, np.linalg.solve(matrix.toarray(), b), rtol=1e-8, atol=1e-9)
 
 
-def test_fronts_wide_enough_for_blocks_are_tested():
-    matrix, cells = system(7, 7, 31)
-    assert fronts_of(matrix.indices, matrix.indptr, cells).widest > 2 * multifrontal.WIDE
-
-
 def test_parts_are_cut_where_they_share_few_unknowns_and_not_cell_by_cell():
     """Two squares of cells and a neck between them, an unknown a corner; most of one square is held."""
     x, y = (a.ravel() for a in np.meshgrid(np.arange(27), np.arange(8), indexing="ij"))
@@ -67,20 +62,6 @@ def test_a_singular_matrix_has_no_factors():
     matrix = Pattern(cells.unknowns, size=4).matrix(np.array([spring, 7.0 * spring, spring]))
     with pytest.raises(multifrontal.NoFactorsError):
         multifrontal.SignedFactors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells))
-
-
-def test_the_inertia_of_a_matrix_that_is_not_positive_definite_is_told():
-    matrix, cells = system(5, 4, 2)
-    solver = DirectSolver(fronts=partial(fronts_of, matrix.indices, matrix.indptr, cells))
-    values = np.linalg.eigvalsh(matrix.toarray())
-    n, b = len(values), np.ones(len(values))
-    shift = 0.5 * (values[2] + values[3])
-    shifted = (matrix - csr_matrix(shift * np.eye(n)).multiply(matrix != 0)).tocsr()
-    shifted.sort_indices()
-    for each, below in ((matrix, 0), (shifted, 3), (matrix, 0)):
-        factor = solver.factor(each)
-        assert factor.inertia == (n - below, below, 0)
-        assert each @ factor.solve(b) == pytest.approx(b)
 
 
 @pytest.mark.parametrize("shape", [(5, 4, 2), (12, 12, 5), (7, 7, 31)])

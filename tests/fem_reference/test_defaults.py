@@ -1,25 +1,18 @@
 """What a scene decides where nobody does: the same law and mesh in statics, modes and motion."""
 
 import pytest
+from cases import sheet
 
 import fem_reference
 import lumped
-from sheetbench.scenes import Scene
 
 RUBBER = {"law": "neo-hookean", "young": "0.5 MPa", "poisson": 0.45, "density": 1000.0}
 
 
 def pulled(**material):
     """A strip stretched by more than a half."""
-    return Scene.model_validate(
-        {
-            "name": "pulled",
-            "sheet": {"length_x": 0.1, "length_y": 0.05, "thickness": 0.002},
-            "material": RUBBER | material,
-            "support": [{"kind": "clamped", "edge": "x0"}],
-            "load": [{"kind": "edge", "edge": "x1", "force_per_length": [300.0, 0.0, 0.0]}],
-        }
-    )
+    load = {"kind": "edge", "edge": "x1", "force_per_length": [300.0, 0.0, 0.0]}
+    return sheet(0.1, 0.05, 0.002, material=RUBBER | material, loads=[load])
 
 
 @pytest.mark.sweep(2)

@@ -7,12 +7,12 @@ the other order is a series of scenes, each begun in the shape of the one before
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
-import lumped
 from comparisons.comparison.branches import shape
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Curved, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Curved
 
 LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX
 SHARES = (0.0, 0.4, 0.65, 0.74, 0.995 * LIMIT, 1.005 * LIMIT)
@@ -21,12 +21,8 @@ P3 = [(0.15, 0.075)]
 
 def bent(share):
     """With a share of the weight, by its density."""
-    return Scene(
-        name="bent", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
-        material=Material(young=1e7, poisson=0.45, density=1200.0 * (share or 1.0)),
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)) if share else None,
-        supports=(Curved(edge="x0", curvature=-8.0),),
-    )  # fmt: skip
+    density, supports = 1200.0 * (share or 1.0), (Curved(edge="x0", curvature=-8.0),)
+    return sheet(0.15, 0.15, 0.002, 1e7, 0.45, density, weight=9.81 if share else 0.0, supports=supports)
 
 
 def sag(found):
@@ -49,18 +45,3 @@ def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(element
     assert np.diff(smooth).max() < 0.0  # ever lower, without a jump
     assert AT_LIMIT < smooth[-1] < 0.9 * AT_LIMIT
     assert folded < 2.0 * AT_LIMIT
-
-
-def test_bent_first_the_lattice_folds_there_as_its_cells_shrink():
-    """Measured: 0.888 on 9 masses a side, 0.797 on 17, 0.780 on 25, 0.773 on 33."""
-    for masses, below, above in ((9, 0.87, 0.91), (17, 0.785, 0.81)):
-        scene = bent(0.0)
-        springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses), method="consistent")
-        found, sags = lumped.solve(scene, springs), []
-        for share in (0.4, 0.65, 0.75, below, above):
-            near = np.asarray(found.mesh.point_data["displacement"])
-            found = lumped.solve(bent(share), springs, near=near)
-            sags.append(sag(found))
-        assert np.diff(sags[:-1]).max() < 0.0
-        assert 1.2 * AT_LIMIT < sags[-2] < 0.75 * AT_LIMIT
-        assert sags[-1] < 1.8 * AT_LIMIT

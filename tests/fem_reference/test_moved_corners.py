@@ -95,23 +95,6 @@ def test_the_plate_is_their_limit_of_small_motions(name):
     assert_allclose(total, 0.0, atol=1e-9 * np.abs(plate.actuators["x1"]).max())
 
 
-@pytest.mark.parametrize(
-    "model", ["lumped", "plate", "shell", pytest.param("solid", marks=pytest.mark.nightly)]
-)
-def test_a_chain_goes_where_the_corner_goes_in_whatever_order(model):
-    bound, moved = chain(curvature=2.0), motion(displacement=LIFT)
-    first, second = (
-        solve(make_scene((CLAMP,), *both), model, (4, 2), (9, 5)) for both in ((bound, moved), (moved, bound))
-    )
-    assert_allclose(
-        first.displacement([CORNER, (0.1, 0.0)]), second.displacement([CORNER, (0.1, 0.0)]), atol=1e-9
-    )
-    assert_allclose(first.displacement([CORNER])[0], LIFT, atol=1e-9)
-    assert_allclose(
-        first.actuators["x1"], second.actuators["x1"], atol=1e-6 * np.abs(first.actuators["x1"]).max()
-    )
-
-
 def test_wrenches_are_about_the_middle_of_the_moved_edge():
     """Where the middle is now: a free sheet hung from an edge turned by a quarter has no moment about it.
 

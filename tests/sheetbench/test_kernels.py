@@ -13,8 +13,6 @@ import pytest
 import scipy.sparse as sp
 from dynamic_cases import make_scene, springs
 from llvmlite.binding import get_host_cpu_features
-from numba import njit
-from numba.core import event
 
 import lumped
 from lumped.dynamics.explicit.steps import march
@@ -161,24 +159,3 @@ def test_kernels_of_former_sources_go_after_a_month(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {
         "sheetbench.numerics.maps-new", "sheetbench.numerics.maps-young", "sheetbench.numerics.banded-old",
     }  # fmt: skip
-
-
-def test_a_part_of_an_array_is_set_without_making_text_of_its_shape():
-    heard = []
-
-    class Heard(event.Listener):
-        def on_start(self, event):
-            heard.append(event.data["dispatcher"].py_func.__module__)
-
-        def on_end(self, event):
-            """Nothing."""
-
-    @njit
-    def put(where, what):
-        where[1:] = what
-
-    with event.install_listener("numba:compile", Heard()):
-        put(np.zeros(4), np.zeros(3))
-        with pytest.raises(ValueError, match="shape"):
-            put(np.zeros(4), np.zeros(2))
-    assert "numba.cpython.unicode" not in heard

@@ -34,7 +34,7 @@ def numbers():
 """
 
 
-@pytest.mark.nightly
+@pytest.mark.nightly  # half a minute of Python
 def test_they_give_what_compiled_ones_do():
     ran = subprocess.run(
         [sys.executable, "-c", f"{ASK}\nprint(json.dumps(numbers()))"],

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import fem_reference
+from fem_reference.motion.generalised_alpha import ConstrainedAlpha
 from fem_reference.verification import settling_strip
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeMotion, Gravity, Pressure
+from sheetbench.numerics.time.method import StepFailed
+from sheetbench.scenes import EdgeMotion, Gravity, Pressure, load
 from sheetbench.scenes.objects.supports import Clamped, Curved, Motion
 from sheetbench.scenes.objects.tables import FactorTable
 
@@ -101,3 +103,21 @@ def test_edges_that_actuators_move_are_left_to_the_shell(strip, model):
     moved = EdgeMotion(kind="motion", edge="x1", time=(0.0, 1.0), displacement=((0, 0, 0), (0, 0, 0.01)))
     with pytest.raises(BadInput, match="x1"):
         fem_reference.simulate(strip.replace(actuators=(moved,)), model, 0.1, elements=2)
+
+
+def test_a_fixed_step_that_fails_is_halved_and_said(monkeypatch):
+    once = ConstrainedAlpha._advanced
+
+    def failing(self, motion, h):
+        if h > 0.9e-3 and 4e-3 < motion.time < 5.5e-3:
+            raise StepFailed("on request")
+        return once(self, motion, h)
+
+    scene = load("two-edges-settling")
+    plain = fem_reference.simulate(scene, "shell", 0.01, elements=2, step=1e-3, every=2e-3)
+    monkeypatch.setattr(ConstrainedAlpha, "_advanced", failing)
+    halved = fem_reference.simulate(scene, "shell", 0.01, elements=2, step=1e-3, every=2e-3)
+    assert halved.status is Status.CONVERGED and halved.settings["failed_steps"] >= 1
+    assert "failed_steps" not in plain.settings
+    for probe, u in plain.probes.items():
+        assert np.abs(halved.probes[probe] - u).max() < 2e-3 * np.abs(plain.probes["P4"]).max()

@@ -10,11 +10,6 @@ from sheetbench.scenes import Scene
 
 TIME = [round(0.005 * i, 3) for i in range(25)]
 RISEN = [[0.0, 0.0, round(0.015 * (1.0 - float(np.cos(np.pi * t / 0.12))), 9)] for t in TIME]
-PULSE = {"time": [0.0, 0.02, 0.04], "factor": [0.0, 1.0, 0.0]}
-LOADS = {
-    "pulse": [{"kind": "edge", "edge": "x1", "force_per_length": [0.0, 0.0, 4.0], "history": PULSE}],
-    "gravity": {"acceleration": [0.0, 0.0, -9.81]},
-}
 
 
 def strip(motion=None, **more):
@@ -49,22 +44,6 @@ def test_a_support_that_moves_smoothly_costs_less_than_three_thousandths(n, dura
     history = run(moved(), n, duration, every=2e-4)
     assert drift(history) < 0.003
     assert history.steps < 220 and len(history.time) > 3 * history.steps
-
-
-@pytest.mark.parametrize("name", ["generalised-alpha", "midpoint", "verlet"])
-def test_the_work_of_a_moved_support_is_in_every_integrators_books(name):
-    """To 1e-5 of the energies and less; with 2 % of the work left out generalised-α is off by 2 %."""
-    step = 1e-3 if name == "midpoint" else None
-    assert drift(run(moved(), 4, 0.06, integrator=name, step=step, every=2e-3)) < 1e-4
-
-
-@pytest.mark.parametrize(
-    "scene",
-    [strip(gravity=LOADS["gravity"]), strip(loads=LOADS["pulse"])],
-    ids=["let go", "pulse"],
-)
-def test_a_motion_without_a_jump_is_kept_to_half_a_percent(scene):
-    assert drift(run(scene, 9, 0.3)) < 0.005
 
 
 def test_a_support_that_speeds_up_pulls_its_own_masses_along():

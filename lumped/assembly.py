@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from functools import cached_property
 from typing import Literal, cast
 
 import numpy as np
@@ -20,12 +19,14 @@ from lumped.natural import with_natural
 from lumped.pattern import MassPattern, neighbours, of_grid
 from lumped.springs.all_families import AllFamilies, springs_of
 from lumped.springs.families import Family
+from lumped.springs.survey import Survey
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.springs import Distribution
 
 Precision = Literal["double", "single"]
+EPSILON = {"double": float(np.finfo(float).eps), "single": float(np.finfo(np.float32).eps)}
 
 
 class Assembly:
@@ -33,8 +34,8 @@ class Assembly:
 
     springs: the families (`lumped.springs.families`), the central `links` first. inertia: how masses that
     move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
-    masses in every array. precision: of the internal force. twisting: edges along which nothing holds the
-    director (`Scene.twisting_edges`).
+    masses in every array. precision: of the internal force; rounding: relative spacing of its numbers.
+    twisting: edges along which nothing holds the director (`Scene.twisting_edges`).
     """
 
     natural: NaturalState | None = None
@@ -70,7 +71,7 @@ class Assembly:
             rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
             self.pattern = MassPattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
-        self.precision = precision
+        self.precision, self.rounding = precision, EPSILON[precision]
         self._take(springs_of(self.lattice, self.pattern, calibration.springs, precision == "single"))
 
     def grow(self, state: NaturalState) -> None:
@@ -83,7 +84,7 @@ class Assembly:
 
     def _take(self, springs: AllFamilies) -> None:
         self.all_families = springs
-        self.force, self.advance, self.tangent = springs.force, springs.advance, springs.tangent
+        self.force, self.tangent = springs.force, springs.tangent
         self.springs, self.links = springs.families, springs.links
         self.conservative, self.any_strain = springs.conservative, springs.any_strain
 
@@ -96,16 +97,6 @@ class Assembly:
         """Return the lattice with its springs at a share of the sheet's natural state, where it has one, at a
         time [s], without one the last."""
         return self if self.natural is None else cast(Assembly, self.natural.at(share, time))
-
-    @cached_property
-    def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Masses by plan position, positions at rest, and areas of the cells: made once for all samples."""
-        return self.lattice.columns(), self.lattice.positions, self.lattice.cell_areas
-
-    @property
-    def rounding(self) -> float:
-        """Relative spacing of the numbers that the internal force is computed with."""
-        return float(np.finfo(np.float32 if self.precision == "single" else float).eps)
 
     def require_energy(self) -> None:
         """Raise BadInput when the springs have no energy."""
@@ -121,10 +112,6 @@ class Assembly:
             family.add_average_force(start, end, force)
         return force
 
-    def energies(self, u: np.ndarray) -> dict[str, float]:
-        """Return the elastic energy [J] of the springs under each name in the spring set."""
-        found: dict[str, float] = {}
-        for family in self.springs:
-            for name, energy in family.by_name(family.energies(u)).items():
-                found[name] = found.get(name, 0.0) + energy
-        return found
+    def survey(self, u: np.ndarray) -> Survey:
+        """Return what the springs store at u, and how far they are strained."""
+        return self.all_families.survey(u, self.lattice.grid[2])

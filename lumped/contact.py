@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -38,19 +38,7 @@ MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where t
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
 KINDS = ("plane", "sphere", "cylinder")
-POINT = ("obstacle", "corners", "weights", "area", "offset", "stiffness")
-
-
-class _Touching(NamedTuple):
-    """Where some patches of points are: which, beside the obstacle, their depth [m], < 0 of one that is
-    clear, A ψ [J], A p [N] and A p' [N/m] (m, p), of a step's mean force its own."""
-
-    patches: np.ndarray
-    near: Near
-    depth: np.ndarray
-    energy: np.ndarray
-    load: np.ndarray
-    slope: np.ndarray
+Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (m, p)
 
 
 def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -101,7 +89,7 @@ class Contact(LatticeItem):
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots, self._eps = assembly.pattern.among(self.nodes), assembly.rounding
 
-    def _law(self, depth: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _law(self, depth: np.ndarray, of: Any = ...) -> Pressed:
         """Return A ψ [J], A p [N] and A p' [N/m] of patches `of` at depths (m, p) [m]."""
         d, stiffness = np.maximum(depth, 0.0), self.share * self.full[of] * self.area[of]
         over = max(self.rounded, 1e-100) * self.thickness[of]
@@ -109,48 +97,51 @@ class Contact(LatticeItem):
         energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
         return stiffness * energy, stiffness * (0.5 * curved**2 / over + sure), stiffness * curved / over
 
-    def _near(self, x: np.ndarray, drive: Drive) -> Near:
-        return near(self.obstacle, x, drive.load_factor, drive.time)
+    def _near(self, u: np.ndarray, drive: Drive, of: Any = ...) -> tuple[Near, np.ndarray]:
+        """Return where points of patches are, and their depth (m, p) [m], < 0 of one that is clear."""
+        places = self.weights @ (self._rest[of] + u[self.nodes[of]])
+        found = near(self.obstacle, places, drive.load_factor, drive.time)
+        return found, (0.5 + TOUCH) * self.thickness[of] - found.distance
 
-    def _touching(
-        self, u: np.ndarray, drive: Drive, since: Since | None = None, everywhere: bool = False
-    ) -> _Touching:
-        """Return where patches are that may touch, or all; since: for the mean force of a step from there."""
-        places, which = self._rest + u[self.nodes], np.arange(len(self.nodes))
-        if len(self.weights) > 1 and since is None and not everywhere:
+    def _pressed(self, u: np.ndarray, drive: Drive, since: Since | None = None) -> tuple[Any, Near, Pressed]:
+        """Return which patches may touch, where their points are and how they are pressed; since: what a step
+        from there has in the mean."""
+        if since is not None:
+            (before, then), (after, depth) = self._near(*since), self._near(u, drive)
+            (had, _, _), (has, last, _) = self._law(then), self._law(depth)
+            far = np.abs(depth - then) > SAME_DEPTH * self.thickness
+            sunk = np.where(far, depth - then, 1.0)
+            _, load, slope = self._law(0.5 * (then + depth))
+            load = np.where(far, (has - had) / sunk, load)
+            return ..., after.mean(before), (has, load, np.where(far, (last - load) / sunk, 0.5 * slope))
+        of: Any = ...
+        if len(self.weights) > 1:
+            places = self._rest + u[self.nodes]
             middle = places.mean(axis=1, keepdims=True)  # no point is farther from it than a mass
             reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1))
             reach += 0.51 * self.thickness.max(axis=1)
-            which = np.flatnonzero(self._near(middle[:, 0], drive).distance < reach)
-        found = self._near(self.weights @ places[which], drive)
-        depth = (0.5 + TOUCH) * self.thickness[which] - found.distance
-        now = _Touching(which, found, depth, *self._law(depth, which))
-        if since is None:
-            return now
-        then = self._touching(*since, everywhere=True)
-        far = np.abs(depth - then.depth) > SAME_DEPTH * self.thickness
-        sunk = np.where(far, depth - then.depth, 1.0)
-        _, load, slope = self._law(0.5 * (then.depth + depth), which)
-        load = np.where(far, (now.energy - then.energy) / sunk, load)
-        slope = np.where(far, (now.load - load) / sunk, 0.5 * slope)
-        return now._replace(near=found.mean(then.near), load=load, slope=slope)
+            at = near(self.obstacle, middle[:, 0], drive.load_factor, drive.time)
+            of = np.flatnonzero(at.distance < reach)
+        found, depth = self._near(u, drive, of)
+        return of, found, self._law(depth, of)
 
-    def _spread(self, patches: np.ndarray, load: np.ndarray, out: np.ndarray) -> None:
-        """Add forces of points (m, p, 3) [N] to those of the masses."""
-        touched = load.any(axis=(1, 2))
-        shares = np.einsum("pq,mpi->mqi", self.weights, load[touched])
-        np.add.at(out, self.nodes[patches[touched]], shares)
+    def _spread(self, values: np.ndarray, out: np.ndarray, of: Any = ...) -> np.ndarray:
+        """Add what points (m, p, …) of patches share to the masses' (n, …), and return that."""
+        touched = values.any(axis=tuple(range(1, values.ndim)))
+        shares = np.einsum("pq,mp...->mq...", self.weights, values[touched])
+        np.add.at(out, self.nodes[of][touched], shares)
+        return out
 
-    def _spread_blocks(self, patches: np.ndarray, points: np.ndarray, blocks: np.ndarray) -> None:
-        """Add derivatives at points (m, p, 3, 3) to the pattern's blocks."""
+    def _spread_blocks(self, points: np.ndarray, blocks: np.ndarray, of: Any) -> None:
+        """Add derivatives at points (m, p, 3, 3) of patches to the pattern's blocks."""
         touched = points.any(axis=(1, 2, 3))
         of_masses = np.einsum("pa,pb,mpij->mabij", self.weights, self.weights, points[touched], optimize=True)
-        np.add.at(blocks, self.slots[patches[touched]], of_masses)
+        np.add.at(blocks, self.slots[of][touched], of_masses)
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
-        found = self._touching(u, drive, since)
-        self._spread(found.patches, -found.load[..., None] * found.near.normal, force)
-        return float(found.energy.sum())
+        of, found, (energy, load, _) = self._pressed(u, drive, since)
+        self._spread(-load[..., None] * found.normal, force, of)
+        return float(energy.sum())
 
     def add_tangent(
         self,
@@ -161,46 +152,40 @@ class Contact(LatticeItem):
         definite: bool = False,
         since: Since | None = None,
     ) -> None:
-        found = self._touching(u, drive, since)
-        points = (scale * found.slope)[..., None, None] * dyad(found.near.normal)
+        of, found, (_, load, slope) = self._pressed(u, drive, since)
+        points = (scale * slope)[..., None, None] * dyad(found.normal)
         if not definite:
-            points -= (scale * found.load)[..., None, None] * found.near.curvature
-        self._spread_blocks(found.patches, points, blocks)
+            points -= (scale * load)[..., None, None] * found.curvature
+        self._spread_blocks(points, blocks, of)
 
     def _resisted(
         self, u: np.ndarray, v: np.ndarray, drive: Drive
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return patches that may touch, how points move past the obstacle (m, p, 3) [m/s], forces (m, p, 3)
-        [N] of dashpot and friction and their derivatives by that (m, p, 3, 3)."""
-        found = self._touching(u, drive)
-        speed = self.weights @ (v[self.nodes[found.patches]] - self.obstacle.velocity(drive.time))
-        return found.patches, speed, *found.near.resistance(found.load, speed)
+    ) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
+        """Return patches that may touch, how points move past the obstacle (m, p, 3) [m/s], and forces (m, p,
+        3) [N] of dashpot and friction with their derivatives by that (m, p, 3, 3)."""
+        of, found, (_, load, _) = self._pressed(u, drive)
+        speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(drive.time))
+        return of, speed, found.resistance(load, speed)
 
     def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         if not self.resists:
             return 0.0
-        patches, speed, pull, _ = self._resisted(u, v, drive)
-        self._spread(patches, -pull, force)
+        of, speed, (pull, _) = self._resisted(u, v, drive)
+        self._spread(-pull, force, of)
         return -float((pull * speed).sum())
 
     def add_resistance_tangent(
         self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
     ) -> None:
         if self.resists:
-            patches, _, _, by_speed = self._resisted(u, v, drive)
-            self._spread_blocks(patches, -scale * by_speed, blocks)
+            of, _, (_, by_speed) = self._resisted(u, v, drive)
+            self._spread_blocks(-scale * by_speed, blocks, of)
 
     def step_share(self, start: Placed, end: Placed) -> float:
-        then, now = (self._touching(*at, everywhere=True).near for at in (start, end))
-        return now.share_of_way(then, 0.5 * self.thickness)
-
-    def _of_masses(self, load: np.ndarray) -> np.ndarray:
-        """Return sums (n,) of what points (m, p) share among the masses."""
-        shares = (load @ self.weights).ravel()
-        return np.bincount(self.nodes.ravel(), shares, self._masses)
+        return self._near(*end)[0].share_of_way(self._near(*start)[0], 0.5 * self.thickness)
 
     def stiffest(self, mass: np.ndarray) -> float:
-        return float((self._of_masses(self.area * self.share * self.full) / mass).max())
+        return float((self._spread(self.area * self.share * self.full, np.zeros(self._masses)) / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
         self.rounded = ROUNDED
@@ -211,17 +196,16 @@ class Contact(LatticeItem):
         return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
-        found, area = self._touching(*at, everywhere=True), self._of_masses(self.area)
-        load = self._of_masses(found.load)
+        depth = self._near(*at)[1]
+        area, load = (self._spread(one, np.zeros(self._masses)) for one in (self.area, self._law(depth)[1]))
         pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
-        return ContactState.of(found.depth / self.thickness, self.area), pressure
+        return ContactState.of(depth / self.thickness, self.area), pressure
 
     def clearance(self, u: np.ndarray) -> np.ndarray:
         """Return the way (3,) [m] that takes the nearest point to a depth of a tenth of the thickness."""
-        found = self._touching(u, Drive(), everywhere=True)
-        least = np.unravel_index(found.depth.argmax(), found.depth.shape)
-        way: np.ndarray = (found.depth - 0.1 * self.thickness)[least] * found.near.normal[least]
-        return way
+        found, depth = self._near(u, Drive())
+        least = np.unravel_index(depth.argmax(), depth.shape)
+        return np.asarray((depth - 0.1 * self.thickness)[least] * found.normal[least])
 
 
 def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:
@@ -239,11 +223,12 @@ def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndar
         measures = one.area, (0.5 + TOUCH) * one.thickness, one.full
         parts.append((*place, np.tile(weights, (patches, 1)), *(each.ravel() for each in measures)))
     at = [shape.position + shape.displacement(1.0) for shape in shapes]  # where each is at last
-    columns = map(np.concatenate, zip(*parts, strict=True))
+    which, corners, weights, area, offset, stiffness = map(np.concatenate, zip(*parts, strict=True))
     return {
         "obstacle_kind": np.array([KINDS.index(shape.kind) for shape in shapes], dtype=int),
         "obstacle_position": np.array(at).reshape(-1, 3),
         "obstacle_direction": np.array([shape.direction for shape in shapes]).reshape(-1, 3),
         "obstacle_radius": np.array([0.0 if isinstance(one, Plane) else one.radius for one in shapes]),
-        **{f"contact_{name}": column for name, column in zip(POINT, columns, strict=True)},
+        **{"contact_obstacle": which, "contact_corners": corners, "contact_weights": weights},
+        **{"contact_area": area, "contact_offset": offset, "contact_stiffness": stiffness},
     }

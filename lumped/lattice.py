@@ -138,6 +138,11 @@ class Lattice:
         return frozen(areas if self.present is None else areas * self.present)
 
     @cached_property
+    def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Masses by plan position, positions at rest, and areas of the cells."""
+        return self.columns(), self.positions, self.cell_areas
+
+    @cached_property
     def sides(self) -> dict[str, np.ndarray]:
         """Mean sides at rest (c, 2, 3) [m], along x and along y, of the cells of each family."""
         return {family.name: mean_sides(self.positions, family.nodes) for family in self.cells}

@@ -136,12 +136,9 @@ class Loads:
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
         """External force (n, 3) [N] on the masses displaced by u, at a time [s]; without a time, as statics
         have it: with the last factor of every history. Not to be written to."""
-        if self.potential:
-            return self.dead
-        force = self.dead.copy()
-        for part in self._parts.values():
-            if part.history is not None:
-                force += part.factor(time) * part.dead
+        force = self.last_dead
+        if time is not None and not self.potential:
+            force = np.sum([part.factor(time) * part.dead for part in self._parts.values()], axis=0)
         return force + self.followers(u, time) if self.follow else force
 
     def work(self, u: np.ndarray) -> float:

@@ -12,7 +12,8 @@ else the edges add to it what is not (Schweizerhof and Ramm 1984).
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from sheetbench.numerics.typed import njit
 
 WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M by how many corners farther in turn
 

@@ -8,7 +8,6 @@ import pytest
 import fem_reference
 import lumped
 from comparisons.codes.lattice import lattice_files
-from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
@@ -25,29 +24,6 @@ CUT = [  # of the sheet's own material, aligned, oblique and round, over each ot
     {"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "thickness": 0.003},
     {"shape": {"polygon": [(0.05, 0.0), (0.188, 0.188), (0.0, 0.188)]}, "poisson": 0.48, "density": 1678.0},
 ]
-
-
-def answer(scene, model):
-    """Of 9 × 9 masses, or a mesh with the lines that the patches ask for."""
-    if model == "calculix":
-        if CALCULIX.version() is None:
-            pytest.skip(f"needs {CALCULIX.needs}")
-        return CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 4})
-    return lumped.solve(scene) if model == "lumped" else fem_reference.solve(scene, model, elements=4)
-
-
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid", "calculix"])
-def test_a_uniform_sheet_cut_into_patches_of_its_own_material_is_the_same(model):
-    plain = load("two-edges-clamped")
-    lines = plain.replace(patches=[{"shape": CUT[0]["shape"], "young": 54.5e6}])  # the same mesh
-    moved, cut = (
-        answer(scene, model) for scene in (plain if model == "lumped" else lines, plain.replace(patches=CUT))
-    )
-    assert cut.status is Status.CONVERGED and (model == "calculix" or cut.balance.holds)
-    fields = [each.mesh.point_data["displacement"] for each in (moved, cut)]
-    rounding = 1e-6 if model == "calculix" else 1e-8  # it prints seven digits
-    assert np.allclose(*fields, rtol=0.0, atol=rounding * np.abs(fields[0]).max())
 
 
 def strip(**drawn):

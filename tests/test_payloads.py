@@ -14,9 +14,8 @@ from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.calculix.model import deck
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.model import Triangles, problem
-from sheetbench.answers.balance import dead_force
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import AreaLoad, Gravity, Material, PointLoad
+from sheetbench.scenes import Gravity, Material, PointLoad
 from sheetbench.scenes.meaning.parameters import parameter, put
 
 LENGTH, WIDTH, THICK, YOUNG, DENSITY, TIP = 0.2, 0.02, 0.003, 2e6, 1100.0, 5e-3
@@ -88,35 +87,6 @@ def test_a_body_that_turns_about_the_strip_slows_its_twist_alone():
     assert np.allclose(fine, turning, rtol=0.02)
 
 
-@pytest.mark.sweep
-@pytest.mark.parametrize("model", ["lumped", *REFERENCES])
-@pytest.mark.parametrize("spread", [False, True])
-def test_at_rest_a_payload_is_the_force_of_its_weight(model, spread):
-    payload = {"where": PART, "mass": TIP} if spread else body(at=(0.17, 0.013))
-    pull = -9.81 * TIP
-    load = AreaLoad(force_per_area=(0.0, 0.0, pull / (0.05 * WIDTH)), where=PART)
-    forced = strip(loads=(load if spread else PointLoad(at=(0.17, 0.013), force=(0.0, 0.0, pull)),))
-    scenes = strip(payload, young=2e8), forced.replace(young=2e8)
-    if model == "lumped":
-        found = [lumped.solve(scene, springs(scene)) for scene in scenes]
-    else:
-        found = [fem_reference.solve(scene, model=model, elements=REFERENCES[model]) for scene in scenes]
-    fields = [one.mesh.point_data["displacement"] for one in found]
-    assert all(one.status is Status.CONVERGED and one.balance.holds for one in found)
-    assert np.allclose(*fields, rtol=0.0, atol=1e-9 * np.abs(fields[1]).max())
-    assert np.allclose(*(one.reactions["x0"] for one in found), atol=1e-9)
-    assert dead_force(scenes[0])[2] == pytest.approx(-9.81 * (BEAM + TIP), rel=1e-12)
-
-
-def test_the_weight_follows_gravitys_history():
-    ramp = {"time": (0.0, 1.0), "factor": (0.0, 0.5)}
-    scene = strip(body(), gravity=Gravity((0.0, 0.0, -9.81), history=ramp), young=2e8)
-    halved = strip(body(), gravity=Gravity((0.0, 0.0, -9.81 / 2.0)), young=2e8)
-    found = [ending(one, lumped.solve(one, springs(one))) for one in (scene, halved)]
-    assert np.allclose(*found, rtol=1e-9)
-    assert dead_force(scene)[2] == pytest.approx(-9.81 / 2.0 * (BEAM + TIP))
-
-
 RUNS = [("lumped", "midpoint"), ("lumped", "esdirk"), ("lumped", "verlet"), "plate", "shell"]
 
 
@@ -162,14 +132,6 @@ def test_a_mass_spread_over_a_part_is_a_patch_of_higher_density(model):
         assert np.allclose(*found, rtol=3e-3) and found[0][0] == pytest.approx(found[1][0], rel=1e-3)
     else:
         assert np.allclose(*found, rtol=1e-4)
-
-
-def test_modes_about_the_deformed_strip_are_alike():
-    found = [
-        frequencies(strip(body(moments=(0.0, 1e-6, 0.0)), young=1e7), model, 1, about="deformed")
-        for model in ("lumped", "shell")
-    ]
-    assert np.allclose(*found, rtol=5e-3)
 
 
 def test_a_state_space_has_the_body_and_its_weight():

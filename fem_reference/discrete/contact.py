@@ -47,13 +47,9 @@ class Touching(SheetItem):
         """Return x (faces, m, 9, 3) [m] of vectors (m, 18, 3)."""
         return np.asarray(vectors[:, :9] + self.levers[..., None] * vectors[:, 9:])
 
-    def _near(self, shape: SheetShape) -> Near:
-        """Return where points (faces, m, 9) are beside the obstacle as it is then."""
-        return near(self.obstacle, self._points(shape.vectors), *shape.sheet.instant(shape.at))
-
     def _sunk(self, shape: SheetShape) -> tuple[Near, np.ndarray, Pressed]:
         """Return where points are, and how deep (faces, m, 9) [m], < 0 of one that is clear."""
-        found = self._near(shape)
+        found = near(self.obstacle, self._points(shape.vectors), *shape.sheet.instant(shape.at))
         depth = self.offset + TOUCH * self.thickness - found.distance
         return found, depth, self._pressed(depth)
 
@@ -68,7 +64,8 @@ class Touching(SheetItem):
     def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, m, 9, 3) [N]."""
         found, _, (_, load, _) = self._sunk(shape)
-        return load[..., None] * found.normal + self._resisted(shape)[0]
+        pull = load[..., None] * found.normal
+        return pull + self._resisted(shape)[0] if self.resists else pull
 
     def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape))
@@ -80,9 +77,8 @@ class Touching(SheetItem):
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
         found, _, (_, load, slope) = self._sunk(shape)
-        return self._between(
-            load[..., None, None] * found.curvature - slope[..., None, None] * dyad(found.normal)
-        )
+        geometric = load[..., None, None] * found.curvature
+        return self._between(geometric - slope[..., None, None] * dyad(found.normal))
 
     def _between(self, blocks: np.ndarray) -> Tangent | None:
         """Return derivatives (faces, m, 9, 3, 3) of points' forces by their places as elements have them."""
@@ -93,10 +89,8 @@ class Touching(SheetItem):
         return (on, out.reshape(-1, 18, 3, 18, 3)) if len(on) else None
 
     def _resisted(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray]:
-        """Return forces (faces, m, 9, 3) [N] of dashpot and friction, in motion, and their derivatives by
-        points' velocities (faces, m, 9, 3, 3)."""
-        if not self.resists:
-            return np.zeros((*self.levers.shape, 3)), np.zeros((*self.levers.shape, 3, 3))
+        """Return forces (faces, m, 9, 3) [N] of dashpot and friction, and their derivatives by points'
+        velocities (faces, m, 9, 3, 3)."""
         found, _, (_, load, _) = self._sunk(shape)
         return found.resistance(load, self._points(shape.rates) - self.obstacle.velocity(shape.at))
 
@@ -120,7 +114,7 @@ class Touching(SheetItem):
         return {self.name: (self._points(shape.vectors), self._pulled(shape))}
 
     def step_share(self, start: SheetShape, end: SheetShape) -> float:
-        return self._near(end).share_of_way(self._near(start), self.offset)
+        return self._sunk(end)[0].share_of_way(self._sunk(start)[0], self.offset)
 
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""

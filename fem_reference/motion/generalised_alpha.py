@@ -61,10 +61,8 @@ class ConstrainedAlpha:
 
     state = SheetMotion
 
-    def __init__(
-        self, model: Discrete, step: float | None, error: float, first: float, radius: float = RADIUS
-    ):
-        self._usual = generalised(radius)
+    def __init__(self, model: Discrete, step: float | None, error: float, first: float):
+        self._usual = generalised(RADIUS)
         self.late = 1.0 - self._usual.af
         self._model, self.adapts, self._error = model, step is None, error
         self._first = first if step is None else step

@@ -67,7 +67,7 @@ def simulate(
         require_no_obstacles(requested, "the plate, which is linear,")
     options = with_defaults(requested, signature(SHEETS[model]).parameters, options)
     moving = SHEETS[model](requested, **options, moving=True)
-    spacing = every or _lowest_period(requested) / SAMPLES_PER_PERIOD
+    spacing = every or 1.0 / float(modes(requested, "plate", 4, count=1).frequencies[0]) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)
     schedule = Schedule(count, duration / count, count)
     settings = {**moving.settings, "step": step or "adaptive", "error": error}
@@ -95,7 +95,3 @@ def require_moving(scene: Scene, model: str) -> None:
     """Raise BadInput for a model that does not move, or a scene with what no reference moves."""
     if model not in SHEETS:
         raise BadInput(f"reference = '{model}': {listed(SHEETS)} can move")
-
-
-def _lowest_period(scene: Scene) -> float:
-    return 1.0 / float(modes(scene, "plate", 4, count=1).frequencies[0])

@@ -14,7 +14,8 @@ points at once, in vector instructions.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from sheetbench.numerics.typed import njit
 
 REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
 PLANE, SHEARED = 21, 12  # in-plane points, and those of them that have shear

@@ -11,9 +11,9 @@ of which the lower triangle is formed; membrane strains have nothing to do with 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from fem_reference.shell.sampling import PLANE, REORDERED, sampled
+from sheetbench.numerics.typed import njit
 
 MOVES, UNKNOWNS = 27, 45  # of an element: displacements, and with them rotations
 AT_ONCE = 3  # strains and unknowns that are gone through together, whose numbers by part it divides

@@ -133,7 +133,8 @@ def _matrix(strain: np.ndarray, shear: float) -> np.ndarray:
 
 
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
-    inverse, determinant = _inverse(strain)
+    c = np.eye(3) + 2.0 * _matrix(strain, 0.5)  # 2E + 1
+    inverse, determinant = np.linalg.inv(c), np.linalg.det(c)
     first = np.stack([inverse[..., i, j] for i, j in PAIRS], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
         value = 0.5 * np.log(determinant)
@@ -157,12 +158,6 @@ def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:
     )
     tangent = 4.0 * (second + c01)[..., None, None] * np.outer(_TRACE, _TRACE)
     return Triad(value, stress, tangent - 2.0 * c01 * _DOUBLE - at_rest * log.second)
-
-
-def _inverse(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """C⁻¹ (…, 3, 3) and det C of C = 2E + 1."""
-    c = np.eye(3) + 2.0 * _matrix(strain, 0.5)
-    return np.linalg.inv(c), np.linalg.det(c)
 
 
 def _everywhere(constant: np.ndarray, strain: np.ndarray) -> np.ndarray:

@@ -58,22 +58,13 @@ def spacing(count: int, layer: int) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum(size)]) / size.sum()
 
 
-def rectangle(
-    sheet: Sheet,
-    elements: Elements,
-    graded: bool = False,
-    cuts: Collection[str] = (),
-    reach: float = 1.0,
-) -> MeshQuad:
+def rectangle(sheet: Sheet, elements: Elements, graded: bool = False) -> MeshQuad:
     """A mesh of the sheet whose boundaries carry the edges' names.
-
-    cuts: edges that are planes of symmetry; the mesh is then that of the whole sheet, cut there. reach: share
-    of the elements along the shorter side over which a graded mesh's sizes grow; the others are equal.
 
     Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
     a thick sheet has boundary layers: the same number of elements, a far smaller error.
     """
-    x, y = _lines(sheet, divisions(sheet, elements), graded, cuts, reach)
+    x, y = _lines(sheet, divisions(sheet, elements), graded, ())
     return _tensor(x, y, *sheet.lengths)
 
 

@@ -13,7 +13,6 @@ from functools import cache, cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
@@ -25,10 +24,11 @@ from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
+from lumped.springs.survey import Survey, survey
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.typed import njit, typed
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
@@ -65,11 +65,13 @@ class AllFamilies:
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
         self.springs = typed(SpringArrays(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_)))
         self._found, self._pattern = found, pattern
+        self._cells = {at: family for at, family in found.items() if isinstance(family, SpringCells)}
         self._where = typed(Blocks(pattern.blocks, pattern.mirror, pattern.diagonal))
         self._others = [family for place, family in found.items() if place < 0]
         rounded = [family.rounded() for family in families] if single else None
         self._rounded = None if rounded is None else AllFamilies(rounded, pattern)
         along = [family for family in families if isinstance(family, Links)]
+        self.alone = rounded is None and not self._others
         self.links, self.all_links = along[0], along
         self.conservative = all(family.conservative for family in families)
         self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
@@ -85,33 +87,46 @@ class AllFamilies:
         """Return its norm."""
         return float(np.linalg.norm(self.link_stiffness))
 
+    @cached_property
+    def _areas(self) -> Any:
+        """The area springs alone, of the layers' cells, the mid-surface's and the faces."""
+        found = [self._cells.get(at) for at in (1, 2, 3)]
+        return typed(tuple([_no_cells()[3] if each is None else each.area_alone for each in found]))
+
+    def survey(self, u: np.ndarray, layers: int) -> Survey:
+        """Return what the springs of a lattice of so many layers store at u, and how far they are
+        strained."""
+        kind, names = self.links.kind, len(self.links.names)
+        found = survey(np.ascontiguousarray(u), self.springs, self._areas, kind, names, layers)
+        energies, sums = (
+            self.links.by_name(found[0][:names].tolist()),
+            found[0][names:].reshape(3, 2).tolist(),
+        )
+        for at, family in self._found.items():
+            if at > 0:
+                energies |= family.by_name(sums[at - 1])
+        return Survey(energies, *found[1:])
+
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""
         if self._rounded is not None:
             energy, internal = self._rounded.force(u.astype(np.float32))
             return energy, internal.astype(float)
         energy, internal = force(np.ascontiguousarray(u), self.springs)
+        return energy, self.beside(u, internal)
+
+    def beside(self, u: np.ndarray, internal: np.ndarray) -> np.ndarray:
+        """Return the internal force at u of which `internal` is what compiled calls have found, added to."""
+        if self._rounded is not None:
+            return self.force(u)[1]
         for family in self._others:
             family.add_force(u, internal)
-        return energy, internal
-
-    def advance(
-        self, u: np.ndarray, step: np.ndarray, predict: bool
-    ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
-        """Return where a step leads, how far at most [m], the internal force there, and the stresses that the
-        linearisation at u predicts there, none unless asked to `predict`."""
-        after, length, internal, stresses = advance(
-            np.ascontiguousarray(u), np.ascontiguousarray(step), predict, self.springs
-        )
-        if self._rounded is not None:
-            return after, length, self.force(after)[1], stresses
-        for family in self._others:
-            family.add_force(after, internal)
-        return after, length, internal, stresses
+        return internal
 
     def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
         """Return the stresses that the linearisation at u predicts after `step`."""
-        return self.advance(u, step, True)[3]
+        stresses: Stresses = advance(np.ascontiguousarray(u), np.ascontiguousarray(step), self.springs)[3]
+        return stresses
 
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
@@ -180,26 +195,23 @@ def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
     return energy, out
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")
 def advance(
-    u: np.ndarray, step: np.ndarray, predict: bool, springs: SpringArrays
+    u: np.ndarray, step: np.ndarray, springs: SpringArrays
 ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
     """Return where a step (n, 3) [m] leads, how far at most [m], the internal force (n, 3) [N] there, and the
-    stresses that the linearisation at u predicts there, none unless asked to `predict`."""
+    stresses that the linearisation at u predicts there."""
     after, length = np.empty_like(u), 0.0
     for i in range(len(u)):
         for q in range(3):
             after[i, q] = u[i, q] + step[i, q]
             length = max(length, abs(step[i, q]))
-    none = np.empty((0, 4))
-    stresses: Stresses = np.empty(0), none, none, none
-    if predict:
-        stresses = (
-            links.extrapolated(u, step, springs.links, measures(springs.layers.law) == 3),
-            cells.extrapolated(u, step, springs.layers),
-            cells.extrapolated(u, step, springs.middle),
-            cells.extrapolated(u, step, springs.faces),
-        )
+    stresses = (
+        links.extrapolated(u, step, springs.links, measures(springs.layers.law) == 3),
+        cells.extrapolated(u, step, springs.layers),
+        cells.extrapolated(u, step, springs.middle),
+        cells.extrapolated(u, step, springs.faces),
+    )
     return after, length, force(after, springs)[1], stresses
 
 

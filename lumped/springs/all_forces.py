@@ -8,13 +8,13 @@ keeps them in the order of a `Packing`, flat. The forces are those of the famili
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from lumped.springs import packing as kinds
 from lumped.springs import tiles
 from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import HALF, LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
+from sheetbench.numerics.typed import njit
 
 DIRECTIONAL, CELLS, FACES = map(np.uint64, (kinds.DIRECTIONAL, kinds.CELLS, kinds.FACES))
 UINT_ONE = np.uint64(1)

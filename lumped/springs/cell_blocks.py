@@ -8,9 +8,9 @@ forces (`lumped.springs.cells`) is written in the diagonals first: (4, 9) of (d1
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from lumped.springs.laws import Four, Three, Vector, less, plus, times
+from sheetbench.numerics.typed import njit
 
 Pair = tuple[Vector, Vector]
 Rows = tuple[Pair, Pair, Pair]

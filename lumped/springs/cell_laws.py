@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numba.extending import overload, register_jitable
 
 from lumped.springs import laws
 from lumped.springs.laws import Constants, Four, Six, Three, times_six
 from sheetbench.numerics.memory import load_each
+from sheetbench.numerics.typed import njit
 
 
 class AreaAndStrains(NamedTuple):

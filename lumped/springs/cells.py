@@ -22,7 +22,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, both, by_sides, by_warp, to_diagonals
 from lumped.springs.cell_laws import (
@@ -47,6 +46,7 @@ from lumped.springs.laws import (
     times,
     times_six,
 )
+from sheetbench.numerics.typed import njit
 
 HALF = 0.5
 NO_CHANGE = (0.0, 0.0, 0.0, 0.0)

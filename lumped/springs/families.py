@@ -75,8 +75,9 @@ class Family(ABC):
         """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J]."""
 
     @abstractmethod
-    def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """Return energies summed under the names that the springs have in a spring set [J]."""
+    def by_name(self, sums: list[float]) -> dict[str, float]:
+        """Return sums of energies [J], by kind of link or of both kinds of springs on cells, under the names
+        that the springs have in a spring set."""
 
     def rounded(self) -> Family:
         """Return the springs whose force is computed in single precision: these, with their rest data."""
@@ -138,11 +139,6 @@ class Links(Family):
         """Return the stresses of stretched links."""
         return np.maximum(self.stresses(u)[:, 0], 0.0)
 
-    @cached_property
-    def in_plane(self) -> np.ndarray:
-        """Numbers of the links that lie in a layer."""
-        return np.flatnonzero(self.offset[:, 2] == 0.0)
-
     def elongations(self, u: np.ndarray) -> np.ndarray:
         """Return the elongation of every link, (m,) [m]."""
         elongations: np.ndarray = links.elongations(u, self.arrays)
@@ -152,10 +148,8 @@ class Links(Family):
         """Return ½ k e² of every link."""
         return 0.5 * self.stiffness * self.elongations(u) ** 2
 
-    def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """Return sums by kind of link."""
-        sums = np.bincount(self.kind, energies, minlength=len(self.names))
-        return dict(zip(self.names, sums.tolist(), strict=True))
+    def by_name(self, sums: list[float]) -> dict[str, float]:
+        return dict(zip(self.names, sums, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,11 +230,12 @@ class SpringCells(Family):
     def energies(self, u: np.ndarray) -> np.ndarray:
         """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
         less that of the links along its sides."""
-        stored: np.ndarray = cells.energies(u, self.arrays, self._area_alone)
+        stored: np.ndarray = cells.energies(u, self.arrays, self.area_alone)
         return stored
 
     @cached_property
-    def _area_alone(self) -> Any:
+    def area_alone(self) -> Any:
+        """Return the law's constants of the area springs alone."""
         areas = self.constants.copy()
         areas[:, 1:] = 0.0
         return self.law.tag(areas)
@@ -249,10 +244,10 @@ class SpringCells(Family):
     def _there(self) -> tuple[bool, bool]:
         return bool(self.stiffness[:, 0].any()), bool(self.stiffness[:, 1:].any())
 
-    def by_name(self, energies: np.ndarray) -> dict[str, float]:
-        """Return both sums, of the springs that there are."""
-        sums = zip(self.names, energies.sum(axis=0).tolist(), self._there, strict=True)
-        return {name: energy for name, energy, has in sums if name and has}
+    def by_name(self, sums: list[float]) -> dict[str, float]:
+        return {
+            name: sum for name, sum, has in zip(self.names, sums, self._there, strict=True) if name and has
+        }
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""

@@ -39,7 +39,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from sheetbench.numerics.typed import njit
 
 Vector = tuple[float, float, float]  # kept in registers, where small arrays are in memory
 Three = tuple[float, float, float]

@@ -23,9 +23,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.springs.laws import Vector, dot, elongation, less, mean_elongation, times
+from sheetbench.numerics.typed import njit
 
 HALF = 0.5
 

@@ -30,11 +30,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from lumped.springs.cell_laws import LAWS, Tag, constants, measures, respond
 from lumped.springs.laws import times_six
 from sheetbench.numerics.memory import load, load_each, store, store_each
+from sheetbench.numerics.typed import njit
 
 WIDTH = 128
 LANES = np.uint64(8)  # springs of a run come in blocks of so many, as wide as the widest vectors

@@ -96,7 +96,7 @@ def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float
     """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
     the energies [J]."""
     state = outcome.state
-    energies = outcome.energies or problem.energies(state.u, state.load_factor)
+    energies = outcome.energies or problem.survey(state.u, state.load_factor).energies
     residual = state.residual or problem.residual(state.u, state.load_factor)
     return -residual.force, energies
 

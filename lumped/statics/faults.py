@@ -10,37 +10,30 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
-from lumped.springs import links
-from lumped.statics.soundness import first_inverted
+from lumped.statics.soundness import examine
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 
 COLLAPSED = 1e-6  # of a link's rest length
+FAULTS = (  # as `soundness.examine` numbers them
+    (Status.NON_FINITE, "the mass at {} has left the range of numbers"),
+    (Status.INVERTED, "the link at {} has no length left: refine the grid"),
+    (Status.INVERTED, "the cell at {} has turned inside out: refine the grid"),
+)
 
 
 def inspect(assembly: Assembly, states: np.ndarray) -> tuple[np.ndarray, Fault | None]:
     """Return the largest strain of a link in a layer at each of the displacements (k, n, 3) [m] before the
     first that means nothing, and why that one does not: a number that is not finite, or a collapsed link, or
     an inverted cell."""
-    lattice, sound, fault = assembly.lattice, len(states), None
-    finite = np.isfinite(states[:, : lattice.mass_count])
-    if not finite.all():
-        sound = int(np.argmin(finite.all(axis=(1, 2))))
-        where = place(lattice, int(np.argmin(finite[sound].all(axis=1))))
-        fault = Fault(Status.NON_FINITE, f"the mass at {where} has left the range of numbers")
-    of_families = []
-    for each in assembly.all_families.all_links:
-        found, link = links.strains(states[:sound], each.arrays, COLLAPSED)
+    lattice, fault, of_families = assembly.lattice, None, []
+    for links in assembly.all_families.all_links:
+        found, kind, mass = examine(states, links.arrays, COLLAPSED, *lattice.plan)
         of_families.append(found)
-        if len(found) < sound:
-            sound, where = len(found), place(lattice, int(each.nodes[link, 0]))
-            fault = Fault(Status.INVERTED, f"the link at {where} has no length left: refine the grid")
-    columns, positions, areas = assembly.plan
-    i, row, column = first_inverted(columns, positions, areas, states[:sound])
-    if i < sound:
-        sound, where = i, place(lattice, int(columns[row, column, 0]))
-        fault = Fault(Status.INVERTED, f"the cell at {where} has turned inside out: refine the grid")
-    return of_families[0][:sound], fault
+        if kind >= 0:
+            states, (status, message) = states[: len(found)], FAULTS[kind]
+            fault = Fault(status, message.format(place(lattice, mass)))
+    return of_families[0][: len(states)], fault
 
 
 def place(lattice: Lattice, mass: int) -> str:

@@ -10,17 +10,21 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.actuators import Coupling, Drive
 from lumped.assembly import Assembly
 from lumped.contact import Contact
 from lumped.items import LatticeItem
 from lumped.loads import Loads
-from lumped.springs.all_families import Stresses
+from lumped.springs import all_families
+from lumped.springs.all_families import SpringArrays, Stresses
+from lumped.springs.survey import Survey
 from lumped.supports import Constraints
 from sheetbench.numerics.maps import Rows, product, transposed_product
 from sheetbench.numerics.reduced import ReducedSystem
+from sheetbench.numerics.typed import njit
+
+NOTHING = np.empty((0, 3))
 
 
 class Residual(NamedTuple):
@@ -65,6 +69,7 @@ class Problem:
         coupling = self.assembly.coupling
         self.multipliers = coupling.multipliers if coupling is not None else 0
         self._free = self.constraints.transform_arrays
+        self._others = self.items or self.assembly.coupling is not None or self.loads.follow
         pattern, transform = self.assembly.pattern, self.constraints.transform
         if coupling is None:
             self.system = self.constraints.reduced(pattern, self.conservative)
@@ -135,18 +140,23 @@ class Problem:
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
         """Elastic energy [J] and internal force, actuators included."""
         energy, force = self.assembly.at(load_factor).force(u)
-        if self.assembly.coupling is not None:
-            energy += self.assembly.coupling.add_force(u, Drive(load_factor), force)
-        for item in self.items:
-            energy += item.add_force(u, Drive(load_factor), force)
-        return energy, force
+        return energy + self._add_others(u, Drive(load_factor), force), force
 
-    def energies(self, u: np.ndarray, load_factor: float) -> dict[str, float]:
-        """Return the energy [J] of the springs under each name in the spring set, and of the items
-        together."""
-        found, force = self.assembly.at(load_factor).energies(u), np.zeros_like(u)
-        stored = [item.add_force(u, Drive(load_factor), force) for item in self.items]
-        return found | ({"contact": sum(stored)} if stored else {})
+    def _add_others(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
+        """Add the internal force of actuators and items; return their energy [J]."""
+        energy = sum(item.add_force(u, drive, force) for item in self.items)
+        if self.assembly.coupling is not None:
+            energy += self.assembly.coupling.add_force(u, drive, force)
+        return energy
+
+    def survey(self, u: np.ndarray, load_factor: float) -> Survey:
+        """Return what the springs store, the items together under a name of their own, and how far springs
+        are strained."""
+        found = self.assembly.at(load_factor).survey(u)
+        if self.items:
+            drive, force = Drive(load_factor), np.zeros_like(u)
+            found.energies["contact"] = sum(item.add_force(u, drive, force) for item in self.items)
+        return found
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """External force λ f(u)."""
@@ -165,20 +175,24 @@ class Problem:
         return self._residual(internal, u, load_factor)
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
-        external = self.external(u, load_factor)
-        held, free, n = self.constraints.held, self._free, self.system.unknowns
-        found = Residual(*unbalanced_force(internal, external, held, free, n))
-        return found._replace(scale=found.scale + abs(load_factor) * self.driving) if self.driving else found
+        loads, held, n = (self.loads.force(u), self.driving), self.constraints.held, self.system.unknowns
+        return Residual(*unbalanced_force(internal, *loads, load_factor, held, self._free, n))
 
-    def advance(self, u: np.ndarray, step: np.ndarray, load_factor: float) -> LatticeState:
-        """Return where a step (n, 3) [m] from u leads, the residual and the predicted stresses there."""
-        after, length, internal, stresses = self.assembly.at(load_factor).advance(u, step, True)
-        if self.assembly.coupling is not None:
-            self.assembly.coupling.add_force(after, Drive(load_factor), internal)
-        for item in self.items:
-            item.add_force(after, Drive(load_factor), internal)
-        residual = self._residual(internal, after, load_factor)
-        return LatticeState(after, load_factor, residual, stresses, u, length)
+    def advance(
+        self, u: np.ndarray, step: np.ndarray, load_factor: float, moved: np.ndarray | None = None
+    ) -> LatticeState:
+        """Return where a step (m,) [m] of the unknowns from u leads, with what is moved (n, 3) [m] beside,
+        the residual and the predicted stresses there."""
+        springs, drive = self.assembly.at(load_factor).all_families, Drive(load_factor)
+        loads, supports = (self.loads.last_dead, self.driving), (self.constraints.held, self._free)
+        after, length, internal, stresses, residual = advance(
+            u, step, NOTHING if moved is None else moved, *loads, load_factor, *supports, springs.springs
+        )
+        if self._others or not springs.alone:
+            internal = springs.beside(after, internal)
+            self._add_others(after, drive, internal)
+            residual = self._residual(internal, after, load_factor)
+        return LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
 
     def rounding(self, u: np.ndarray) -> float:
         """Return the norm of the forces [N] that rounding of the link forces leaves."""
@@ -192,20 +206,49 @@ class Problem:
 
 
 @njit(cache=True, nogil=True)
+def advance(
+    u: np.ndarray,
+    step: np.ndarray,
+    moved: np.ndarray,
+    load: np.ndarray,
+    driving: float,
+    load_factor: float,
+    held: np.ndarray,
+    free: Rows,
+    springs: SpringArrays,
+) -> tuple[np.ndarray, float, np.ndarray, Stresses, tuple[np.ndarray, np.ndarray, float, float]]:
+    """Return what `all_families.advance` does of a step (m,) [m] of the unknowns with what is `moved` (n, 3)
+    [m] beside, if anything, and `unbalanced_force` there."""
+    move = product(free, step).reshape(u.shape)
+    if len(moved):
+        move += moved
+    after, length, internal, stresses = all_families.advance(u, move, springs)
+    residual = unbalanced_force(internal, load, driving, load_factor, held, free, len(step))
+    return after, length, internal, stresses, residual
+
+
+@njit(cache=True, nogil=True)
 def unbalanced_force(
-    internal: np.ndarray, external: np.ndarray, held: np.ndarray, free: Rows, n: int
+    internal: np.ndarray,
+    load: np.ndarray,
+    driving: float,
+    load_factor: float,
+    held: np.ndarray,
+    free: Rows,
+    n: int,
 ) -> tuple[np.ndarray, np.ndarray, float, float]:
-    """Return external less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the external
-    forces plus that of the supports' [N]; held: (k, 3) bool."""
+    """Return load_factor × load less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the
+    external forces plus those of the supports' and, driving, of a natural state [N]; held: (k, 3) bool."""
     out = np.empty_like(internal)
     total = loads = supports = 0.0
     for i in range(len(out)):
         for q in range(3):
-            out[i, q] = external[i, q] - internal[i, q]
-            loads += external[i, q] ** 2
+            external = load_factor * load[i, q]
+            out[i, q] = external - internal[i, q]
+            loads += external**2
             if held[i, q]:
                 supports += internal[i, q] ** 2
     reduced = transposed_product(free, out.ravel(), n)
     for value in reduced:
         total += value * value
-    return out, reduced, np.sqrt(total), np.sqrt(loads) + np.sqrt(supports)
+    return out, reduced, np.sqrt(total), np.sqrt(loads) + np.sqrt(supports) + abs(load_factor) * driving

@@ -240,27 +240,16 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
         if problem.assembly.precision == "single" and (lost := _rounded(problem, path)):
             notes.append(lost)
         return Outcome(status, path, tuple(notes))
-    assembly = problem.assembly.at(state.load_factor)
-    links = assembly.links
-    elongations = links.elongations(state.u)
-    outside = outside_model(scene, links.largest_strain(state.u), STRETCH)
+    found = problem.survey(state.u, state.load_factor)
+    outside = outside_model(scene, found.strain, STRETCH)
     if outside and not problem.assembly.any_strain:
         status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)
-    energies = problem.energies(state.u, state.load_factor)
-    doubts = validity.layers(scene, assembly, state.u, elongations, sum(energies.values()))
+    notes.append(validity.layers(scene, problem.assembly.at(state.load_factor), state.u, found))
     rounded = validity.digits(problem, state, path.factor)
-    if rounded is not None and status is Status.CONVERGED:
-        status = rounded.status
-    notes.extend(
-        filter(
-            None,
-            [
-                doubts,
-                rounded.message if rounded is not None else "",
-            ],
-        )
-    )
+    if rounded is not None:
+        notes.append(rounded.message)
+        status = rounded.status if status is Status.CONVERGED else status
     if status is Status.UNSTABLE:
         notes.append(validity.slender_cells(problem.assembly.lattice))
     if not problem.assembly.conservative:
@@ -270,7 +259,7 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
         )
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
-    return Outcome(status, path, tuple(filter(None, notes)), energies)
+    return Outcome(status, path, tuple(filter(None, notes)), found.energies)
 
 
 def _rounded(problem: Problem, path: LatticePath) -> str:

@@ -7,7 +7,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from lumped.springs.links import LinkArrays, strains
+from sheetbench.numerics.maps import Rows
+from sheetbench.numerics.typed import njit
 
 TINY = float(np.finfo(float).tiny)
 TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named
@@ -39,17 +42,33 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
 
 
 @njit(cache=True)
-def first_inverted(
-    columns: np.ndarray, positions: np.ndarray, areas: np.ndarray, states: np.ndarray
-) -> tuple[int, int, int]:
-    """Return the first of the displacements (k, n, 3) [m] with a cell of the mid-surface whose normal points
-    away from the mean director of its corners, k if none, and the cell (j, i) that does so most, for its area
-    when flat; areas (ny − 1, nx − 1) [m²], 0 of absent ones, the rest as in `surface`."""
+def examine(
+    states: np.ndarray,
+    links: LinkArrays,
+    shortest: float,
+    columns: np.ndarray,
+    positions: np.ndarray,
+    areas: np.ndarray,
+) -> tuple[np.ndarray, int, int]:
+    """Return `links.strains` of the displacements (k, n, 3) [m] before the first that means nothing, why that
+    one does not, −1 where all do, and the mass where: 0, a number is not finite; 1, the shortest link; 2, the
+    cell of the mid-surface whose normal points away from the mean director of its corners most, for its area
+    when flat. shortest: of a link, over its length at rest; areas (ny − 1, nx − 1) [m²], 0 of absent cells,
+    the rest as in `surface`."""
     ny, nx, _ = columns.shape
     first, second, mean = np.empty(3), np.empty(3), np.empty(3)
+    sound, kind, mass = len(states), -1, 0
     for k in range(len(states)):
+        for i in range(len(positions)):
+            moved = states[k, i, 0] + states[k, i, 1] + states[k, i, 2]
+            if kind < 0 and not math.isfinite(moved):
+                sound, kind, mass = k, 0, i
+    found, link = strains(states[:sound], links, shortest)
+    if link >= 0:
+        kind, mass = 1, links.nodes[link, 0]
+    for k in range(len(found)):
         middle, director = surface(columns, positions, states[k])
-        least, row, column = np.inf, 0, 0
+        least, which = np.inf, 0
         for j in range(ny - 1):
             for i in range(nx - 1):
                 for q in range(3):
@@ -62,10 +81,10 @@ def first_inverted(
                     r, s = (q + 1) % 3, (q + 2) % 3
                     facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
                 if areas[j, i] > 0.0 and facing < least * areas[j, i]:
-                    least, row, column = facing / areas[j, i], j, i
+                    least, which = facing / areas[j, i], columns[j, i, 0]
         if least <= 0.0:
-            return k, row, column
-    return len(states), 0, 0
+            return found[:k], 2, which
+    return found, kind, mass
 
 
 @njit(cache=True)
@@ -99,15 +118,21 @@ def sharpest_bend(
 
 
 @njit(cache=True)
-def carried_by_links(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
-    """Return k |Δu| of the links at every mass, summed, (n,) [N]."""
-    out = np.zeros(len(u))
+def rounded_forces(
+    u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray, sample: np.ndarray, free: Rows, n: int
+) -> np.ndarray:
+    """Return Tᵀ f (n,) [N] of a sample (k, 3) times k |Δu| of the links at every mass, summed; free: T."""
+    carried = np.zeros(len(u))
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
         square = 0.0
         for q in range(3):
             square += (u[b, q] - u[a, q]) ** 2
         pull = stiffness[m] * math.sqrt(square)
-        out[a] += pull
-        out[b] += pull
+        carried[a] += pull
+        carried[b] += pull
+    out = np.zeros(n)
+    for row in range(len(free.pointers) - 1):
+        for e in range(free.pointers[row], free.pointers[row + 1]):
+            out[free.columns[e]] += free.values[e] * carried[row // 3] * sample[row // 3, row % 3]
     return out

@@ -76,7 +76,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def start(self, u: np.ndarray) -> Start[LatticeState]:
         """Return the start at full load beside a displacement (n, 3) [m]."""
         u = self.problem.project_to_supports(u, 1.0)
-        state = self.problem.advance(u, np.zeros_like(u), 1.0)
+        state = self.problem.advance(u, np.zeros(self.problem.system.unknowns), 1.0)
         return Start(state, 1.0, self.length(self.rest(), state), 0.0)
 
     def forces(self, state: LatticeState, load_factor: float) -> LatticeForces:
@@ -121,10 +121,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def advance(
         self, state: LatticeState, forces: LatticeForces, load_factor: float, step: np.ndarray
     ) -> LatticeState:
-        move = self.problem.expand(step)
-        if forces.moved is not None:
-            move += forces.moved
-        return self.problem.advance(state.u, move, load_factor)
+        return self.problem.advance(state.u, step, load_factor, forces.moved)
 
     def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
         return state._replace(stresses=of.stresses)

@@ -28,9 +28,10 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
+from lumped.springs.survey import Survey
 from lumped.statics.faults import place
 from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.soundness import carried_by_links, sharpest_bend
+from lumped.statics.soundness import rounded_forces, sharpest_bend
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.direct import Factor
@@ -56,10 +57,11 @@ def digits(problem: Problem, state: LatticeState, factor: Factor | None) -> Faul
     if factor is None or largest == 0.0:
         return None
     links = problem.assembly.links
-    carried = carried_by_links(state.u, links.nodes, links.stiffness)[:, None]
+    free, n = problem.constraints.transform_arrays, problem.system.unknowns
     share = 0.0
     for sample in _noise(state.u.shape):
-        moved = problem.expand(factor.solve_unrefined(problem.reduce(carried * sample)))
+        rounded = rounded_forces(state.u, links.nodes, links.stiffness, sample, free, n)
+        moved = problem.expand(factor.solve_unrefined(rounded))
         share = max(share, problem.assembly.rounding * float(np.abs(moved).max()) / largest)
         if share < BEYOND_DOUBT:
             return None
@@ -81,15 +83,15 @@ def _noise(shape: tuple[int, ...]) -> np.ndarray:
     return frozen(np.random.default_rng(0).standard_normal((SAMPLES, *shape)))
 
 
-def layers(scene: Scene, assembly: Assembly, u: np.ndarray, elongations: np.ndarray, energy: float) -> str:
+def layers(scene: Scene, assembly: Assembly, u: np.ndarray, found: Survey) -> str:
     """Return a sentence where the sheet's stretching lies in layers thinner than the grid's cells, else
-    nothing. elongations: of the links (m,) [m]; energy: all that the springs store [J]."""
+    nothing; found: of the springs at u."""
     lattice = assembly.lattice
-    if _stretch_share(assembly, u, elongations, energy) < FREE_OF_STRETCH:
+    if _stretch_share(assembly, u, found) < FREE_OF_STRETCH:
         return ""
     x, y = lattice.lines
     longest = np.maximum(x.widths[None, :], y.widths[:, None])
-    bent, j, i = sharpest_bend(*assembly.plan, u, longest)
+    bent, j, i = sharpest_bend(*lattice.plan, u, longest)
     if not bent > 0.0:
         return ""
     h, nu = scene.sheet.thickness, scene.material.poisson
@@ -116,18 +118,15 @@ def slender_cells(lattice: Lattice) -> str:
     )
 
 
-def _stretch_share(assembly: Assembly, u: np.ndarray, elongations: np.ndarray, total: float) -> float:
-    """Energy of the layers' mean stretch over the elastic energy [J]: as the in-plane links have it, of
+def _stretch_share(assembly: Assembly, u: np.ndarray, found: Survey) -> float:
+    """Energy of the layers' mean stretch over all that is stored: as the in-plane links have it, of
     neo-Hookean layers, whose links know no shear, that of all layers displaced as their mean."""
-    if total > 0.0 and assembly.any_strain:
+    total, stretch = sum(found.energies.values()), found.stretch
+    if not total > 0.0:
+        return 0.0
+    if assembly.any_strain:
         columns, mean = assembly.lattice.columns(), u.copy()
         mean[columns] = u[columns].mean(axis=2, keepdims=True)
-        energies = assembly.energies(mean)
-        return (energies["axial"] + energies["rubber"]) / total
-    links, layers_ = assembly.links, assembly.lattice.grid[2]
-    in_plane = links.in_plane
-    if total <= 0.0 or len(in_plane) == 0:
-        return 0.0
-    # links between the same columns follow each other, layer by layer, and are as stiff as each other
-    summed = elongations[in_plane].reshape(-1, layers_).sum(axis=1)
-    return float(0.5 * (links.stiffness[in_plane[::layers_]] @ summed**2) / (layers_ * total))
+        energies = assembly.survey(mean).energies
+        stretch = energies["axial"] + energies["rubber"]
+    return stretch / total

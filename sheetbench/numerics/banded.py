@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from sheetbench.numerics.memory import load, store
+from sheetbench.numerics.typed import njit
 
 PANEL = 6  # the unknowns of a column of masses in two layers
 LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
@@ -227,6 +227,13 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
                 store(1, first, i, load(1, first, i) - by_first)
                 store(2, second, i - ONE, load(2, second, i - ONE) - by_second)
     return True
+
+
+@njit(cache=True, nogil=True)
+def factored(blocks: np.ndarray, band: Band) -> tuple[np.ndarray, bool]:
+    """Cholesky factors of the matrix of blocks (b, 3, 3), and whether there are such."""
+    factors = stored(blocks, band)
+    return factors, factor(factors, len(band.order), band.width)
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)

@@ -11,8 +11,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from scipy.sparse import csr_array
+
+from sheetbench.numerics.typed import njit
 
 LEAF = 128  # unknowns of its cells, together, up to which a part of more than two is not halved
 

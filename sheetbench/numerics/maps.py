@@ -6,9 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.typed import njit, typed
 
 
 class Rows(NamedTuple):

@@ -13,9 +13,9 @@ it cannot where all signs are positive, the factors are refused.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from sheetbench.numerics.fronts import Fronts
+from sheetbench.numerics.typed import njit
 
 PANEL, BLOCK = 6, 48  # columns
 WIDE = 160  # from here on a front is eliminated by blocks

@@ -8,6 +8,7 @@ larger ones, go to `direct`. Constraints' multipliers among the unknowns: see `s
 from __future__ import annotations
 
 from functools import cached_property
+from math import isfinite
 
 import numpy as np
 import scipy.sparse as sp
@@ -56,7 +57,7 @@ class BandedFactor(Factor):
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """x with A x = b, refined once where its backward error may exceed `enough`. Raises
         SingularMatrixError when the residual stays large."""
-        if enough >= self._backward_error and np.isfinite(x := self._solve(b)).all():
+        if enough >= self._backward_error and isfinite((x := self._solve(b)) @ x):
             return x
         return checked(*banded.solve(self._stored, self.factors, self._band.width, self._band.order, b))
 
@@ -146,8 +147,8 @@ class ReducedSystem:
         """Factors of Tᵀ K T; more: as of `DirectSolver.factor`. Raises SingularMatrixError where there
         are none."""
         if self.band is not None:
-            factors = banded.stored(blocks, self.band)
-            if banded.factor(factors, self.unknowns, self.band.width):
+            factors, definite = banded.factored(blocks, self.band)
+            if definite:
                 return BandedFactor(self.band, blocks, factors)
         matrix = self.matrix(blocks)
         if self._saddle is None:

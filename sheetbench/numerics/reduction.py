@@ -11,9 +11,9 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 
 from sheetbench.numerics.fronts import CoupledCells
+from sheetbench.numerics.typed import njit
 
 
 class BlockPattern(Protocol):

@@ -11,11 +11,11 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numba import njit
 from scipy.sparse import csr_matrix
 
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
+from sheetbench.numerics.typed import njit
 
 
 class Pattern:

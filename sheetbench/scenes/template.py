@@ -49,7 +49,6 @@ def template(
         _block("[material]", given["material"]),
         _block("[gravity]", given["gravity"]),
         *(_block("[[support]]", one, about=n == 0) for n, one in enumerate(given.get("support", ()))),
-        *(_block("[[load]]", one, about=n == 0) for n, one in enumerate(given.get("load", ()))),
         '# Optional parts: delete the "# " at the start of a block\'s lines to use it.\n'
         "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]

@@ -4,6 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from cases import sheet
 from commands import json_of, run
 from rubbers import material
 
@@ -146,15 +147,7 @@ def test_a_patch_of_uneven_elements_is_stretched_evenly(model, law):
 
 def bent(length=0.2):
     """A clamped strip that bends far under its weight."""
-    return Scene.model_validate(
-        {
-            "name": "bent",
-            "sheet": {"length_x": length, "length_y": 0.05, "thickness": 0.002},
-            "material": {"young": 2e6, "poisson": 0.3, "density": 1000.0},
-            "gravity": {"acceleration": [0.0, 0.0, -9.81]},
-            "support": [{"kind": "clamped", "edge": "x0"}],
-        }
-    )
+    return sheet(length, 0.05, 0.002, 2e6, weight=9.81)
 
 
 def test_large_rotations_at_small_strain_know_no_law():

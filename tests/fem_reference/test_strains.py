@@ -60,13 +60,8 @@ def test_every_model_sees_that_it_is_stretched_by_more_than_half(model):
         force = pull * material.young * OBLONG.thickness
         if model == "lumped":
             force = stretch * material.young * OBLONG.thickness
-        scene = Scene(
-            name="s",
-            sheet=OBLONG,
-            material=material,
-            supports=(Clamped(edge="x0"),),
-            loads=(EdgeLoad(edge="x1", force_per_length=(force, 0.0, 0.0)),),
-        )
+        pull = EdgeLoad(edge="x1", force_per_length=(force, 0.0, 0.0))
+        scene = Scene("s", OBLONG, material, supports=(Clamped(edge="x0"),), loads=(pull,))
         found = solved(scene, model)
         end = found.displacement(np.array([[0.2, 0.05]]))[0, 0] / 0.2
         assert end == pytest.approx(stretch, rel=0.05)

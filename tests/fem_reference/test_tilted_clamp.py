@@ -8,7 +8,7 @@ import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import EDGES, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, SceneError, Symmetric
+from sheetbench.scenes import EDGES, Clamped, Curved, Held, Hinged, Scene, SceneError, Symmetric
 
 CUTS = (Symmetric(edge="y0"), Symmetric(edge="y1"))
 
@@ -111,19 +111,6 @@ def test_ends_tilted_opposite_ways_bend_the_strip_to_the_cubic(model, within):
     assert slope == pytest.approx(SMALL / 2.0, rel=0.02)
 
 
-@pytest.mark.sweep
-@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
-@pytest.mark.parametrize(("edge", "axis"), [("x0", (0.0, 1.0, 0.0)), ("y1", (1.0, 0.0, 0.0))])
-def test_a_tilt_is_the_edge_moved_by_that_rotation(model, edge, axis):
-    """Two ways of saying the same, which share no code."""
-    turned = tuple(0.3 * a for a in axis)
-    motion = EdgeMotion(kind="motion", edge=edge, time=(0.0,), rotation=(turned,))
-    points = points_of(OBLONG)
-    moved = solve(make_scene(gravity=GRAVITY, actuator=(motion,)), model).displacement(points)
-    tilted = solve(make_scene(Clamped(edge=edge, tilt=0.3), gravity=GRAVITY), model).displacement(points)
-    assert relative(tilted, moved) < 1e-7
-
-
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("other", [Hinged(edge="y0"), Held(edge="y0", components=("z",))])
 def test_a_corner_shared_with_a_hinge_obeys_both(other):
@@ -141,19 +128,6 @@ def test_motion_starts_in_the_shape_of_the_supports_alone(support):
     still = lumped.solve(scene, springs).displacement(scene.probe_points())
     first = np.array([values[0] for values in run.probes.values()])
     assert np.abs(first - still).max() < 1e-6 * np.abs(still).max()
-
-
-def test_frequencies_are_those_of_the_flat_sheet():
-    upright, tilted = make_scene(Clamped(edge="x0")), make_scene(Clamped(edge="x0", tilt=0.5))
-    springs = lumped.calibrate(OBLONG, SILICONE, (5, 3))
-    assert np.array_equal(
-        lumped.modes(tilted, springs, 3).frequencies, lumped.modes(upright, springs, 3).frequencies
-    )
-    for model in ("plate", "shell", "solid"):
-        found = [
-            fem_reference.modes(s, model=model, elements=2, count=3).frequencies for s in (upright, tilted)
-        ]
-        assert found[0] == pytest.approx(found[1], rel=1e-12)
 
 
 @pytest.mark.parametrize(

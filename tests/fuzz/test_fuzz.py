@@ -1,41 +1,64 @@
 """An exit status, words and numbers as documented, and no file but where it was requested.
 
-Some 160 examples, the same ones every time; `make fuzz` draws 24 000 others (`fuzz.long`).
+Some 160 examples, the same ones every time; `make fuzz SEED=1` draws 28 000 others, in batches.
 """
+
+import os
+import signal
 
 import pytest
 from fuzz import trials
 from fuzz.grammar import command_lines, measured, shaped, sound, texts
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import HealthCheck, Phase, given, seed, settings
 
 pytestmark = pytest.mark.smoke
 
-TRIALS = {  # how many examples of what, and what is done with each
-    "a scene's file is read or refused in a line": (100, texts(), trials.reads),
-    "a scene is checked and written only where asked": (10, texts(), trials.checks),
-    "a sound scene is solved and what converges is in balance": (10, sound(), trials.compares),
-    "a scene of shapes is refused or solved in balance": (20, shaped(), trials.solves_shapes),
-    "a command line is obeyed or refused": (10, command_lines(), trials.obeys),
-    "a measured file is read or refused": (10, measured(), trials.measures),
+SEED, BATCH = os.environ.get("FUZZ", ""), 50
+LONGEST = 300  # s of the processor that one example may take; the longest honest one takes a few
+TRIALS = {  # how many examples of what by day, what is done with each, and how many batches of `make fuzz`
+    "a scene's file is read or refused in a line": (100, texts(), trials.reads, 400),
+    "a scene is checked and written only where asked": (10, texts(), trials.checks, 0),
+    "a sound scene is solved and what converges is in balance": (10, sound(), trials.compares, 24),
+    "a scene of shapes is refused or solved in balance": (20, shaped(), trials.solves_shapes, 100),
+    "a scene of shapes is compared": (0, shaped(), trials.compares_shapes, 6),
+    "a command line is obeyed or refused": (10, command_lines(), trials.obeys, 20),
+    "a measured file is read or refused": (10, measured(), trials.measures, 40),
 }
 
 
-@pytest.mark.parametrize("what", TRIALS)
-def test_it_ends_as_documented(tmp_path, what):
-    examples, drawn, trial = TRIALS[what]
-    same = settings(
-        max_examples=examples,
-        derandomize=True,
-        database=None,
-        print_blob=True,
-        deadline=None,
-        suppress_health_check=list(HealthCheck),
-        phases=(Phase.explicit, Phase.generate),
-    )
+def hang(*_):
+    raise RuntimeError(f"longer than {LONGEST} s of the processor")
 
-    @same
+
+def tried(folder, drawn, trial, **how):
+    """Draw examples, each in a folder of its own, and judge them."""
+    held = dict(database=None, print_blob=True, deadline=None, phases=(Phase.explicit, Phase.generate))
+    signal.signal(signal.SIGPROF, hang)
+
+    @settings(**held, suppress_health_check=list(HealthCheck), **how)
     @given(drawn)
     def each(example):
-        trial(tmp_path, example)
+        own = folder / str(len(list(folder.iterdir())))
+        own.mkdir()
+        signal.setitimer(signal.ITIMER_PROF, LONGEST)
+        try:
+            trial(own, example)
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
 
-    each()
+    return each
+
+
+@pytest.mark.parametrize("what", [what for what, (examples, *_) in TRIALS.items() if examples])
+def test_it_ends_as_documented(tmp_path, what):
+    examples, drawn, trial, _ = TRIALS[what]
+    tried(tmp_path, drawn, trial, max_examples=examples, derandomize=True)()
+
+
+@pytest.mark.skipif(not SEED, reason="make fuzz")
+@pytest.mark.parametrize(
+    ("what", "batch"), [(what, n) for what, (*_, batches) in TRIALS.items() if SEED for n in range(batches)]
+)
+def test_so_do_others(tmp_path, what, batch):
+    _, drawn, trial, _ = TRIALS[what]
+    seed(f"{SEED} {what} {batch}")(tried(tmp_path, drawn, trial, max_examples=BATCH))()

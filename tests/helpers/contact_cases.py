@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from cases import sheet
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 from scipy.special import beta
@@ -11,11 +12,8 @@ from sheetbench.scenes import (
     Clamped,
     Cylinder,
     EdgeLoad,
-    Gravity,
-    Material,
     Plane,
     Scene,
-    Sheet,
     Sphere,
     Symmetric,
 )
@@ -25,14 +23,9 @@ WEIGHT = DENSITY * THICKNESS * 0.1 * GRAVITY  # N, of the strip
 CYLINDER_FORCE, CYLINDER_TIP = 1.458414, -0.36446  # N and m: elastica over a cylinder by shooting
 
 DROP = 0.03  # m, of a strip that falls on a plane
-FALLING = Scene(
-    name="falling",
-    sheet=Sheet(length_x=0.2, length_y=0.05, thickness=0.002),
-    material=Material(young=5e6, poisson=0.3, density=1e3),
-    gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
-    supports=(Clamped(edge="x0"),),
-    obstacles=(Plane(position=(0.0, 0.0, -DROP - 0.001)),),
-)
+TABLE = Plane(position=(0.0, 0.0, -DROP - 0.001))
+FALLING = sheet(0.2, 0.05, 0.002, 5e6, weight=GRAVITY, obstacles=(TABLE,))
+QUARTER = (Symmetric(edge="x0"), Symmetric(edge="y0"))
 FALLEN = 1e3 * 0.002 * 0.01 * GRAVITY * DROP  # W H, J
 
 
@@ -40,26 +33,14 @@ def laid_strip(drop: float, **more: object) -> Scene:
     """A strip of B/w = 0.01 L³ that is clamped at a height above a plane and lies down on it."""
     young = 0.12 * DENSITY * GRAVITY / THICKNESS**2
     values = {"obstacles": (Plane(position=(0.0, 0.0, -drop - THICKNESS / 2)),)} | more
-    return Scene(
-        name="laid strip",
-        sheet=Sheet(length_x=1.0, length_y=0.1, thickness=THICKNESS),
-        material=Material(young=young, poisson=0.0, density=DENSITY),
-        gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
-        supports=(Clamped(edge="x0"),),
-        **values,
-    )
+    return sheet(1.0, 0.1, THICKNESS, young, 0.0, DENSITY, weight=GRAVITY, **values)
 
 
 def bent_over(at: float = 0.4, radius: float = 0.15 - THICKNESS / 2, height: float = -0.15) -> Scene:
     """A weightless strip of B = 1 N m whose end is pulled down, 6 B/L², over a cylinder."""
-    return Scene(
-        name="bent over",
-        sheet=Sheet(length_x=1.0, length_y=0.1, thickness=THICKNESS),
-        material=Material(young=12.0 / THICKNESS**3, poisson=0.0, density=DENSITY),
-        supports=(Clamped(edge="x0"),),
-        loads=(EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -6.0)),),
-        obstacles=(Cylinder(position=(at, 0.0, height), axis=(0.0, 1.0, 0.0), radius=radius),),
-    )
+    pull = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -6.0))
+    cylinder = Cylinder(position=(at, 0.0, height), axis=(0.0, 1.0, 0.0), radius=radius)
+    return sheet(1.0, 0.1, THICKNESS, 12.0 / THICKNESS**3, 0.0, loads=(pull,), obstacles=(cylinder,))
 
 
 def bent_elastica(at: float, radius: float = 0.15, height: float = -0.15) -> float:
@@ -85,13 +66,9 @@ def bent_elastica(at: float, radius: float = 0.15, height: float = -0.15) -> flo
 def pressed_loop(gap: float) -> Scene:
     """A quarter of a long loop of B = 1 N m that two plates hold flat at a distance (Flaherty and Keller,
     1973): it leaves the symmetry plane across it, and lies along a plate from where it has turned by π/2."""
-    return Scene(
-        name="pressed loop",
-        sheet=Sheet(length_x=1.0, length_y=0.1, thickness=THICKNESS),
-        material=Material(young=12.0 / THICKNESS**3, poisson=0.0, density=DENSITY),
-        supports=(Clamped(edge="x0", tilt=-np.pi / 2),),
-        obstacles=(Plane(position=(0.0, 0.0, 0.5 * gap + THICKNESS / 2), normal=(0.0, 0.0, -1.0)),),
-    )
+    plate = Plane(position=(0.0, 0.0, 0.5 * gap + THICKNESS / 2), normal=(0.0, 0.0, -1.0))
+    held = (Clamped(edge="x0", tilt=-np.pi / 2),)
+    return sheet(1.0, 0.1, THICKNESS, 12.0 / THICKNESS**3, 0.0, supports=held, obstacles=(plate,))
 
 
 def loop_force(gap: float) -> float:
@@ -102,27 +79,14 @@ def loop_force(gap: float) -> float:
 
 def lying_quarter(**more: object) -> Scene:
     """A quarter of a sheet that lies on a plane and rests on nothing else."""
-    held = (Symmetric(edge="x0"), Symmetric(edge="y0"))
-    values = {"obstacles": (Plane(position=(0.0, 0.0, -0.001)),), "supports": held} | more
-    return Scene(
-        name="lying",
-        sheet=Sheet(length_x=0.2, length_y=0.2, thickness=0.002),
-        material=Material(young=5e6, poisson=0.45, density=DENSITY),
-        gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
-        **values,
-    )
+    values = {"obstacles": (Plane(position=(0.0, 0.0, -0.001)),), "supports": QUARTER} | more
+    return sheet(0.2, 0.2, 0.002, 5e6, 0.45, weight=GRAVITY, **values)
 
 
 def draped_quarter() -> Scene:
     """A quarter of a square sheet over a ball."""
-    return Scene(
-        name="draped",
-        sheet=Sheet(length_x=0.1, length_y=0.1, thickness=0.001),
-        material=Material(young=8e6, poisson=0.3, density=DENSITY),
-        gravity=Gravity(acceleration=(0.0, 0.0, -GRAVITY)),
-        supports=(Symmetric(edge="x0"), Symmetric(edge="y0")),
-        obstacles=(Sphere(position=(0.0, 0.0, -0.0505), radius=0.05),),
-    )
+    ball = Sphere(position=(0.0, 0.0, -0.0505), radius=0.05)
+    return sheet(0.1, 0.1, 0.001, 8e6, weight=GRAVITY, supports=QUARTER, obstacles=(ball,))
 
 
 def heavy_elastica(drop: float, per: float = 0.01) -> tuple[float, float, float]:

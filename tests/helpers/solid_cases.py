@@ -1,13 +1,9 @@
 """A block, for the tests of the solid."""
 
-from sheetbench.scenes import Material, Scene, Sheet
+from cases import sheet
+
+from sheetbench.scenes import Scene
 
 
 def block(thickness: float = 0.4, poisson: float = 0.3, supports=(), loads=()) -> Scene:
-    return Scene(
-        name="block",
-        sheet=Sheet(length_x=1.0, length_y=1.0, thickness=thickness),
-        material=Material(young=1.0e6, poisson=poisson, density=1000.0),
-        supports=supports,
-        loads=loads,
-    )
+    return sheet(1.0, 1.0, thickness, 1e6, poisson, supports=supports, loads=loads)

@@ -6,7 +6,7 @@ import pytest
 import lumped
 from lumped.assembly import Assembly
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import BadInput, Scene, load
+from sheetbench.scenes import BadInput, Scene
 from sheetbench.scenes.meaning.composition import mass_of
 
 MATERIAL = {"young": 5e6, "poisson": 0.4, "density": 1e3}
@@ -38,17 +38,6 @@ def deflections(scene, across, linear=True):
     solution = lumped.solve(scene, calibrated(scene, across), linear=linear)
     assert solution.status is Status.CONVERGED and solution.balance.holds
     return solution.displacement(scene.probe_points())
-
-
-def test_a_rectangle_as_outline_is_the_plain_sheet():
-    plain = load("two-edges-clamped")
-    (x, y), calibration = plain.sheet.lengths, lumped.calibrate(plain.sheet, plain.material, 9)
-    drawn = plain.replace(outline=[(0.0, 0.0), (x, 0.0), (x, y), (0.0, y)])
-    cut = lumped.calibrate(drawn.sheet, drawn.material, 9, cells=lumped.sections_of(drawn, (9, 9, 2)))
-    first, second = (
-        lumped.solve(*each).mesh.point_data["displacement"] for each in ((plain, calibration), (drawn, cut))
-    )
-    assert np.allclose(first, second, rtol=0.0, atol=1e-9 * np.abs(first).max())
 
 
 def test_absent_cells_have_no_springs_no_mass_and_no_unknowns():
@@ -150,24 +139,6 @@ def test_a_clamp_on_a_part_is_a_shorter_sheet():
     small = {"kind": "clamped", "where": {"circle": {"centre": (0.006, 0.006), "radius": 1e-3}}}
     with pytest.raises(BadInput, match=r"support 1.where: circle .* holds no mass of a grid of 17x9"):
         lumped.solve(sheet(support=[small]), calibrated(held, 9))
-
-
-def test_motion_ends_in_the_equilibrium_and_steps_agree():
-    """Implicit and compiled explicit steps of a sheet with a hole; absent masses rest."""
-    scene = sheet([{"shape": DISC}], gravity={"acceleration": (0.0, 0.0, -9.81)})
-    springs = calibrated(scene, 5)
-    runs = [lumped.simulate(scene, springs, 0.03, integrator=name) for name in ("esdirk", "verlet")]
-    ends = [np.array([values[-1] for values in run.probes.values()]) for run in runs]
-    assert all(run.status is Status.CONVERGED for run in runs)
-    assert np.abs(ends[0] - ends[1]).max() < 0.01 * np.abs(ends[1]).max()
-
-
-def test_frequencies_of_a_sheet_with_a_hole_converge():
-    scene = sheet([{"shape": SQUARE}])
-    found = [lumped.modes(scene, calibrated(scene, across), 3).frequencies for across in (9, 17, 33)]
-    limit = found[2] + (found[2] - found[1]) / 3.0
-    errors = [np.abs(each / limit - 1.0).max() for each in found[:2]]
-    assert errors[1] < 0.015 and errors[0] > 2.0 * errors[1]
 
 
 def test_cells_that_are_alike_are_refused_for_a_sheet_with_a_hole():

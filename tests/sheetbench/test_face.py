@@ -4,7 +4,6 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,6 @@ import pytest
 import fem_reference
 import lumped
 import sheetbench as sb
-from comparisons.tradeoff import motion, statics
 
 NAME = "one-edge-clamped"
 HEAVY = ["numpy", "scipy", "pydantic", "numba", "skfem", "meshio", "pyvista", "vtkmodules", "matplotlib"]
@@ -63,11 +61,6 @@ def test_compiled_kernels_are_kept_outside_the_packages(tmp_path):
     assert python("-c", ask, NUMBA_CACHE_DIR=theirs, **quick) == theirs
 
 
-def test_the_packages_say_that_they_are_typed():
-    for package in (sb, lumped, fem_reference, sys.modules["comparisons"]):
-        assert (Path(str(package.__file__)).parent / "py.typed").is_file()
-
-
 VERBS: dict[str, Callable[[Any], Any]] = {
     "sb.calibrate": lambda scene: sb.calibrate(scene, grid=3).springs.axial,
     "sb.solve": lambda scene: sb.solve(scene, grid=3).displacement([[0.1, 0.1]]),
@@ -110,28 +103,6 @@ def test_grids_are_numbers_or_tuples():
     assert direct == lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
     for grid in (5, (5, 5), (5, 5, 2), "5x5"):
         assert sb.calibrate(NAME, grid=grid).springs == direct.springs
-
-
-def test_a_trade_off_is_asked_in_lists(monkeypatch):
-    passed: list[Any] = []
-    monkeypatch.setattr(statics, "tradeoff", lambda scene, candidates, store, **_: passed.extend(candidates))
-    none: dict[str, Any] = {"plate": (), "solid": ""}
-    sb.tradeoff(NAME, grid=(3, (5, 7)), calibration=("consistent", "uniform"), shell=(4,), **none)
-    assert [one.settings.get("grid") for one in passed] == [[3, 3, 2], [5, 7, 2], [3, 3, 2], [5, 7, 2], None]
-    assert [one.model for one in passed] == 4 * ["lumped"] + ["shell"]
-
-
-def test_a_trade_off_of_a_motion_is_asked_in_lists(monkeypatch):
-    passed: dict[str, Any] = {}
-
-    def moved(scene, duration, *, lattices, others, store, **settings):
-        passed.update(duration=duration, lattices=lattices, others=others, **settings)
-
-    monkeypatch.setattr(motion, "dynamic_tradeoff", moved)
-    sb.tradeoff(NAME, duration="50 ms", grid=(5,), integrator=("esdirk",), plate="", shell=(2,), solid=())
-    assert passed["duration"] == 0.05 and passed["integrators"] == ["esdirk"]
-    assert [one.label for one in passed["lattices"]] == ["lumped grid 5"]
-    assert [one.label for one in passed["others"]] == ["shell elements 2"]
 
 
 def test_a_saved_scene_holds_every_digit(tmp_path):

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.pressure import WEIGHTS
 from lumped.springs.all_forces import average, clear, share_out
 from lumped.springs.packing import Packing
 from lumped.springs.tiles import OPTIONS
+from sheetbench.numerics.typed import njit
 
 
 class Followers(NamedTuple):

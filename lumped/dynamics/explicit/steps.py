@@ -14,12 +14,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.dynamics.explicit.follower_loads import Followers, add_followers
 from lumped.springs.all_forces import add_at_places, add_damping_again
 from lumped.springs.packing import Packing
 from lumped.springs.tiles import NUMBA_TRUE, OPTIONS
+from sheetbench.numerics.typed import njit
 
 
 class ExplicitArrays(NamedTuple):

@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.dynamics.drag import LatticeDrag, add_drag
 from lumped.dynamics.system import System
@@ -19,7 +18,7 @@ from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, csr_arrays
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.typed import njit, typed
 
 CONVERGED, STALE, LOST = range(3)
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
@@ -23,6 +22,7 @@ from lumped.dynamics.implicit.compiled_newton import (
     iterate,
 )
 from lumped.springs.tiles import NUMBA_FALSE
+from sheetbench.numerics.typed import njit
 
 
 class Stages(NamedTuple):

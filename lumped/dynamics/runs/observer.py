@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from lumped.dynamics.drag import LatticeDrag, add_drag
 from lumped.dynamics.integrator import LatticeSamples
@@ -24,7 +23,7 @@ from lumped.statics.structure import STRETCH
 from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.typed import njit, typed
 from sheetbench.runs.record import width
 from sheetbench.runs.run import Part
 from sheetbench.scenes import outside_model

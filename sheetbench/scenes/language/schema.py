@@ -98,11 +98,8 @@ def resolved(schema: dict[str, Any], node: dict[str, Any]) -> dict[str, Any]:
     """The node that a reference stands for, with the description given beside it."""
     if "$ref" not in node:
         return node
-    return {**schema["$defs"][node["$ref"].rpartition("/")[2]], **_without_reference(node)}
-
-
-def _without_reference(node: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in node.items() if key != "$ref"}
+    beside = {key: value for key, value in node.items() if key != "$ref"}
+    return {**schema["$defs"][node["$ref"].rpartition("/")[2]], **beside}
 
 
 def branches(schema: dict[str, Any], node: dict[str, Any]) -> list[dict[str, Any]]:

@@ -98,8 +98,7 @@ def near(obstacle: AnyObstacle, x: np.ndarray, load_factor: float = 1.0, time: f
 def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
     """Return an obstacle at so many times its distance from the flat sheet; one that it touches stays."""
     gap, away = nearest(scene, obstacle)
-    x, y, z = (np.array(obstacle.position) + (factor - 1.0) * gap * away).tolist()
-    return obstacle.replace(position=(x, y, z))
+    return obstacle.replace(position=tuple((obstacle.position + (factor - 1.0) * gap * away).tolist()))
 
 
 def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarray]:
@@ -116,23 +115,22 @@ def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarra
     return _gap(scene, obstacle, [*plan, foot] if shapely.intersects_xy(scene.region, *foot) else plan, 0.0)
 
 
-def _gap(
-    scene: SceneFields, obstacle: AnyObstacle, plan: ArrayLike, time: float | None = None
-) -> tuple[float, np.ndarray]:
-    found = near(obstacle, np.pad(plan, ((0, 0), (0, 1))), time=time)
+def _gap(scene: SceneFields, obstacle: AnyObstacle, plan: ArrayLike, *at: float) -> tuple[float, np.ndarray]:
+    found = near(obstacle, np.pad(plan, ((0, 0), (0, 1))), 1.0, *at)
     least = found.distance.argmin()
     return float(found.distance[least]) - 0.5 * scene.sheet.thickness, -found.normal[least]
 
 
 def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
     """Yield what does not go together, key and reason, no reason where it does."""
-    edges = [one for one in scene.supports if isinstance(one, Clamped | Hinged) and one.where is None]
+    held = [one for one in scene.supports if isinstance(one, Clamped | Hinged) and one.where is None]
     for name, obstacle in scene.named_obstacles().items():
         gaps = {"position: the flat sheet begins": nearest(scene, obstacle)[0]}
-        for edge in (one.edge for one in edges if one.motion is None):
+        for edge in (one.edge for one in held if one.motion is None):
             along = np.linspace(*scene.sheet.edge_ends(edge), GRID)
-            where = f"motion: in its last place edge {edge}, which is held, is"
-            gaps[where] = _gap(scene, obstacle, along)[0]
+            gaps[f"motion: in its last place edge {edge}, which is held, is"] = _gap(scene, obstacle, along)[
+                0
+            ]
         for where, gap in gaps.items():
             inside = f"{where} {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
             yield f"{name}.", inside if gap < -INSIDE * scene.sheet.thickness else None

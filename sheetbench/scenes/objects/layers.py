@@ -64,7 +64,7 @@ def plies(layers: tuple[Layer, ...], material: Material) -> tuple[Ply, ...]:
     ends = np.cumsum([0.0, *(layer.thickness for layer in layers)])
     base = material.ply
     found = tuple(
-        base._replace(**{**in_own_axes(layer.own), **_angle(layer), "low": low, "high": high})
+        base._replace(**{**in_own_axes(layer.own), "low": low, "high": high})
         for layer, (low, high) in zip(layers, pairwise((ends / ends[-1] - 0.5).tolist()), strict=True)
     )
     if not unlike_its_mirror(found):
@@ -104,10 +104,6 @@ def unlike_its_mirror(found: tuple[Ply, ...]) -> int:
         if not np.allclose(ply, mirrored, rtol=1e-9, atol=ROUNDING):
             return number
     return 0
-
-
-def _angle(layer: Layer) -> dict[str, float]:
-    return {} if layer.angle is None else {"angle": layer.angle}
 
 
 def misfit(layers: tuple[Layer, ...], sheet: Sheet, material: Material, heated: bool = False) -> str:

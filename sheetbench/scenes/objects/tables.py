@@ -8,7 +8,8 @@ Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -23,16 +24,19 @@ Interpolation = Literal["smooth", "linear"]
 Values = Sequence[float] | Sequence[Sequence[float]]
 
 
-class PiecewiseCurve:
-    """Values (n, …) at increasing times (n,) [s], constant outside; between: the pieces, of times and values
-    their polynomials' coefficients (degree + 1, n − 1, …) in the time since each began, constants first."""
+class PiecewiseCurve(ABC):
+    """Values (n, …) at increasing times (n,) [s], constant outside."""
 
-    def __init__(
-        self, time: Sequence[float], values: Values, between: Callable[[np.ndarray, np.ndarray], np.ndarray]
-    ):
+    @staticmethod
+    @abstractmethod
+    def between(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """Return the coefficients of pieces (degree + 1, n − 1, …) in the time since each began, constants
+        first."""
+
+    def __init__(self, time: Sequence[float], values: Values):
         self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)
         self._instant = INSTANT * (self._time[-1] - self._time[0])
-        inner = between(self._time, samples) if len(time) > 1 else samples[None, :0]
+        inner = self.between(self._time, samples) if len(time) > 1 else samples[None, :0]
         # coefficients of each piece in the time since its start, from the constant on; the first and the last
         # piece are what lies before and after
         self._pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
@@ -72,26 +76,20 @@ class PiecewiseCurve:
 class PiecewiseLinear(PiecewiseCurve):
     """Linear between the samples."""
 
-    def __init__(self, time: Sequence[float], values: Values):
-        super().__init__(time, values, _lines)
+    @staticmethod
+    def between(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+        spacing = np.diff(time).reshape(-1, *(1,) * (values.ndim - 1))
+        return np.stack([values[:-1], np.diff(values, axis=0) / spacing])
 
 
 class SmoothCurve(PiecewiseCurve):
     """Cubic between the samples; a table of two is a line."""
 
-    def __init__(self, time: Sequence[float], values: Values):
-        super().__init__(time, values, _cubics)
+    @staticmethod
+    def between(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+        from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
 
-
-def _lines(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    spacing = np.diff(time).reshape(-1, *(1,) * (values.ndim - 1))
-    return np.stack([values[:-1], np.diff(values, axis=0) / spacing])
-
-
-def _cubics(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
-
-    return np.asarray(PchipInterpolator(time, values).c[::-1])
+        return np.asarray(PchipInterpolator(time, values).c[::-1])
 
 
 CURVES: dict[Interpolation, type[PiecewiseLinear] | type[SmoothCurve]] = {

@@ -13,7 +13,6 @@ from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import Bricks, reference, shape, tangent
 from fem_reference.solid.materials import LAWS, PAIRS, lame
 from fem_reference.surface.mesh import rectangle
-from sheetbench.numerics.direct import solve_free
 
 pytestmark = pytest.mark.smoke
 
@@ -170,20 +169,3 @@ def test_six_zero_modes(thickness, layers, poisson, mesh):
     values = np.linalg.eigvalsh(stiffness.toarray()) / (1.0e6 * thickness)
     assert np.sum(np.abs(values) < 1e-8) == 6
     assert values[6] > 2e-3 * thickness**2
-
-
-@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.4999])
-@pytest.mark.parametrize("layers", [1, 2])
-def test_patch_of_plane_stress(poisson, layers):
-    """Uniaxial stress prescribed on the rim of a distorted mesh is found inside, faces free."""
-    sheet = DiscreteSolid(distorted(), block(0.1, poisson), layers)
-    exact = sheet.columns.positions * [1e-3, -1e-3 * poisson, -1e-3 * poisson]
-    exact[..., 0] += 4e-4 * sheet.columns.positions[..., 1]  # and a rotation with shear
-    exact[..., 1] += 4e-4 * sheet.columns.positions[..., 0]
-    rest = np.zeros(sheet.size)
-    stiffness = sheet.tangent(sheet.shape(rest, 0.0), rest, 0.0, 0.0)
-    free = np.ones(exact.shape, dtype=bool)
-    free[sheet.columns.basis.get_dofs().flatten()] = False
-    free = np.flatnonzero(free)
-    u = solve_free(stiffness, np.zeros(exact.size), exact.ravel(), free)
-    np.testing.assert_allclose(u, exact.ravel(), atol=1e-9 * np.abs(exact).max())

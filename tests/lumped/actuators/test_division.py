@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 from scipy.integrate import solve_bvp
 
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
-from sheetbench.scenes import Scene, load
+from sheetbench.scenes import load
 
 LENGTH, WIDTH, THICK, YOUNG, CURVATURE, RIGIDITY = 0.2, 0.016, 2e-3, 2e7, 9.0, 3e-3
 PER_LENGTH = 1200.0 * WIDTH * THICK + 2 * 0.03  # [kg/m]
@@ -51,14 +52,8 @@ def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
     off. (Undivided, six segments were 3.8 to 4.8 % off; a polygon's edge with 24 0.04, 0.79 and 3.5.)"""
     chain = {"segments": segments, "bending_stiffness": RIGIDITY, "line_density": 0.03, "radius": 0.0015,
              "curvature": CURVATURE, "base": "start"}  # fmt: skip
-    strip = Scene(
-        name="strip between chains",
-        sheet={"length_x": LENGTH, "length_y": WIDTH, "thickness": THICK},
-        material={"young": YOUNG, "poisson": 0.0, "density": 1200.0},
-        gravity={"acceleration": (0.0, 0.0, -9.81)},
-        supports=[{"kind": "clamped", "edge": "x0"}],
-        actuators=[{**chain, "edge": edge} for edge in ("y0", "y1")],
-    )
+    chains = [{**chain, "edge": edge} for edge in ("y0", "y1")]
+    strip = sheet(LENGTH, WIDTH, THICK, YOUNG, 0.0, 1200.0, weight=9.81, actuators=chains)
     solution = solve(resolve(strip, Lattice(grid=grid)))
     assert solution.balance.holds
     tip = solution.displacement([[LENGTH, 0.0]])[0]

@@ -6,12 +6,11 @@ import pytest
 import lumped
 from lumped import moduli
 from lumped.assembly import Assembly
-from lumped.calibration import tables
 from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.report import _require_positive, report
 from lumped.spring_constants import Springs
 from sheetbench import scenes
-from sheetbench.scenes import BadInput, Material, PerDirection, Sheet, SpringSet
+from sheetbench.scenes import BadInput, PerDirection, SpringSet
 
 pytestmark = pytest.mark.smoke
 
@@ -137,14 +136,6 @@ def test_every_modulus_is_met(method, grid):
     assert all(min(k.x, k.y) > 0.0 if isinstance(k, PerDirection) else k > 0.0 for k in links)
 
 
-def test_without_strain_springs_long_cells_cannot_be_met():
-    """Diagonals stiffen a cell along its length by (lx/ly)² C66: beyond √3 axial links would be negative."""
-    calibration = lumped.calibrate(SEED.sheet, SEED.material, (9, 25))
-    bare = calibration.springs.model_copy(update={"shear": 0.0, "mid_shear": 0.0, "mid_stretch": 0.0})
-    stripped = report("stripped", each_cell(SEED.sheet, SEED.material, (9, 25, 2)), Springs.read(bare))
-    assert any("miss" in note and "D66 by" in note for note in stripped.remarks)
-
-
 def test_layers_too_many_for_the_grid_are_said():
     fine = lumped.calibrate(SEED.sheet, SEED.material, (65, 65, 3))
     assert all(abs(row["miss"]) < 1e-10 for row in fine.moduli)
@@ -191,25 +182,7 @@ def test_textbook_constructions_on_oblong_cells():
     assert (lloyd.x, lloyd.y) == pytest.approx((strip * 5 / 16, strip * 25 / 24))
 
 
-def test_the_table_shows_the_sheets_shear_stiffness_beside_the_grids():
-    """A strip of 250 × 120 × 1.5 mm, 9 × 9 masses: κGh = 52.4 N/m, S* of the long cells a 93rd of it."""
-    sheet = Sheet(length_x=0.25, length_y=0.12, thickness=0.0015)
-    found = lumped.calibrate(sheet, Material(young=125e3, poisson=0.49, density=1070.0), (9, 9)).document()
-    shown = {row[0]: row for row in tables.moduli(found).rows}
-    row = next(row for row in found["moduli"] if row["name"] == "Sx")
-    assert row["kappa_G_h"] == pytest.approx(5 / 6 * 125e3 / 2.98 * 0.0015, rel=1e-12)
-    assert shown["Sx"][2:5] == (row["kappa_G_h"], row["asked"], row["got"])
-    assert row["asked"] == pytest.approx(0.562, abs=5e-4)
-    assert shown["D11"][2] == shown["D11"][3]
-
-
 def test_a_bend_that_costs_nothing_is_refused():
     costless = moduli.Moduli(np.eye(3)[None], np.diag([1.0, 1.0, 0.0])[None], np.ones((1, 2)), np.zeros(1))
     with pytest.raises(BadInput, match="the cell's energy is not positive"):
         _require_positive(Springs.made(1e-3, area=-1.0), costless)
-
-
-def test_the_least_spring_of_a_sheet_with_holes_is_one_that_is_there():
-    """Cells in holes have springs of 0, of which the table says nothing."""
-    table = tables.springs({"springs": {"axial": np.array([0.0, 2.0, 3.0])}, "layer_distance": 1e-3})
-    assert table.rows[0][2:] == (2.0, 3.0)

@@ -1,16 +1,12 @@
 """The twist that a free edge lets go: torsion of strips, second order, and what must not change."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 import lumped
 from lumped.assembly import Assembly
-from lumped.calibration.edge_twist import diagonals_share, edge_factors, layer_width
-from lumped.spring_constants import Springs
+from lumped.calibration.edge_twist import edge_factors, layer_width
 from sheetbench.scenes import Clamped, Material, PointLoad, Scene, Sheet, load
-from sheetbench.scenes.objects.grading import Grading
 
 SEED = load("two-edges-clamped")
 # uz [m] at P1 to P4 of Habibi et al.'s sheet by a linear Mindlin plate of 80 elements a side, graded to its
@@ -160,23 +156,3 @@ def test_membrane_and_bending_are_untouched():
     twisted = np.column_stack([small * y * z, small * x * z, -small * x * y])
     energies = [assembly.force(twisted)[0] for assembly in (with_edges, without)]
     assert energies[0] / energies[1] == pytest.approx(1 + 0.75 * (factor(4, both=True) - 1), rel=0.02)
-
-
-@pytest.mark.parametrize("near", ["x0", "x1"])
-def test_edges_of_a_grid_that_is_graded_to_one_side_are_each_others_on_its_mirror_image(near):
-    """Cells are narrow at one end and wide at the other, and each edge has the factor of its own."""
-    sheet, material = SEED.sheet, SEED.material
-    one = lumped.calibrate(sheet, material, (7, 6), grading=Grading(0.6, (near,)))
-    other = lumped.calibrate(sheet, material, (7, 6), grading=Grading(0.6, ("x1" if near == "x0" else "x0",)))
-    for name in ("edge_shear", "strip_shear"):
-        mine, far = (np.array(getattr(one.springs, f"{part}{name}").x) for part in ("", "far_"))
-        np.testing.assert_allclose(mine, np.array(getattr(other.springs, f"far_{name}").x), rtol=1e-9)
-        if name == "edge_shear":
-            assert not np.allclose(mine, far, rtol=1e-2)
-
-
-def test_the_faces_over_diagonals_share_shear_by_the_squares_of_a_cells_sides():
-    """A cell of 20 × 10 mm: 4/5 of twice the diagonal faces' along x, 1/5 along y, and those of its sides."""
-    springs = Springs.made(1e-3, face_shear=3.0, face_diagonal_shear=5.0)
-    found = diagonals_share(SimpleNamespace(sides=np.array([[[0.02, 0.01]]])), springs)
-    np.testing.assert_allclose(found[0, 0], [8.0 / (8.0 + 3.0), 2.0 / (2.0 + 3.0)])

@@ -12,7 +12,7 @@ from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import plan_spacing
 from lumped.calibration.edge_twist import layer_width
-from lumped.spring_constants import RIMS_OWN, Springs, of_edge_cells
+from lumped.spring_constants import Springs, of_edge_cells
 from sheetbench.scenes import Cells, Scene, SpringSet
 from sheetbench.scenes.objects.grid import grid_of
 from studies.transfer.drawn_scenes import drawn
@@ -166,24 +166,3 @@ def test_every_cell_keeps_a_positive_energy_and_the_table_is_read_back(scene, ma
         least.append(np.linalg.eigvalsh(whole + own)[0] / np.linalg.eigvalsh(whole)[0])
     assert min(least) > 0.05
     assert SpringSet.model_validate(found.model_dump()) == found
-
-
-def test_a_mirrored_sheet_has_its_springs_mirrored():
-    (scene,) = (scene for scene in sheets() if scene.name == "parallelogram")
-    width = scene.sheet.length_x
-    mirrored = scene.replace(outline=[(width - x, y) for x, y in scene.sheet.outline[::-1]])
-    one, other = (calibrated(each, 17).springs for each in (scene, mirrored))
-    for name in RIMS_OWN:
-        sign = -1.0 if name in ("rim_coupling_x", "rim_coupling_y") else 1.0
-        given, turned = np.array(getattr(one, name)), sign * np.array(getattr(other, name))[:, ::-1]
-        assert np.any(given) and turned == pytest.approx(given, rel=1e-9, abs=1e-9 * np.abs(given).max())
-
-
-def test_rubber_has_no_springs_at_oblique_rims():
-    """Its cells' laws have none but shear; the table is read back, rims along the grid and all."""
-    for scene in sheets():
-        grid = grid_of(scene.sheet, 9)
-        cells = lumped.sections_of(scene, grid)
-        found = lumped.calibrate(scene.sheet, scene.material, grid, "hyperelastic", cells=cells).springs
-        assert not any(np.any(getattr(found, name)) for name in RIMS_OWN if name != "rim_shear")
-        assert SpringSet.model_validate(found.model_dump()) == found

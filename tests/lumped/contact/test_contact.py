@@ -20,6 +20,7 @@ from contact_cases import (
     lying_quarter,
     pressed_loop,
 )
+from drawn_obstacles import judged
 from scipy.optimize import fsolve
 
 import fem_reference
@@ -275,3 +276,14 @@ def test_points_of_a_cell_share_its_area_and_hang_from_its_corners_alike(ends):
     weights, shares = points_of_cells(np.array([0.02, 0.03]), 0.01, ends)
     assert len(shares) == ((5 * 7) if ends else (4 * 6))  # at most half a radius apart
     assert weights.sum(axis=1) == pytest.approx(1.0) and shares @ weights == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("number", [2, 22, 39, 59])
+def test_drawn_sheet_is_not_walked_through(number):
+    assert judged(number)[1] == ""
+
+
+@pytest.mark.nightly
+def test_a_thousand_drawn_sheets():
+    faults = {number: found[1] for number in range(1000) if (found := judged(number))[1]}
+    assert not faults

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 from contact_cases import DROP, FALLEN, GRAVITY
 from contact_cases import FALLING as STRIP
 from scipy.optimize import brentq
@@ -10,7 +11,7 @@ import lumped
 from lumped.contact import MOVING
 from lumped.dynamics.explicit.step_limit import SAFETY, TOUCHING
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Gravity, Held, Material, Motion, Plane, Scene, Sheet
+from sheetbench.scenes import Gravity, Held, Motion, Plane
 
 
 def run(scene, duration, integrator="auto", grid=(7, 3, 2), **options):
@@ -56,14 +57,8 @@ def test_explicit_steps_are_hardly_shorter():
 
 def block(obstacle, slope=0.0, **more):
     """A stiff small sheet that nothing but an obstacle stops; gravity at a slope."""
-    return Scene(
-        name="block",
-        sheet=Sheet(length_x=0.02, length_y=0.02, thickness=0.002),
-        material=Material(young=5e6, poisson=0.3, density=1e3),
-        gravity=Gravity(acceleration=(GRAVITY * np.sin(slope), 0.0, -GRAVITY * np.cos(slope))),
-        obstacles=(obstacle,),
-        **more,
-    )
+    gravity = Gravity(acceleration=(GRAVITY * np.sin(slope), 0.0, -GRAVITY * np.cos(slope)))
+    return sheet(0.02, 0.02, 0.002, 5e6, held="", gravity=gravity, obstacles=(obstacle,), **more)
 
 
 def test_restitution_of_the_dashpot():

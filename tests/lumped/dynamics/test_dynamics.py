@@ -11,6 +11,7 @@ from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.explicit.step_limit import step_limit, turn_limit
 from lumped.dynamics.implicit.esdirk import ERROR
 from lumped.dynamics.integrator import StepFailed
+from lumped.dynamics.runs.plan import StepPlan, plan_run
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import DamperSet
 
@@ -30,16 +31,6 @@ def test_settles_on_the_static_answer(name, dips):
     assert largest(end - static) < 1e-4 * largest(static)  # measured 2e-6
     taken = history.energies["dissipated"]
     assert np.all(np.diff(taken) >= -dips * taken[-1])
-
-
-def test_the_conserving_integrator_holds_the_energy():
-    """A millionth in ten seconds, which the slow test runs for; a fifth of it in a fifth of the time."""
-    scene = make_scene()
-    history = lumped.simulate(scene, springs(scene, 3), 2.0, integrator="midpoint", step=4e-3, every=0.02)
-    assert history.status is Status.CONVERGED
-    drift = largest(history.balance - history.balance[0])
-    assert drift < 2e-7 * largest(history.energies["potential"])
-    assert largest(history.probes["P4"]) > 0.02  # it still swings
 
 
 ORDER_STEPS = {"verlet": 4e-5, "generalised-alpha": 4e-5, "esdirk": 4e-4, "midpoint": 4e-5}
@@ -182,3 +173,22 @@ def test_unknown_choices_are_refused():
     ):
         with pytest.raises(ValueError, match=said):
             lumped.simulate(scene, springs(scene), 0.01, **options)
+
+
+@pytest.mark.parametrize("periods", [0.1, 3.0])
+def test_the_lowest_period_has_a_hundred_samples(periods):
+    scene = make_scene()
+    calibration = springs(scene, 3)
+    period = 1.0 / lumped.modes(scene, calibration, 1, calibration.masses).frequencies[0]
+    equations, _ = system(scene, 3)
+    plan = plan_run(equations, calibration, None, periods * period, None, "esdirk", None)
+    assert plan.samples == plan.first == round(100 * periods)
+    assert plan.every == pytest.approx(period / 100, rel=1e-9)
+
+
+def test_frames_are_the_first_and_the_last_sample_and_evenly_between():
+    """A run that is made longer goes on with them at their distance, to its own last sample at most."""
+    plan = StepPlan(samples=10, every=1e-3, steps=1, adapts=False, first=10)
+    assert plan.shown(0) == [] and plan.shown(1) == [0] and plan.shown(2) == [0, 10]
+    assert plan.shown(3) == [0, 5, 10] and plan.longer(0.02).shown(3) == [0, 5, 10, 15, 20]
+    assert plan.shown(4) == [0, 3, 7, 10] and plan.longer(0.0125).shown(4) == [0, 3, 7, 10]

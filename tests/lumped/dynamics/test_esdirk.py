@@ -9,7 +9,7 @@ from dynamic_cases import ROD, make_scene, run, springs, system
 import lumped
 from lumped.dynamics.implicit import esdirk
 from lumped.dynamics.implicit.esdirk import Esdirk
-from lumped.dynamics.implicit.newton import Newton, StepEquation
+from lumped.dynamics.implicit.newton import Newton
 from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GUESSES, STAGES, WEIGHTS
 from sheetbench.answers.solution import Status
@@ -99,39 +99,9 @@ def test_polynomials_serve_where_states_have_little_energy_too_much(monkeypatch)
     assert np.abs(few.energies["elastic"] - stored).max() < esdirk.ENERGY * esdirk.ERROR * stored.max()
 
 
-def test_the_energy_that_a_state_has_too_much_is_that_of_what_corrects_it():
-    """By the compiled iteration's factors and by general ones: a state off its equation's solution by d has
-    ½ d·A d too much, A the equation's tangent."""
-    equations, state = system(make_scene(damping_time=1e-3), 4)
-    problem, drawn = equations.problem, np.random.default_rng(1)
-    off, found = 1e-7 * problem.expand(drawn.standard_normal(problem.system.unknowns)), []
-    for compiled in (True, False):
-        newton = Newton(equations, 1e-13)
-        newton._compiled = newton._compiled if compiled else None
-        equation = StepEquation(equations, 0.0, state.u, state.v, 1e6, 1e3)
-        assert newton.excess(equation, state.u) == np.inf  # without factors
-        solved = newton.solve_equation(equation, state.u)
-        found.append(newton.excess(equation, solved + off))
-    pull = problem.system.apply(equations.matrix(solved, state.v, 0.0, 1e6, 1e3, 1.0), off)
-    assert found == pytest.approx(2 * [0.5 * np.vdot(off, pull)], rel=1e-3)
-
-
 def test_guesses_of_stages_are_right_where_the_acceleration_stays():
     np.testing.assert_allclose(GUESSES[1:].sum(axis=1), 1.0, atol=1e-12)
     assert not np.triu(GUESSES).any()
-
-
-def test_a_start_from_rest_takes_steps_that_its_motion_deserves():
-    """Not ones that resolve the first micrometres: the error counts beside where the weight leads."""
-    equations, rest = system(make_scene("two-edges-settling"), 4)
-    method, state, taken = Esdirk(equations, 1.0, fixed=False), rest, 0
-    while state.time < 0.02:
-        state, taken = method.advance(state, 1.0 - state.time).state, taken + 1
-    assert taken <= 6
-    step = state.time / 20
-    tight, _ = run(Esdirk(equations, step), rest, step, 20)
-    settled = 0.02  # m, where the weight leads
-    assert np.abs(tight[-1].u - state.u).max() < 1e-4 * settled  # some steps of 3e-5
 
 
 def test_steps_follow_the_error_asked_for():

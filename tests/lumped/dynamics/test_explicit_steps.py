@@ -5,7 +5,6 @@ import pytest
 from dynamic_cases import make_scene, springs
 
 from lumped import INTEGRATORS, System, build_problem, step_limit
-from lumped.dynamics.explicit import flat_system
 from lumped.dynamics.runs.initial import initial_state
 from lumped.springs import packing
 
@@ -52,14 +51,6 @@ def start_of(scene, precision="double", n=5):
     calibration = springs(scene, n)
     system = System(scene, build_problem(scene, calibration, precision=precision))
     return system, initial_state(system, calibration, "tributary")
-
-
-def test_a_call_takes_several_steps_of_the_largest_lattice(monkeypatch):
-    """To lay it out for a call and back takes as long as two."""
-    monkeypatch.setattr(flat_system, "PER_SPRING", 1.0)
-    system, state = start_of(CASES["dampers"])
-    taken = INTEGRATORS["verlet"](system, 1e-7).march(state, 1e-7, 100).steps
-    assert taken == flat_system.LEAST
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -61,19 +61,6 @@ def test_the_tangent_is_the_forces_derivative(law):
     assert found == pytest.approx((sides[0] - sides[1]) / 2e-7, abs=1e-6 * np.abs(found).max())
 
 
-def test_integrators_agree_and_keep_their_energy_in_books():
-    """Each within its own error of esdirk's fifth order; branches only take energy."""
-    scene = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
-    exact = lumped.simulate(scene, springs(scene), 0.2, integrator="esdirk", error=1e-6, every=0.01)
-    size = np.abs(exact.probes["P4"]).max()
-    for name, step in {"generalised-alpha": None, "midpoint": 1e-3, "verlet": None, "esdirk": None}.items():
-        run = lumped.simulate(scene, springs(scene), 0.2, integrator=name, step=step, every=0.01)
-        kinetic, dissipated = run.energies["kinetic"].max(), run.energies["dissipated"]
-        assert run.probes["P4"] == pytest.approx(exact.probes["P4"], abs=5e-4 * size)
-        assert np.abs(run.balance - run.balance[0]).max() < 3e-3 * kinetic
-        assert dissipated[-1] > 0.3 * kinetic and np.diff(dissipated).min() > 0.0
-
-
 @pytest.fixture(scope="module")
 def shell():
     scene = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)

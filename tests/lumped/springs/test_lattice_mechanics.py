@@ -45,7 +45,7 @@ def test_extrapolated_stresses_are_the_linearisation():
 def test_energies_by_name_add_up_to_the_energy():
     assembly = assembly_of(**ALL)
     u = state(assembly)
-    energies = assembly.energies(u)
+    energies = assembly.survey(u).energies
     assert energies.keys() >= {"axial", "cross", "diagonal", "area"}
     assert sum(energies.values()) == pytest.approx(assembly.force(u)[0], rel=1e-12)
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.sparse.linalg import splu
@@ -14,15 +15,14 @@ from sheetbench.numerics.continuation import trace as tracer
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.multifrontal import NoFactorsError
-from sheetbench.scenes import Clamped, Curved, EdgeLoad, Gravity, Material, Scene, Sheet, load
+from sheetbench.scenes import Curved, EdgeLoad, Gravity, Material, Sheet, load
 
 STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
 SOFT = Material(young=5e6, poisson=0.0, density=1100.0)
 PRESS, ACROSS = 0.0334127, 0.002  # N/m: 1.3 of Euler's load, and a little upwards
-COLUMN = Scene(
-    name="column", sheet=STRIP, material=SOFT, supports=(Clamped(edge="x0"),),
-    loads=(EdgeLoad(edge="x1", force_per_length=(-PRESS, 0.0, ACROSS)),), probes={"tip": (0.2, 0.025)},
-)  # fmt: skip
+COLUMN = sheet(
+    0.2, 0.05, 0.001, material=SOFT, loads=(EdgeLoad(edge="x1", force_per_length=(-PRESS, 0.0, ACROSS)),)
+)
 
 
 def elastica_tip():
@@ -55,14 +55,9 @@ def test_a_column_bends_the_way_it_is_pushed(model):
 
 def test_a_fold_that_large_steps_jump_over_is_told_with_its_load():
     """A hundredth below it nothing snaps yet, a hundredth above it does."""
-    sheet = Sheet(length_x=0.15, length_y=0.15, thickness=0.002)
-    material = Material(young=1e7, poisson=0.45, density=1200.0)
-    scene = Scene(
-        name="fold", sheet=sheet, material=material,
-        gravity=Gravity(acceleration=(0.0, 0.0, -0.78 * 9.81)),
-        supports=(Curved(edge="x0", curvature=-8.0),), probes={"P": (0.15, 0.075)},
-    )  # fmt: skip
-    springs = lumped.calibrate(sheet, material, grid=(9, 9), method="consistent")
+    bent = (Curved(edge="x0", curvature=-8.0),)
+    scene = sheet(0.15, 0.15, 0.002, 1e7, 0.45, 1200.0, weight=0.78 * 9.81, supports=bent)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9), method="consistent")
     found = lumped.solve(scene, springs)
     assert found.status is Status.CONVERGED
     (turning,) = found.snaps
@@ -79,11 +74,8 @@ def test_a_fold_that_large_steps_jump_over_is_told_with_its_load():
 def pulled(force, along=2):
     """A sheet pulled by its far edge [N/m]; straight up it bends by a quarter turn, and nothing folds."""
     pull = tuple(force * np.eye(3)[along])
-    return Scene(
-        name="pulled", sheet=Sheet(length_x=0.15, length_y=0.15, thickness=0.002),
-        material=Material(young=1e7, poisson=0.45, density=1200.0), supports=(Clamped(edge="x0"),),
-        loads=(EdgeLoad(edge="x1", force_per_length=pull),), probes={"P": (0.15, 0.075)},
-    )  # fmt: skip
+    loads = (EdgeLoad(edge="x1", force_per_length=pull),)
+    return sheet(0.15, 0.15, 0.002, 1e7, 0.45, 1200.0, loads=loads)
 
 
 def solve(scene, model):

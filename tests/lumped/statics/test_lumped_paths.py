@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeLoad, Held, Material, Pressure, Scene, Sheet
+from sheetbench.scenes import EdgeLoad, Held, Pressure, load
 
 SIDE, THICKNESS, YOUNG, POISSON = 0.2, 0.001, 1e7, 0.3
 RIGIDITY = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)
@@ -23,18 +24,10 @@ CENTRE = [[SIDE / 2, SIDE / 2]]
 
 
 def compressed(times_critical):
-    return Scene(
-        name="compressed",
-        sheet=Sheet(length_x=SIDE, length_y=SIDE, thickness=THICKNESS),
-        material=Material(young=YOUNG, poisson=POISSON, density=1000.0),
-        supports=(
-            Held(edge="x0", components=("x", "z")),
-            Held(edge="x1", components=("z",)),
-            Held(edge="y0", components=("y", "z")),
-            Held(edge="y1", components=("z",)),
-        ),
-        loads=(EdgeLoad(edge="x1", force_per_length=(-times_critical * CRITICAL, 0, 0)),),
-    )
+    held = {"x0": ("x", "z"), "x1": ("z",), "y0": ("y", "z"), "y1": ("z",)}
+    supports = [Held(edge=edge, components=components) for edge, components in held.items()]
+    press = EdgeLoad(edge="x1", force_per_length=(-times_critical * CRITICAL, 0, 0))
+    return sheet(SIDE, SIDE, THICKNESS, YOUNG, POISSON, supports=supports, loads=(press,))
 
 
 def springs(masses):
@@ -121,3 +114,17 @@ def test_several_threads_look_at_an_answers_mesh_at_once():
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(look, range(4)))
     assert all((each == mesh.points).all() for each in found)
+
+
+SCENE = load("two-edges-clamped")
+SPRINGS = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 5))
+
+
+def test_threads_do_not_disturb_each_other():
+    several = [SPRINGS.with_constant("diagonal", k) for k in np.linspace(2000.0, 9000.0, 12)]
+    with ThreadPoolExecutor(3) as pool:
+        answers = list(pool.map(lambda springs: lumped.solve(SCENE, springs), several))
+    for many, springs in zip(answers, several, strict=True):
+        single = lumped.solve(SCENE, springs)
+        assert (many.status, many.iterations) == (single.status, single.iterations)
+        np.testing.assert_array_equal(many.mesh.point_data["reaction"], single.mesh.point_data["reaction"])

@@ -64,7 +64,7 @@ def _known(node):
         _known(inner)
 
 
-@settings(max_examples=30)
+@settings(max_examples=10)
 @given(st.lists(st.tuples(st.text(max_size=20), st.text(max_size=20)), min_size=1, max_size=4), st.text())
 def test_whatever_stands_in_cells_the_table_reads(cells, caption):
     table = Table(caption, (Column("a_b", "m", "mm"), Column("100 %")), tuple(cells))

@@ -91,14 +91,6 @@ def test_an_admissible_displacement_is_its_own_nearest(layers):
     np.testing.assert_allclose(miss, 0.0, atol=1e-13)
 
 
-def test_a_solve_that_starts_at_its_own_answer_stays_there():
-    scene = make_scene(supports=[{"edge": "x0", "kind": "hinged"}, {"edge": "y0", "kind": "hinged"}])
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5, 3))
-    found = lumped.solve(scene, springs)
-    again = lumped.solve(scene, springs, near=found.mesh.point_data["displacement"])
-    assert again.history[0].residual < 1e-9
-
-
 def far_below_zero():
     """Twenty soft eigenvalues before one of −1000; unsymmetric."""
     values = np.concatenate([1e-3 * np.arange(1.0, 21.0), np.arange(1.0, 40.0), [-1000.0]])
@@ -121,23 +113,3 @@ def test_the_sign_of_the_determinant_is_that_of_its_permutations_and_pivots():
         matrix = random.standard_normal((n, n))
         assert odd_below_zero(sp.csr_array(matrix)) == (np.linalg.det(matrix) < 0.0)
     assert odd_below_zero(sp.csc_array((3, 3))) is None
-
-
-@pytest.mark.parametrize("value", [5.0, 4000.0])
-def test_factorisations_under_pressure_are_counted_once_each(monkeypatch, value):
-    """All that are made of a tangent: by fronts, of what they do not solve by a library, for det's sign."""
-    scene = make_scene(loads=[{"kind": "pressure", "value": value}])
-    springs, made = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5)), []
-
-    def counted(function):
-        def called(*arguments, **keywords):
-            made.append(function.__name__)
-            return function(*arguments, **keywords)
-
-        return called
-
-    lumped.solve(scene, springs)
-    monkeypatch.setattr(direct, "SignedFactors", counted(direct.SignedFactors))
-    monkeypatch.setattr(direct, "odd_below_zero", counted(direct.odd_below_zero))
-    monkeypatch.setattr(DirectSolver, "_by_library", counted(DirectSolver._by_library))
-    assert lumped.solve(scene, springs).iterations == len(made) > 0

@@ -12,12 +12,11 @@ from sheetbench.scenes import (
     CurvatureTable,
     Curved,
     EdgeMotion,
-    PiecewiseLinear,
     Sheet,
     Symmetric,
 )
 from sheetbench.scenes.meaning.kinematics import UP, BentEdge, MovedEdge, TiltedEdge, bent_or_tilted
-from sheetbench.scenes.objects.tables import SmoothCurve
+from sheetbench.scenes.objects.tables import PiecewiseLinear, SmoothCurve
 
 SHEET = Sheet(length_x=0.3, length_y=0.2, thickness=0.003)
 TIME, DISPLACEMENT = (0.1, 0.5, 0.7), ((0.0, 0.01, 0.0), (0.02, 0.0, -0.01), (0.0, 0.0, 0.03))
@@ -172,3 +171,11 @@ def test_a_table_of_two_samples_is_a_line_either_way():
     assert_allclose(
         SmoothCurve((0.0, 0.2), (1.0, 3.0)).at(at), PiecewiseLinear((0.0, 0.2), (1.0, 3.0)).at(at)
     )
+
+
+@pytest.mark.parametrize("span", [1e-9, 1.0, 1e6])
+def test_a_slope_does_not_depend_on_the_unit_of_time(span):
+    """A table of nanoseconds had the next piece's slope half a piece early."""
+    table = PiecewiseLinear([0.0, 0.5 * span, span], [0.0, 1.0, 0.0])
+    assert table.slope(0.25 * span) == pytest.approx(2.0 / span)
+    assert table.slope(0.5 * span * (1.0 - 1e-12)) == pytest.approx(-2.0 / span)  # a sum of steps

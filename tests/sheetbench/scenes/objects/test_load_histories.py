@@ -194,8 +194,8 @@ def reference():
         pull = np.interp(time, RAMP["time"], RAMP["factor"]) * force - equations.assembly.force(u)[1]
         return np.concatenate([y[3 * len(free) :], (pull[free] / mass[free, None]).ravel()])
 
-    times, found = np.linspace(0.0, 0.2, 101), [np.zeros((1, 6 * len(free)))]
-    for begin, end in ((0.0, 0.02), (0.02, 0.05), (0.05, 0.2)):  # no kink within an integration
+    times, found = np.linspace(0.0, 0.08, 41), [np.zeros((1, 6 * len(free)))]
+    for begin, end in ((0.0, 0.02), (0.02, 0.05), (0.05, 0.08)):  # no kink within an integration
         at = times[(times > begin + 1e-9) & (times < end + 1e-9)]
         part = solve_ivp(rate, (begin, end), found[-1][-1], "DOP853", at, rtol=1e-9, atol=1e-12)
         found.append(part.y.T)
@@ -210,48 +210,7 @@ def reference():
 )
 def test_a_ramped_force_moves_the_cantilever_as_solve_ivp_says(reference, name, step):
     scene, times, truth = reference
-    history = lumped.simulate(scene, springs(scene, 3), 0.2, integrator=name, step=step, every=0.002)
+    history = lumped.simulate(scene, springs(scene, 3), 0.08, integrator=name, step=step, every=0.002)
     assert history.status is Status.CONVERGED
     assert history.time == pytest.approx(times)
     assert largest(history.probes["P3"] - truth) < 1e-3 * largest(truth)  # measured below 1e-4
-
-
-def shaken(damping_time=0.0):
-    """Constant weight, a swinging force, a pulse of pressure and an edge moment."""
-    time = np.linspace(0.0, 0.2, 401)
-    swing = {"time": time.tolist(), "factor": np.sin(20.0 * time).tolist()}
-    pulse = {"time": [0.0, 0.03, 0.06], "factor": [0.0, 1.0, 0.0]}
-    loads = [
-        tip_force(swing, force=(0.0, 0.1, 1.0)),
-        {"kind": "pressure", "value": 60.0, "history": pulse},
-        {"kind": "edge", "edge": "x1", "moment_per_length": 0.1, "history": swing},
-    ]
-    return make_scene("one-edge-clamped", loads=loads, damping_time=damping_time)
-
-
-@pytest.mark.sweep
-@pytest.mark.parametrize("damping", [0.0, 1e-3])
-@pytest.mark.parametrize(
-    "name, tolerance", [("midpoint", 1e-9), ("generalised-alpha", 1e-4), ("esdirk", 1e-4), ("verlet", 1e-4)]
-)
-def test_the_energy_balance_holds_with_loads_that_change(name, tolerance, damping):
-    scene = shaken(damping)
-    step = {"midpoint": 5e-4, "generalised-alpha": 2e-4, "esdirk": 5e-4, "verlet": None}[name]
-    history = lumped.simulate(scene, springs(scene, 3), 0.05, integrator=name, step=step, every=0.001)
-    assert history.status is Status.CONVERGED
-    scale = max(largest(energy) for energy in history.energies.values())
-    assert largest(history.energies["work"]) > 0.2 * scale
-    # measured 1e-11, 2e-6 and 6e-6
-    assert largest(history.balance - history.balance[0]) < tolerance * scale
-
-
-def test_weight_with_a_history_does_work_and_has_no_potential():
-    history = FactorTable(time=(0.0, 0.05), factor=(0.0, 1.0))
-    scene = make_scene("one-edge-clamped")
-    scene = scene.model_copy(update={"gravity": scene.gravity.model_copy(update={"history": history})})
-    found = lumped.simulate(scene, springs(scene, 4), 0.1, integrator="midpoint", step=5e-4, every=0.005)
-    assert largest(found.energies["potential"]) == 0.0
-    assert largest(found.balance) < 1e-8 * largest(found.energies["work"])
-    weight = 9.81 * 1678.0 * 0.188**2 * 0.003
-    static = lumped.solve(scene, springs(scene, 4))
-    assert static.reactions["x0"][2] == pytest.approx(weight)

@@ -1,7 +1,6 @@
 """Quantities with units, scene objects by place, and what sheetbench does not model, refused as such."""
 
 import inspect
-import tomllib
 import warnings
 from pathlib import Path
 
@@ -133,18 +132,6 @@ def test_a_wrong_unit_is_refused_where_it_stands(tmp_path, text, stands, said):
     assert said in str(caught.value)
 
 
-def test_scene_objects_take_their_values_by_place():
-    assert sb.Gravity((0, 0, -9.81)).acceleration == (0.0, 0.0, -9.81)
-    assert sb.Curved("x0", 4.0) == sb.Curved(edge="x0", curvature=4.0)
-    assert sb.Clamped("x0", 0.1) == sb.Clamped(edge="x0", tilt=0.1)
-    assert sb.Held("x0", ("z",)).components == ("z",)
-    assert sb.PointLoad((0.1, 0.0), (0, 0, 1)).force == (0.0, 0.0, 1.0)
-    assert sb.EdgeLoad("x1", (1, 0, 0), 0.5).moment_per_length == 0.5
-    assert sb.Pressure(3.0).value == 3.0
-    scene = sb.Scene("strip", SHEET, MATERIAL, sb.Gravity((0, 0, -9.81)), (sb.Clamped("x0"),))
-    assert scene.supports == (sb.Clamped("x0"),) and scene.gravity is not None
-
-
 def test_signatures_name_every_key_with_its_type():
     assert str(inspect.signature(sb.Curved)).startswith(
         "(edge: Literal['x0', 'x1', 'y0', 'y1'], curvature: fl"
@@ -235,9 +222,3 @@ def test_no_key_that_a_scene_has_is_said_not_to_be_modelled():
     keys = {key for table in tables for key in table["properties"]}
     assert not keys & set(WISHES)
     assert (ROOT / PAGE).is_file()
-
-
-def test_the_file_that_new_writes_lets_editors_take_units():
-    young = for_editors(sb.Scene)["$defs"]["Material"]["properties"]["young"]
-    assert {"type": "string"} in young["anyOf"] and "unit" in young
-    assert tomllib.loads(WITH_UNITS)["material"]["young"] == "0.6 MPa"

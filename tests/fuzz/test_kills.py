@@ -1,13 +1,11 @@
 """`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
 
-    python -m fuzz.kills FOLDER [--campaign 45] [--run 30] [--reference 15] [--muscles 15]
-                         [--contact 15] [--tradeoff 15] [--seed 1]
+    make kills SEED=2
 
 A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
 time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
 comes to its end. What had been kept by a kill must stand there unchanged ever after, and what stands there at
-the end must be what an undisturbed process leaves: nothing lost, nothing doubled, no partial file. A folder
-that came to its end is a line of FOLDER/kills-SEED.jsonl and is not filled again.
+the end must be what an undisturbed process leaves: nothing lost, nothing doubled, no partial file.
 """
 
 import json
@@ -15,7 +13,6 @@ import os
 import random
 import signal
 import sys
-import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,19 +21,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from campaigns import Here, rows_in, task
 from dynamic_cases import make_scene, springs
 
 import fem_reference
 import lumped
 from comparisons.sweep.campaign import campaign, carry_out
-from comparisons.sweep.manifest import made_with
 from comparisons.sweep.store import FILE
-from fuzz import record
 from sheetbench.files import LOCK
 from sheetbench.scenes import load
 
-TREE = Path(__file__).resolve().parents[3]
+TREE = Path(__file__).resolve().parents[2]
+SEED = os.environ.get("FUZZ", "")
+pytestmark = pytest.mark.skipif(not SEED, reason="make kills")
 Kept = dict[str, Any]  # what a folder holds and must go on holding, by name
 TRADEOFF = (
     *("tradeoff", "two-edges-clamped", "--lumped", "3,4,5", "--lumped-pair", "", "--calibration", "uniform"),
@@ -118,9 +116,9 @@ def contents(folder: Path) -> Kept:
 
 @dataclass(frozen=True)
 class Kind:
-    """What is run in a folder, what must not change there once it is kept, and how it looks at the end."""
+    """What is run in a folder, what must not change there once it is kept, how it looks at the end, and how
+    many kills there are."""
 
-    title: str
     run: Callable[[Path], None]
     kept: Callable[[Path], Kept]
     end: Callable[[Path], Kept]
@@ -128,12 +126,12 @@ class Kind:
 
 
 KINDS = {
-    "campaign": Kind("campaigns of forty runs", run_campaign, rows, answers, 45),
-    "run": Kind("runs in time of a lattice", run_in_time, checkpointed, contents, 30),
-    "reference": Kind("runs in time of a reference", run_of_reference, checkpointed, contents, 15),
-    "muscles": Kind("runs in time of muscle bands", run_of_muscles, checkpointed, contents, 15),
-    "contact": Kind("runs in time of a strip on a table", run_of_contact, checkpointed, contents, 15),
-    "tradeoff": Kind("the verb tradeoff with a worker", run_tradeoff, rows, answers, 15),
+    "campaign": Kind(run_campaign, rows, answers, 45),
+    "run": Kind(run_in_time, checkpointed, contents, 30),
+    "reference": Kind(run_of_reference, checkpointed, contents, 15),
+    "muscles": Kind(run_of_muscles, checkpointed, contents, 15),
+    "contact": Kind(run_of_contact, checkpointed, contents, 15),
+    "tradeoff": Kind(run_tradeoff, rows, answers, 15),
 }
 
 
@@ -175,7 +173,7 @@ def undisturbed(kind: Kind, place: Path) -> tuple[Kept, set[str], float]:
         folder, clock = place / f"undisturbed-{number}", time.perf_counter()
         folder.mkdir()
         status = ended(started(kind.run, folder))
-        assert status == 0, f"{kind.title}: undisturbed it ends with {status}"
+        assert status == 0, f"undisturbed it ends with {status}"
         seconds = time.perf_counter() - clock
     return kind.end(folder), names(folder), seconds
 
@@ -201,46 +199,11 @@ def chain(kind: Kind, folder: Path, whole: tuple[Kept, set[str], float], instant
     return kills
 
 
-def table(done: list[dict[str, Any]], seed: int) -> str:
-    """Kills of every kind, in Markdown, with the machine and the date."""
-    lines = ["| killed | kills | folders brought to their end | faults |", "|---|---|---|---|"]
-    for name, kind in KINDS.items():
-        mine = [line for line in done if line["kind"] == name]
-        faults = [line["fault"] for line in mine if line["fault"]]
-        lines.append(
-            f"| {kind.title} | {sum(line['kills'] for line in mine)} | {len(mine)} | {len(faults)} |"
-        )
-    return "\n".join([*lines, "", f"Seed {seed}. {made_with()}", ""])
-
-
-def main() -> int:
-    arguments = record.parse_arguments(__doc__, {name: kind.kills for name, kind in KINDS.items()})
-    done: list[dict[str, Any]] = []
-    with record.opened(arguments.folder / f"kills-{arguments.seed}.jsonl", "chain") as found:
-        for name, kind in KINDS.items():
-            with tempfile.TemporaryDirectory() as place:
-                whole, kills, wanted = None, 0, getattr(arguments, name)
-                for number in count():
-                    if kills >= wanted:
-                        break
-                    line = found.get(name, number)
-                    if line is None or line["fault"]:
-                        whole = whole or undisturbed(kind, Path(place))
-                        instants = random.Random(f"{arguments.seed} {name} {number}")
-                        line = {"kind": name, "chain": number, "kills": 0, "fault": ""}
-                        try:
-                            line["kills"] = chain(kind, Path(place) / str(number), whole, instants)
-                        except AssertionError as fault:
-                            line |= {"kills": 1, "fault": str(fault)}
-                        found.add(line)
-                    done.append(line)
-                    kills += line["kills"]
-                    print(f"{name}: {kills}/{wanted} {line['fault']}", file=sys.stderr)
-    said = table(done, arguments.seed)
-    (arguments.folder / "kills.md").write_text(said, encoding="utf-8")
-    print(said)
-    return int(any(line["fault"] for line in done))
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+@pytest.mark.parametrize("name", KINDS)
+def test_nothing_is_lost_by_a_kill(tmp_path, name):
+    kind, kills = KINDS[name], 0
+    whole = undisturbed(kind, tmp_path)
+    for number in count():
+        if kills >= kind.kills:
+            break
+        kills += chain(kind, tmp_path / str(number), whole, random.Random(f"{SEED} {name} {number}"))

@@ -1,0 +1,123 @@
+"""Two ways of saying one thing have one answer, in every model."""
+
+import numpy as np
+import pytest
+from cases import GRAVITY, OBLONG, SILICONE, sheet
+
+from sheetbench import face
+from sheetbench.answers.solution import Status
+from sheetbench.scenes import (
+    AreaLoad,
+    Chain,
+    Clamped,
+    EdgeMotion,
+    Gravity,
+    Material,
+    PointLoad,
+    Scene,
+    load,
+)
+from sheetbench.scenes.objects.supports import Motion
+
+FOUR = {"elements": 4}
+ALL = {"lumped": {"grid": (9, 9, 2)}, "plate": FOUR, "shell": FOUR, "solid": {"elements": 2}}
+PLAIN, CURVED = load("two-edges-clamped"), load("curved-edge")
+YOUNG, POISSON = PLAIN.material.young, PLAIN.material.poisson
+SHEAR = YOUNG / (2.0 * (1.0 + POISSON))
+SAME = dict(young_1=YOUNG, young_2=YOUNG, poisson_12=POISSON, shear_12=SHEAR, angle=0.3)
+FIBRES = dict(young_1=54.5e6, young_2=8e6, poisson_12=0.35, shear_12=4e6, shear_13=3e6, shear_23=2e6)
+SWAPPED = dict(young_1=8e6, young_2=54.5e6, poisson_12=0.35 * 8.0 / 54.5, shear_12=4e6, shear_13=2e6)
+SWAPPED |= dict(shear_23=3e6, young_3=8e6, poisson_13=0.35, poisson_23=0.35)
+LIFT = (0.0, 0.0, 0.004)
+COURSE = {"time": (0.0, 0.5, 1.0), "displacement": ((0.0, 0.0, 0.0), (0.0, 0.01, 0.0), LIFT)}
+STILL = Clamped("x0")
+CUT = [  # of the sheet's own material, aligned, oblique and round, over each other
+    {"shape": {"rectangle": {"x": (0.02, 0.1), "y": (0.0, 0.188)}}, "young": YOUNG},
+    {"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "thickness": 0.003},
+    {"shape": {"polygon": [(0.05, 0.0), (0.188, 0.188), (0.0, 0.188)]}, "poisson": 0.48, "density": 1678.0},
+]
+SHEETS = ("lumped", "plate", "shell")
+AROUND = [(0.0, 0.0), (0.188, 0.0), (0.188, 0.188), (0.0, 0.188)]
+AT_TIP = {"at": (0.2, 0.05), "mass": 5e-3}
+PART = {"rectangle": {"x": (0.15, 0.2), "y": (0.0, 0.1)}}
+PULL = -9.81 * 5e-3
+ROD = dict(edge="x1", segments=8, bending_stiffness=0.2, line_density=0.05, radius=1.5e-3)
+
+
+def with_fibres(**constants):
+    return PLAIN.replace(material=Material(kind="orthotropic", density=1678.0, **constants))
+
+
+def moved(edge, supports=(), **course):
+    motion = EdgeMotion(kind="motion", edge=edge, **{"time": (0.0,), **course})
+    return Scene("moved", OBLONG, SILICONE, GRAVITY, supports, actuators=(motion,))
+
+
+def held(*supports):
+    return Scene("held", OBLONG, SILICONE, GRAVITY, supports)
+
+
+def laden(**more):
+    return sheet(0.2, 0.1, 0.005, 2e8, weight=9.81, **more)
+
+
+def rods(*chains, **more):
+    return load("one-edge-clamped").replace(actuators=[Chain(**{**ROD, **one}) for one in chains], **more)
+
+
+TWICE = {"bending_stiffness": 0.4, "line_density": 0.1}
+TOP, BOTTOM = {"face": "top", "curvature": 6.0}, {"face": "bottom", "curvature": 2.0}
+MEETING = ({"edge": "y1", "curvature": 3.0, "face": "top"}, {"curvature": -4.0, "segments": 5})
+LIFTED = {"kind": "motion", "edge": "x1", "time": (0.0,), "displacement": ((0.0, 0.0, 0.01),)}
+CORNER = [Chain(**{**ROD, "edge": "y0", "curvature": 2.0, "bending_stiffness": 0.02}), LIFTED]
+STIFF = {"edge": "x0", "bending_stiffness": 1e3, "line_density": 1e-6, "base": "middle"}
+HISTORY = {"time": (0.0, 1.0), "factor": (0.0, 0.5)}
+PAIRS = {  # two scenes, models, and how far apart their answers may be
+    "a clamp that moves, an edge that is moved": (
+        held(STILL, Clamped("x1", motion=Motion(**COURSE))), moved("x1", (STILL,), **COURSE), ALL, 1e-7),
+    **{f"a clamp tilted at {edge}, an edge that is turned": (
+        held(Clamped(edge, tilt=0.3)), moved(edge, rotation=(turn,)), ALL, 1e-7)
+        for edge, turn in (("x0", (0.0, 0.3, 0.0)), ("y1", (0.3, 0.0, 0.0)))},
+    "a payload, the force of its weight": (
+        laden(masses=[{"at": (0.17, 0.013), "mass": 5e-3}]),
+        laden(loads=[PointLoad(at=(0.17, 0.013), force=(0.0, 0.0, PULL))]), ALL, 1e-9),
+    "a payload that is spread, a load on its part": (
+        laden(masses=[{"where": PART, "mass": 5e-3}]),
+        laden(loads=[AreaLoad(force_per_area=(0.0, 0.0, PULL / (0.05 * 0.1)), where=PART)]), ALL, 1e-9),
+    "a payload as gravity grows, by half of it": (
+        laden(masses=[AT_TIP], gravity=Gravity((0.0, 0.0, -9.81), history=HISTORY)),
+        laden(masses=[AT_TIP], gravity=Gravity((0.0, 0.0, -4.905))), ALL, 1e-9),
+    "patches of the sheet's own material": (
+        PLAIN.replace(patches=CUT[:1]), PLAIN.replace(patches=CUT), ALL, 1e-8),
+    "fibres of isotropic constants": (PLAIN, with_fibres(**SAME), ALL, 1e-8),
+    "fibres turned by a right angle": (
+        with_fibres(**FIBRES, angle=np.pi / 2), with_fibres(**SWAPPED), ALL, 1e-8),
+    "layers of one material": (
+        with_fibres(**FIBRES, angle=0.4),
+        with_fibres(**FIBRES, angle=0.4).replace(layers=[{"thickness": 1e-3}] * 3), SHEETS, 1e-8),
+    "an outline that is the rectangle": (
+        PLAIN, PLAIN.replace(outline=AROUND), ("lumped",), 1e-9),
+    "chains that meet, in either order": (rods(*MEETING), rods(*MEETING[::-1]), ("lumped", "shell"), 1e-6),
+    "a chain and an edge that is moved, in either order": (
+        load("one-edge-clamped").replace(actuators=CORNER),
+        load("one-edge-clamped").replace(actuators=CORNER[::-1]), ALL, 1e-6),
+    "a pair of rods, one on their mean axis": (
+        rods(TOP, BOTTOM), rods({**TWICE, "curvature": 4.0}), ("shell",), 1e-6),
+    "a stiff rod that is held, a bent edge": (
+        rods({**STIFF, "curvature": 4.0}, supports=()), CURVED, ("plate", "shell"), 1e-3),
+}  # fmt: skip
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize(
+    ("name", "model"), [(name, model) for name, (*_, models, _) in PAIRS.items() for model in models]
+)
+def test_two_ways_of_saying_it_have_one_answer(name, model):
+    """Displacements, and the forces of all supports together."""
+    one, other, _, within = PAIRS[name]
+    found, expected = (face.solve(scene, model, **ALL[model]) for scene in (one, other))
+    assert found.status is expected.status is Status.CONVERGED, (found.message, expected.message)
+    moved, u = (each.displacement(one.probe_points()) for each in (found, expected))
+    np.testing.assert_allclose(moved, u, atol=within * np.abs(u).max())
+    forces, known = (sum(each.reactions.values()) for each in (found, expected))
+    np.testing.assert_allclose(forces, known, atol=max(within, 1e-6) * np.abs(known).max())

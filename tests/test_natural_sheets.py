@@ -1,0 +1,317 @@
+"""Sheets with a natural strain or curvature, in every model, against closed forms and each other."""
+
+import numpy as np
+import pytest
+
+import fem_reference
+import lumped
+from lumped.statics.solver import build_problem
+from sheetbench.errors import BadInput
+from sheetbench.scenes import (
+    EDGES,
+    Clamped,
+    FactorTable,
+    Gravity,
+    Held,
+    Hinged,
+    Layer,
+    Material,
+    Patch,
+    Point,
+    Scene,
+    Sheet,
+    Symmetric,
+    load,
+)
+from sheetbench.scenes.meaning.natural_state import sheet_at_rest
+from sheetbench.scenes.objects.natural import Natural, Temperature
+
+YOUNG, POISSON = 1e6, 0.3
+MATERIAL = Material(YOUNG, POISSON, 1e3)
+CLAMP = (Clamped("x0"),)
+
+
+def scene(length_x, length_y, thickness, supports=CLAMP, weight=0.0, **more):
+    gravity = Gravity((0.0, 0.0, -weight)) if weight else None
+    sheet, probes = Sheet(length_x, length_y, thickness), {"tip": [length_x, length_y / 2]}
+    return Scene("natural", sheet, MATERIAL, gravity, tuple(supports), probes=probes, **more)
+
+
+def springs(of, grid):
+    sheet, grid = sheet_at_rest(of), (grid, grid, 2) if isinstance(grid, int) else grid
+    return lumped.calibrate(sheet, of.material, grid=grid, cells=lumped.sections_of(of, grid))
+
+
+def tip(of, model, size, point=None):
+    """Where the tip moves, and the answer; size: elements, or masses of the lattice."""
+    if model == "lumped":
+        found = lumped.solve(of, springs(of, size))
+    else:
+        found = fem_reference.solve(of, model=model, elements=size)
+    assert found.succeeded, found.message
+    return found.displacement([point or of.probes["tip"]])[0], found
+
+
+def held_square(times, kind):
+    """A square held all around, grown by so many times the strain that buckles it where it is hinged,
+    e0 = π² h²/6 (1 + ν) a² (Kirchhoff)."""
+    strain = times * np.pi**2 * 0.002**2 / (6.0 * (1.0 + POISSON) * 0.2**2)
+    return scene(0.2, 0.2, 0.002, [kind(edge) for edge in EDGES], natural=Natural((strain, strain, 0.0)))
+
+
+@pytest.mark.parametrize(("model", "size"), [("lumped", (9, 5, 2)), ("plate", 4), ("shell", 4), ("solid", 4)])
+def test_a_free_sheet_grows_to_its_natural_size_without_stress(model, size):
+    rims = [Symmetric("x0"), Symmetric("y0"), *(Held(e, components=("z",)) for e in ("x1", "y1"))]
+    moved, found = tip(scene(0.2, 0.1, 0.004, rims, natural=Natural((0.08, -0.03, 0.0))), model, size)
+    np.testing.assert_allclose(moved, [0.016, -0.0015, 0.0], atol=1e-11)
+    assert sum(found.energies.values()) < 1e-19
+    if model == "lumped":  # strain is that from the natural length
+        assert np.abs(found.mesh.cell_data["strain"][0]).max() < 1e-12
+
+
+def rolled(turns):
+    """A cantilever of so many turns, its natural curvature and where its tip is on the arc."""
+    k = 2.0 * np.pi * turns / 0.2
+    arc = np.array([np.sin(0.2 * k) / k - 0.2, 0.0, (1.0 - np.cos(0.2 * k)) / k])
+    return scene(0.2, 0.1, 0.002, natural=Natural(curvature=(k, 0.0, 0.0))), k, arc
+
+
+@pytest.mark.parametrize(("turns", "coarse"), [(0.25, 1.65e-3), (0.9, 2.25e-2)])
+def test_a_lattice_rolls_up_to_its_natural_curvature_without_energy(turns, coarse):
+    """Its masses lie on a circle of 1/k0; each cell turns by 2 asin(l k0/2): second order."""
+    (of, k, arc), errors = rolled(turns), []
+    for n in (9, 17, 33):
+        moved, found = tip(of, "lumped", (n, (n + 1) // 2, 2))
+        errors.append(np.linalg.norm(moved - arc) / 0.2)
+        assert sum(found.energies.values()) < 1e-25
+        at = found.mesh.points + found.mesh.point_data["displacement"]
+        middle = 0.5 * (at[::2] + at[1::2])
+        np.testing.assert_allclose(np.hypot(middle[:, 0], middle[:, 2] - 1.0 / k), 1.0 / k, rtol=1e-9)
+    assert errors[0] < coarse
+    assert np.all(np.abs(np.log2(np.array(errors[:-1]) / errors[1:]) - 2.0) < 0.1)
+
+
+@pytest.mark.parametrize(("turns", "within"), [(0.25, 5e-6), (0.9, 1e-4)])
+def test_the_shell_rolls_up_without_energy_and_of_fourth_order(turns, within):
+    (of, _, arc), errors = rolled(turns), []
+    for elements in (4, 8):
+        moved, found = tip(of, "shell", elements)
+        errors.append(np.linalg.norm(moved - arc) / 0.2)
+        assert sum(found.energies.values()) < 1e-24
+    assert errors[0] < within and np.log2(errors[0] / errors[1]) > 3.5
+    solid = tip(of, "solid", 4)[0]  # which has the strain of every height
+    assert np.linalg.norm(solid - arc) / 0.2 < 5.0 * within
+
+
+def test_all_models_agree_with_published_bricks_where_rotations_are_small():
+    """Cantilever of isotropic and of orthotropic expansion: uz of tip and corner [mm] by C3D20R."""
+    isotropic, orthotropic = ((0.25, 0.25, 0.0), (5.0997, 5.3762)), ((0.25, 0.1, 0.0), (5.1621, 5.2661))
+    for (k, published), models in ((isotropic, ("shell",)), (orthotropic, ("shell", "solid"))):
+        for model in models:
+            _, found = tip(scene(0.2, 0.1, 0.0005, natural=Natural(curvature=k)), model, 8)
+            at = 1e3 * found.displacement([[0.2, 0.05], [0.2, 0.1]])[:, 2]
+            np.testing.assert_allclose(at, published, rtol=3e-4)
+
+
+@pytest.mark.parametrize(
+    ("model", "until", "longer"),
+    [("lumped", None, 1.1**3), ("lumped", 0.2, 1.1**3), ("lumped", 0.1, 1.1986), ("shell", None, 1.1**3),
+     ("solid", None, 1.1**3)],
+)  # fmt: skip
+def test_the_moduli_of_what_has_grown_are_those_of_its_natural_sides(model, until, longer):
+    """A strip 10 % longer bends under the same weight by 1.1³ as far, grown by itself or by a patch; a
+    calibration of the sheet as drawn gives 1.17, 1.207. A patch on half of it: as the shell."""
+    bent = []
+    for strain in (0.0, 0.1):
+        own = Natural((strain, 0.0, 0.0))
+        part = {"shape": {"rectangle": {"x": (0.0, until or 0.2), "y": (0.0, 0.05)}}, "natural": own}
+        of = scene(0.2, 0.05, 0.002, CLAMP, 1e-3, **({"patches": (part,)} if until else {"natural": own}))
+        found = lumped.solve(of) if model == "lumped" else fem_reference.solve(of, model, elements=4)
+        bent.append(found.displacement([[0.2, 0.025]])[0][2])
+    assert bent[1] / bent[0] == pytest.approx(longer, rel=4e-3)
+
+
+def test_the_lattice_is_within_two_thousandths_of_the_shell_with_a_band_of_muscle_under_weight():
+    band = {"rectangle": {"x": (0.05, 0.1), "y": (0.0, 0.1)}}
+    patch = Patch(shape=band, natural=Natural(curvature=(20.0, 0.0, 0.0)))
+    of = scene(0.2, 0.1, 0.002, CLAMP, 0.981, patches=(patch,))
+    shell, solid = (tip(of, model, 8)[0] for model in ("shell", "solid"))
+    lattice = lumped.solve(of, lumped.calibrate(of.sheet, of.material, (33, 17, 2))).displacement(
+        [[0.2, 0.05]]
+    )
+    assert np.abs(lattice - shell).max() < 2e-3 * np.abs(shell).max()
+    assert np.abs(solid - shell).max() < 3e-4 * np.abs(shell).max()
+
+
+@pytest.mark.parametrize(
+    ("model", "size"),
+    [("lumped", (41, 5, 2)), *(pytest.param(m, 3, marks=pytest.mark.nightly) for m in ("shell", "solid"))],
+)
+def test_a_bimetal_bends_as_timoshenko_says(model, size):
+    """Layers of 1 and 2 mm, E 1 : 3, which the solid has itself; 0.3 ν k0 b more at the clamp."""
+    layers = (
+        Layer(thickness=0.001, young=YOUNG, poisson=POISSON, expansion=1e-4),
+        Layer(thickness=0.002, young=3 * YOUNG, poisson=POISSON, expansion=0.0),
+    )
+    of = scene(0.2, 0.02, 0.003, layers=layers, temperature=Temperature(change=10.0))
+    ratio, stiff = 0.5, 1.0 / 3.0
+    k = 6.0 * 1e-3 * (1.0 + ratio) ** 2 / 0.003
+    k /= 3.0 * (1.0 + ratio) ** 2 + (1.0 + ratio * stiff) * (ratio**2 + 1.0 / (ratio * stiff))
+    arc = 0.5 * k * 0.2**2 + 0.3 * POISSON * k * 0.02 * 0.2
+    assert tip(of, model, size)[0][2] == pytest.approx(arc, rel=6e-3)
+
+
+@pytest.mark.parametrize(("kind", "times"), [(Hinged, 1.0), (Clamped, 2.6547)])
+def test_a_heated_lattice_buckles_where_kirchhoff_says(kind, times):
+    """Whose thickness gives way first: with tangents of the flat lattice it buckles at 0.81 of that. Clamped:
+    5.304 π² D/a² of both ways."""
+    of = held_square(times, kind)
+    found = [lumped.buckling(of, springs(of, n)).load_factors[0] for n in (9, 17)]
+    assert found[1] == pytest.approx(1.0, rel=0.016) and abs(found[1] - 1.0) < abs(found[0] - 1.0)
+
+
+def test_a_heated_solid_buckles_where_kirchhoff_says():
+    """The shell: `verify --case self-bending`."""
+    found = fem_reference.buckling(held_square(1.0, Hinged), "solid", 8)
+    assert found.load_factors[0] == pytest.approx(1.0, rel=0.01)
+
+
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize(
+    ("model", "size", "times", "rise"),
+    [
+        ("lumped", 17, 2.0, 0.873),
+        ("lumped", 17, 5.0, 1.682),
+        ("shell", 8, 2.0, 0.864),
+        ("shell", 8, 5.0, 1.679),
+    ],
+)
+def test_a_heated_plate_past_buckling_is_not_found_flat(model, size, times, rise):
+    """Perfectly flat sheets leave the flat state where they buckle, and say at what share of the heat."""
+    of, within = held_square(times, Hinged), 0.012 if model == "lumped" else 2e-3
+    moved, found = tip(of, model, size, point=[0.1, 0.1])
+    assert abs(moved[2]) / 0.002 == pytest.approx(rise, rel=within)
+    assert found.snaps == pytest.approx([1.0 / times], rel=0.03 if model == "lumped" else 0.012)
+    plate = fem_reference.solve(of, model="plate", elements=8)
+    assert not plate.succeeded and "buckle it" in plate.message
+
+
+def test_frequencies_of_a_stretched_square():
+    """ω² = (D q² + N q)/ρh, q = 2π²/a²: where the tension is most of it within 0.1 %, of second order."""
+    h, tension, q = 2.5e-4, 0.05, 2.0 * np.pi**2 / 0.04
+    natural = Natural(pretension=(tension, tension))
+    of = scene(0.2, 0.2, h, [Hinged(edge) for edge in EDGES], natural=natural)
+    found = [lumped.modes(of, springs(of, n), 1, about="deformed").frequencies[0] for n in (17, 33)]
+    bending = YOUNG * h**3 / (12.0 * (1.0 - POISSON**2))
+    exact = np.sqrt((bending * q**2 + tension * q) / (1e3 * h)) / (2.0 * np.pi)
+    assert found[1] == pytest.approx(exact, rel=1e-3)
+    assert np.log2((found[0] - exact) / (found[1] - exact)) == pytest.approx(2.0, abs=0.1)
+    same = springs(of, 9)
+    flat, unstretched = (lumped.modes(s, same, 1).frequencies[0] for s in (of, of.replace(natural=None)))
+    assert flat == pytest.approx(unstretched, rel=1e-4)  # cells resist strains of their natural sides
+
+
+def test_held_flat_a_sheet_pulls_at_its_supports_with_its_pretension():
+    of = scene(0.2, 0.1, 0.002, [Hinged(edge) for edge in EDGES], natural=Natural(pretension=(2.0, -0.5)))
+    found, small = (lumped.solve(of, springs(of, (9, 5, 2)), linear=linear) for linear in (False, True))
+    assert small.reactions["x1"] == pytest.approx(found.reactions["x1"], rel=2e-3, abs=1e-9)
+    assert found.mesh.cell_data["tension"][0].max() > 0.0
+
+
+def test_the_energy_of_a_share_of_the_natural_state_is_the_work_of_its_forces():
+    """Forces are the gradient at any share; rest data are set in place."""
+    disc = {"circle": {"centre": (0.1, 0.05), "radius": 0.04}}
+    band = Patch(shape=disc, natural=Natural((0.02, 0.01, 0.03), (3.0, -2.0, 4.0)))
+    of = scene(0.2, 0.1, 0.002, natural=Natural((0.0, 0.04, 0.0)), patches=(band,))
+    problem = build_problem(of, springs(of, (5, 4, 2)))
+    u, move = (1e-3 * np.random.default_rng(seed).standard_normal((40, 3)) for seed in (0, 1))
+    for share in (0.3, 1.0):
+        force = problem.internal(u, share)[1]
+        up, down = (problem.internal(u + s * 1e-4 * move, share)[0] for s in (1.0, -1.0))
+        assert (up - down) / 2e-4 == pytest.approx(float(np.sum(force * move)), rel=1e-6)
+        blocks = problem.system.matrix(problem.tangent(u, share))
+        held = np.where(problem.constraints.fixed, 0.0, move)
+        ahead, behind = (problem.internal(u + s * 1e-6 * held, share)[1] for s in (1.0, -1.0))
+        along, found = problem.reduce((ahead - behind) / 2e-6), blocks @ problem.constraints.nearest(held)
+        np.testing.assert_allclose(found, along, rtol=1e-5, atol=1e-6 * np.abs(along).max())
+
+
+@pytest.fixture(scope="module")
+def growing():
+    """A cantilever whose natural curvature grows, and its motion on the lattice."""
+    ramp = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
+    of = scene(0.2, 0.1, 0.002, natural=Natural(curvature=(0.5, 0.0, 0.0), history=ramp))
+    return of, lumped.simulate(of, lumped.calibrate(of.sheet, of.material, (13, 7, 2)), 0.2, every=0.02)
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("model", ["plate", "shell", "solid"])
+def test_a_curvature_that_grows_moves_every_reference_as_it_does_the_lattice(growing, model):
+    of, lattice = growing
+    found = fem_reference.simulate(of, model, 0.2, elements=2, every=0.02)
+    assert found.succeeded
+    off = np.abs(found.probes["tip"] - lattice.probes["tip"])[:, 2].max()
+    assert off < 0.03 * np.abs(lattice.probes["tip"]).max()
+    assert np.abs(found.balance - found.balance[0]).max() < 0.01 * found.energies["work"].max()
+
+
+def test_what_has_no_natural_shape_is_refused_by_name():
+    of = scene(0.2, 0.1, 0.002, CLAMP, 1.0, natural=Natural(curvature=(1.0, 0.0, 0.0)))
+    with pytest.raises(BadInput, match="precision"):
+        lumped.solve(of, springs(of, 5), precision="single")
+    with pytest.raises(BadInput, match="at once"):
+        lumped.buckling(of, springs(of, 5))
+    for model in ("shell", "solid"):
+        with pytest.raises(BadInput, match="law 'neo-hookean' is for sheets that are flat at rest"):
+            fem_reference.solve(of, model=model, elements=2, law="neo-hookean")
+
+
+def test_a_free_dome_snaps_into_a_cylinder_at_the_same_curvature_in_both_models():
+    """Uniform curvatures lose stability at k0 = 2 κc/(1 + ν), κc = h/(a² √(12 (1 + ν) c)), c = 3.891e-4 of a
+    square (of a disc 8 h/R² (1 + ν)^1.5); the square itself, whose rims curl, at 0.97 of that. A quarter."""
+    a, h = 0.2, 0.002
+    limit = 2.0 * h / (a**2 * np.sqrt(12.0 * 1.3 * 3.891e-4)) / 1.3
+    rims = [Symmetric("x0"), Symmetric("y0"), Point(at=(0.0, 0.0), components=("z",))]
+    of = scene(0.1, 0.1, h, rims, natural=Natural(curvature=(1.5 * limit, 1.5 * limit, 0.0)))
+    shell = tip(of, "shell", 4)[1]
+    lattice = lumped.solve(of, lumped.calibrate(of.sheet, of.material, (9, 9, 2)))
+    assert lattice.succeeded and shell.snaps == pytest.approx([0.971 / 1.5], rel=5e-3)
+    assert lattice.snaps == pytest.approx(shell.snaps, rel=0.02)
+    for found, rel in ((shell, 0.02), (lattice, 0.1)):
+        rise = np.sort(np.abs(found.displacement([[0.1, 0.0], [0.0, 0.1]])[:, 2])) / h
+        assert rise[1] == pytest.approx(3.78, rel=rel) and rise[0] == pytest.approx(0.45, abs=0.06)
+
+
+@pytest.mark.nightly
+def test_a_bistable_bilayer_is_snapped_by_the_same_force_in_both_models():
+    """An arch on its corners, pushed down in its middle step by step, each answer from the last one's shape,
+    up to the force at which it has no shape beside that any more. The lattice is of second order: from 9
+    masses, 3 % above, to 17. Forces within 0.2 %."""
+    of, middle = load("bistable-bilayer"), np.array([[0.05, 0.05]])
+    own = lumped.calibrate(of.sheet, of.material, (17, 17, 2), cells=lumped.sections_of(of, (17, 17, 2)))
+
+    def by_lattice(pushed, near):
+        found = lumped.solve(pushed, own, near=near)
+        return found, found.mesh.point_data["displacement"]
+
+    def by_shell(pushed, near):
+        found = fem_reference.solve(pushed, "shell", elements=8, near=near)
+        return found, lambda points: found.displacement(points[:, :2])
+
+    def path(solve):
+        force, step, near, rises = 0.0, 0.2, None, {}
+        while step > 1.5e-3:
+            push = of.loads[0].replace(force=(0.0, 0.0, -force - step * bool(rises)), history=None)
+            found, shape = solve(of.replace(loads=(push,)), near)
+            assert found.succeeded, found.message
+            if (rise := found.displacement(middle)[0, 2]) > 0.0:
+                force, near = force + step * bool(rises), shape
+                rises[round(force, 6)] = rise
+            else:  # upside down
+                step /= 2.0
+        return force, rises
+
+    (lattice, on_lattice), (shell, on_shell) = path(by_lattice), path(by_shell)
+    assert lattice == pytest.approx(shell, rel=0.01) and shell == pytest.approx(0.777, rel=5e-3)
+    for force in (0.0, 0.2, 0.4, 0.6):
+        assert on_lattice[force] == pytest.approx(on_shell[force], rel=0.01)

@@ -1,5 +1,6 @@
 """Factors of every kind solve, tell the inertia, and say where there are none."""
 
+import tracemalloc
 from functools import partial
 
 import numpy as np
@@ -8,6 +9,8 @@ from scipy.sparse import bsr_array, csc_array, csr_matrix
 
 import lumped
 from lumped import supports
+from lumped.statics.energy_descent import _disturbed
+from lumped.statics.solver import solve_path
 from sheetbench import scenes
 from sheetbench.numerics import banded, direct, multifrontal, pardiso, reduced
 from sheetbench.numerics.direct import CHOLESKY, DirectSolver, SingularMatrixError
@@ -15,6 +18,7 @@ from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.multifrontal import NoFactorsError
 from sheetbench.numerics.reduction import reduction
 from sheetbench.numerics.sparsity import Pattern
+from sheetbench.scenes import load
 from sheetbench.scenes.objects.supports import Hinged
 
 
@@ -218,3 +222,53 @@ def _forget_systems():
     """Of small lattices, which are kept with what factorises them."""
     supports._kept.cache_clear()
     reduced._reduced.forget()
+
+
+BY_FRONTS = pytest.mark.skipif(pardiso.library() is not None, reason="PARDISO factorises large lattices")
+
+
+@pytest.fixture(scope="module")
+def fine():
+    """A lattice whose tangent has no narrow band and is not kept."""
+    scene = load("two-edges-clamped")
+    return lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(41, 41)))
+
+
+@BY_FRONTS
+def test_factors_of_a_large_lattice_take_no_library(fine, monkeypatch):
+    monkeypatch.setattr(direct, "rslab", None)
+    monkeypatch.setattr(direct, "splu", None)
+    blocks = fine.tangent(np.zeros_like(fine.loads.dead), 0.0)
+    assert fine.system.band is None
+    fine.system.factor(blocks)  # compiled, the fronts found
+    tracemalloc.start()
+    try:
+        factors = fine.system.factor(blocks)
+        held, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    matrix = factors.matrix
+    # the factors and the matrix; in the making what fronts leave waits beside them, and the widest front
+    assert held < 8 * fine.system._fronts.kept[-1] + 1.1 * matrix.data.nbytes
+    assert peak < 2.5 * held
+    b = np.random.default_rng(3).standard_normal(matrix.shape[0])
+    assert np.abs(matrix @ factors.solve(b) - b).max() < 1e-9
+    assert factors.negative == 0
+
+
+@BY_FRONTS
+def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_off_it(monkeypatch):
+    """A compressed strip stays straight, and beside it the energy falls along the one direction reported."""
+    scene = load("two-edges-clamped").replace(
+        gravity=None, supports=({"edge": "x0", "kind": "clamped"},),
+        loads=({"kind": "edge", "edge": "x1", "force_per_length": (-30.0, 0.0, 0.0)},),
+    )  # fmt: skip
+    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr(direct, "rslab", None)
+    monkeypatch.setattr(direct, "splu", None)
+    problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
+    outcome = solve_path(scene, problem)
+    assert outcome.status == "unstable" and outcome.path.factor.negative == 1
+    state, factor = outcome.path.state, outcome.path.factor
+    beside = _disturbed(outcome.path, problem, state, factor, share=0.1)
+    assert problem.potential(beside, 1.0) < problem.potential(outcome.state.u, 1.0)

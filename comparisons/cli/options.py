@@ -102,9 +102,11 @@ class _Shown(Formatter):
 
 
 class Group:
-    """A dataclass whose fields with words are options; no_effect: see `verb.no_effect`."""
+    """A dataclass whose fields with words are options; no_effect: see `verb.no_effect`; left_out: fields that
+    are none."""
 
     no_effect: ClassVar[dict[str, str]] = {}
+    left_out: ClassVar[tuple[str, ...]] = ()
 
     @classmethod
     def parameters(cls) -> list[Parameter]:
@@ -116,14 +118,20 @@ class Group:
         return [
             Parameter(one.name, Parameter.KEYWORD_ONLY, default=one.default, annotation=hints[one.name])
             for one in fields(cls)  # type: ignore[arg-type]
-            if one.name in words
+            if one.name in words and one.name not in cls.left_out
         ]
 
 
-class LatticeGroup(Group):
-    """Options by the names of a lattice's settings; lattice: one that they change, in Python."""
+@dataclass(frozen=True)
+class LatticeOptions(Group):
+    """The lattice of a verb; lattice: one that the options change, in Python."""
 
-    lattice: Any
+    lattice: Any = None
+    grid: str | None = None
+    calibration: str | None = None
+    k: Annotated[float | None, Kind("N/m")] = None
+    layer_distance: Metres = None
+    grading: str | None = None
 
     @property
     def spec(self) -> Lattice:
@@ -137,26 +145,10 @@ class LatticeGroup(Group):
         return replace(self.lattice or Lattice(), **own)
 
 
-@dataclass(frozen=True)
-class SpringOptions(LatticeGroup):
+class SpringOptions(LatticeOptions):
     """Settings that all lattices of a list have in common."""
 
-    lattice: Any = None
-    k: Annotated[float | None, Kind("N/m")] = None
-    layer_distance: Metres = None
-    grading: str | None = None
-
-
-@dataclass(frozen=True)
-class LatticeOptions(LatticeGroup):
-    """The lattice of a verb."""
-
-    lattice: Any = None
-    grid: str | None = None
-    calibration: str | None = None
-    k: Annotated[float | None, Kind("N/m")] = None
-    layer_distance: Metres = None
-    grading: str | None = None
+    left_out = ("grid", "calibration")
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from typing import Annotated, Any, get_args, get_origin
 import typer
 
 from comparisons.cli import interruption, options
-from comparisons.cli.options import CampaignOptions, Group, Kind, LatticeGroup, Words, words_of
+from comparisons.cli.options import CampaignOptions, Group, Kind, LatticeOptions, Words, words_of
 from comparisons.cli.output import OutputOptions
 
 NAMES = {"grid": ("--lumped", "--grid"), "grids": ("--grids", "--grid", "--lumped")}  # of one option
@@ -102,7 +102,7 @@ class _Declared:
         values = dict(values)
         for group, kind in self.groups.items():
             more = of_output if issubclass(kind, OutputOptions) else {}
-            if issubclass(kind, LatticeGroup):
+            if issubclass(kind, LatticeOptions):
                 more = {"lattice": values.pop(group, None)}
             own = {one.name: values.pop(one.name) for one in kind.parameters() if one.name in values}
             values[group] = kind(**more, **own)
@@ -226,7 +226,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         kind = declared.groups.get(one.name)
         if kind is None:
             found.append(one)
-        elif issubclass(kind, LatticeGroup):
+        elif issubclass(kind, LatticeOptions):
             found.append(one.replace(default=None, annotation="Lattice | None"))
         found += kind.parameters() if kind is not None else []
     has_output = any(issubclass(kind, OutputOptions) for kind in declared.groups.values())

@@ -71,12 +71,6 @@ def script(name: str) -> str:
     return (resources("comparisons.codes") / "scripts" / name).read_text(encoding="utf-8")
 
 
-def json_text(of: Problem) -> str:
-    """Return the mesh and the parameters, as the scripts read them."""
-    own = {"parameters": dict(of.keys), "stretching": of.stretching, "clamp": of.clamp}
-    return json.dumps({**of.mesh.document(), **own}, indent=1) + "\n"
-
-
 def mujoco(of: Problem) -> str:
     """Return the MJCF."""
     mesh, names = of.mesh, [f"mass{n}" for n in range(len(of.mesh.held))]
@@ -147,8 +141,10 @@ WRITERS: Mapping[str, Mapping[str, Callable[[Problem], str]]] = {  # what each r
 
 def files(code: str, of: Problem) -> dict[str, str]:
     """Return the texts of a code's files by name."""
-    own = {name: write(of) for name, write in WRITERS[code].items()}
-    return {**own, JSON: json_text(of), f"run_{code}.py": script(f"run_{code}.py")}
+    own = {"parameters": dict(of.keys), "stretching": of.stretching, "clamp": of.clamp}
+    document = json.dumps({**of.mesh.document(), **own}, indent=1) + "\n"  # as the scripts read it
+    files = {name: write(of) for name, write in WRITERS[code].items()}
+    return {**files, JSON: document, f"run_{code}.py": script(f"run_{code}.py")}
 
 
 SCENE = """\

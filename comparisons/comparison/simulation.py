@@ -16,24 +16,17 @@ from sheetbench.answers.table import Table, quantity
 from sheetbench.scenes import Scene
 
 
-@dataclass(frozen=True, repr=False, eq=False)
+@dataclass(frozen=True, repr=False, eq=False, kw_only=True)
 class Simulation(History):
     """A run of a scene; measured: histories by probe; animate: draw it moving."""
 
     file_name = "history"
-    scene: Scene | None = None
+    scene: Scene
     measured: Mapping[str, Measured] = field(default_factory=dict)
     animate: bool = False
 
-    @property
-    def subject(self) -> Scene:
-        """The scene that moves."""
-        assert self.scene is not None
-        return self.scene
-
     def heading(self) -> tuple[str, str, str]:
-        scene = self.subject
-        return scene.name, scene.title, f"{self.label}, {self.integrator}, {self.steps} steps"
+        return self.scene.name, self.scene.title, f"{self.label}, {self.integrator}, {self.steps} steps"
 
     def document(self) -> dict[str, Any]:
         errors = {name: m.error(self.time, self.probes[name]) for name, m in self.measured.items()}
@@ -43,11 +36,11 @@ class Simulation(History):
         return super().tables(self.measured if measured is None else measured)
 
     def figures(self) -> tuple[Picture, ...]:
-        of = (self, self.subject.title or self.subject.name, self.measured)
+        of = (self, self.scene.title or self.scene.name, self.measured)
         pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
         if self.animate:
             film = "comparisons.comparison.animation:animate"
-            pictures.append(Film("animation", film, (self.subject, [self])))
+            pictures.append(Film("animation", film, (self.scene, [self])))
         return tuple(pictures)
 
     def files(self) -> dict[str, Write]:

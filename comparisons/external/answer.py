@@ -30,19 +30,10 @@ class ExternalCode(Model, Protocol):
     """A plug-in around another program: its full name (`called`), what it needs to be installed, and the
     numbers of elements along the shorter side, coarsest first, on which its convergence is measured."""
 
-    @property
-    def called(self) -> str: ...
-
-    @property
-    def needs(self) -> str: ...
-
-    @property
-    def meshes(self) -> tuple[int, ...]: ...
-
-    @property
-    def layered(self) -> bool:
-        """Whether its elements are quadratic and have transverse shear, and so a layer at the edges."""
-        ...
+    called: str
+    needs: str
+    meshes: tuple[int, ...]
+    layered: bool  # whether its elements are quadratic and have transverse shear, and so a layer at the edges
 
     def version(self) -> str | None:
         """Return its version, None where it is not installed."""

@@ -139,20 +139,16 @@ def _size(path: Path) -> str:
 
 
 def question(study: Study) -> list[tuple[str, str]]:
-    """Pairs of a part's name and what it says: of the scene, then of the settings."""
+    """Pairs of a part's name and what it says: of the scene, of each model's settings, of those of none;
+    reasons of choices are among the notes."""
     scene = study.scene
     parts = study.attempt("scene", lambda: in_words(scene)) if scene is not None else []
     settings = study.run.get("settings")
-    chosen = _settings(settings) if isinstance(settings, dict) else []
-    return [*(parts or []), *chosen]
-
-
-def _settings(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return a line a model, and one for what belongs to none; reasons of choices are among the notes."""
+    settings = settings if isinstance(settings, dict) else {}
     nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
-    flat = {k: v for k, v in settings.items() if k not in nested}
     lines = [(name, _line(values)) for name, values in nested.items() if values]
-    return [*lines, ("settings", _line(flat))] if _line(flat) else lines
+    rest = _line({k: v for k, v in settings.items() if k not in nested})
+    return [*(parts or []), *lines, *([("settings", rest)] if rest else [])]
 
 
 def _line(values: Mapping[str, Any]) -> str:

@@ -42,17 +42,12 @@ class Finding:
     finding: Annotated[str, Column(prose=True)]
 
 
-def all_of(answers: Sequence[ReproducedTest], settling: Settling | None) -> list[Finding]:
-    """Return every finding of the parts there are."""
-    return [Finding(*one) for one in (*_tables(answers), *(_settling(settling) if settling else ()))]
-
-
-def _tables(answers: Sequence[ReproducedTest]) -> Iterator[tuple[str, str]]:
+def of_tables(answers: Sequence[ReproducedTest]) -> Iterator[Finding]:
     for one in answers:
         comparison = one.comparison
         off = comparison.error(comparison.solutions[0])
         if off is not None and comparison.bar is not None:
-            yield (
+            yield Finding(
                 one.title,
                 f"Our lattice with consistent springs is {percent(off)} from our shell, whose mesh error is "
                 f"± {percent(comparison.bar.error)}.",
@@ -62,7 +57,7 @@ def _tables(answers: Sequence[ReproducedTest]) -> Iterator[tuple[str, str]]:
             f"{name} {number(1e3 * u, '.2f')} ({number(1e3 * p, '.2f')})"
             for name, u, p in zip(PROBES, moved[:, 2], wanted[:, 2], strict=True)
         )
-        yield (
+        yield Finding(
             one.title,
             "With the published inputs the shell's uz, and the published experiment's in brackets, are in "
             f"mm: {pairs}.",
@@ -72,7 +67,7 @@ def _tables(answers: Sequence[ReproducedTest]) -> Iterator[tuple[str, str]]:
             distance = np.nanmax(np.abs(_moved(one, solution.model) - table)) / np.nanmax(np.abs(table))
             how = "" if solution.status is Status.CONVERGED else f" (its answer is {solution.status})"
             layers = quantity(solution.settings["layer_distance"], "m", ".3g")
-            yield (
+            yield Finding(
                 one.title,
                 f"With the published k and layers {layers} apart{how} the lattice differs from the published "
                 f"model by up to {percent(float(distance), '.0f')} of its largest displacement.",
@@ -83,14 +78,14 @@ def _moved(one: ReproducedTest, model: str) -> np.ndarray:
     return np.array(list(one.comparison.probes(of_model(one, model)).values()))
 
 
-def _settling(settling: Settling) -> Iterator[tuple[str, str]]:
+def of_settling(settling: Settling) -> Iterator[Finding]:
     for model, run in settling.runs.items():
         lattice = "Consistent springs" if model == "lumped" else f"The published k, {model}"
         settled = settling.settled(model)
         still = "is not at rest at its end"
         if settled is not None:
             still = f"stays within {percent(SETTLED)} of it from {settled:.2f} s on"
-        yield (
+        yield Finding(
             "settling",
             f"{lattice}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value "
             f"and {still}. The {run.time[-1]:g} s took {settling.seconds(model):.1f} s here, set-up "
@@ -126,11 +121,6 @@ def stored() -> dict[str, Any]:
     file = resources.files("comparisons.reproduction").joinpath("data", "nearest.json")
     document: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return document
-
-
-def stored_findings() -> list[Finding]:
-    """Return the findings on the published inputs and on the nearest sheets."""
-    return [Finding(**one) for one in stored()["findings"]]
 
 
 def nearest_table() -> Table:

@@ -81,8 +81,9 @@ class Reproduction(Answer):
         """Return every finding of the parts there are."""
         return [
             *(printed_errors.findings(self.cells) if self.cells else ()),
-            *findings.all_of(self.answers, self.settling),
-            *(findings.stored_findings() if "nearest" in self.parts else ()),
+            *findings.of_tables(self.answers),
+            *(findings.of_settling(self.settling) if self.settling else ()),
+            *(Finding(**one) for one in findings.stored()["findings"] if "nearest" in self.parts),
         ]
 
     @property

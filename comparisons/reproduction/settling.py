@@ -93,7 +93,8 @@ def settling(duration: float = DURATION) -> Settling:
         published_lattice(distance): (published_springs(distance), "full"),
     }
     runs, rest = {}, {}
-    _warm(scene)
+    small = lumped.calibrate(scene.sheet, scene.material, grid=(3, 3, 2), method="consistent")
+    lumped.simulate(scene, small, WARMING)  # what is loaded or compiled is in no run's time
     at = np.array([scene.probes[PROBE]])
     for name, (springs, weights) in lattices.items():
         context().progress(f"simulating the settling sheet: {name}")
@@ -101,9 +102,3 @@ def settling(duration: float = DURATION) -> Settling:
         still = lumped.solve(scene, springs, weights=weights)
         rest[name] = still.require_stable().displacement(at)[0]
     return Settling(scene, runs, rest)
-
-
-def _warm(scene: Scene) -> None:
-    """Load, or compile, what a run needs on a small lattice, so that no run's time holds that."""
-    small = lumped.calibrate(scene.sheet, scene.material, grid=(3, 3, 2), method="consistent")
-    lumped.simulate(scene, small, WARMING)

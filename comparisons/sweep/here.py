@@ -23,11 +23,11 @@ from sheetbench.scenes import Scene
 QUICK = 0.2  # s, up to which solves are repeated
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SolvedHere(Solved):
     """A row with the answer that it is of."""
 
-    answer: Solution = None  # type: ignore[assignment]  # fields before it have defaults
+    answer: Solution
 
     @cached_property
     def u(self) -> np.ndarray:

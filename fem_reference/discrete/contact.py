@@ -47,13 +47,9 @@ class Touching(SheetItem):
         """Return x (faces, m, 9, 3) [m] of vectors (m, 18, 3)."""
         return np.asarray(vectors[:, :9] + self.levers[..., None] * vectors[:, 9:])
 
-    def _near(self, shape: SheetShape) -> Near:
-        """Return where points (faces, m, 9) are beside the obstacle as it is then."""
-        return near(self.obstacle, self._points(shape.vectors), *shape.sheet.instant(shape.at))
-
     def _sunk(self, shape: SheetShape) -> tuple[Near, np.ndarray, Pressed]:
         """Return where points are, and how deep (faces, m, 9) [m], < 0 of one that is clear."""
-        found = self._near(shape)
+        found = near(self.obstacle, self._points(shape.vectors), *shape.sheet.instant(shape.at))
         depth = self.offset + TOUCH * self.thickness - found.distance
         return found, depth, self._pressed(depth)
 
@@ -81,9 +77,8 @@ class Touching(SheetItem):
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
         found, _, (_, load, slope) = self._sunk(shape)
-        return self._between(
-            load[..., None, None] * found.curvature - slope[..., None, None] * dyad(found.normal)
-        )
+        geometric = load[..., None, None] * found.curvature
+        return self._between(geometric - slope[..., None, None] * dyad(found.normal))
 
     def _between(self, blocks: np.ndarray) -> Tangent | None:
         """Return derivatives (faces, m, 9, 3, 3) of points' forces by their places as elements have them."""
@@ -107,19 +102,16 @@ class Touching(SheetItem):
 
     stored = potential
 
-    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
-        if shape.v is None or not shape.v.any():
-            return 0.0, 0.0
-        moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
-        rubbed = self._resisted(shape)[0]
-        taken = rubbed.sum(axis=(0, 1, 2)) @ moved - self._onto(shape, rubbed) @ step
-        return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ moved)
+    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+        velocity, rubbed = self.obstacle.velocity(shape.at), self._resisted(shape)[0]
+        taken = rubbed.sum(axis=(0, 1, 2)) @ velocity - self._onto(shape, rubbed) @ shape.v
+        return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ velocity)
 
     def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {self.name: (self._points(shape.vectors), self._pulled(shape))}
 
     def step_share(self, start: SheetShape, end: SheetShape) -> float:
-        return self._near(end).share_of_way(self._near(start), self.offset)
+        return self._sunk(end)[0].share_of_way(self._sunk(start)[0], self.offset)
 
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""

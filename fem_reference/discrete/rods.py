@@ -28,8 +28,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.discrete.course import Factor, factor_at
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import SIDE_MASS
-from fem_reference.surface.bound_rods import BoundRods
-from fem_reference.surface.rod import INPLANE, NORMAL
+from fem_reference.surface.rod import INPLANE, NORMAL, BoundRods
 from fem_reference.surface.rod_elements import RodElements
 from sheetbench.scenes import Scene
 

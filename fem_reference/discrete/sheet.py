@@ -16,7 +16,6 @@ Internal forces are those of the elements and of the rods (`discrete.rods`), ext
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -29,12 +28,12 @@ from fem_reference.discrete.items import Dead, Drag, Following, SheetItem
 from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
-from fem_reference.surface import loads
+from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
 from fem_reference.surface.balance import Surface
-from fem_reference.surface.bound_rods import BoundRods
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Plan
+from fem_reference.surface.rod import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.direct import DirectSolver
@@ -42,8 +41,6 @@ from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
-
-Binding = Callable[[Scene], BoundRods]
 
 
 class Discrete(ABC):
@@ -78,14 +75,16 @@ class Discrete(ABC):
         self.contacts: list[Touching] = []
         self._weights: list[tuple[np.ndarray, Factor]] = []
 
-    def bind(
-        self, bind: Binding, bound: BoundRods, rows: np.ndarray, places: np.ndarray | None = None
-    ) -> None:
+    def rods_of(self, scene: Scene) -> BoundRods:
+        """The rods of a scene on the sheet."""
+        return rod.on_surface(rod.of_scene(scene, self.plan), self.nodes)
+
+    def bind(self, bound: BoundRods, rows: np.ndarray, places: np.ndarray | None = None) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
         scene, moving = self.scene, self.moving
         commands = commands_of(scene, moving) if bound.rods else ()
         flat = self.model == "plate"
-        self.rods = rods = Rods(scene, bound, bind, rows, self.size, commands, places, flat)
+        self.rods = rods = Rods(scene, bound, self.rods_of, rows, self.size, commands, places, flat)
         self.bodies = [rods] if rods else []
         for alone, factor in loads_of(scene, moving):
             nodal, followers = loads.of_scene(alone, self.plan)

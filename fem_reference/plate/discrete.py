@@ -26,7 +26,6 @@ from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS, integrated, shape
-from fem_reference.surface.bound_rods import BoundRods, on_surface
 from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import field_mesh, on_boundary, plan_of, require_upright
 from sheetbench.answers.solution import FieldMesh
@@ -88,10 +87,7 @@ class DiscretePlate(Discrete):
         self.section = section or section_at(scene, plan.corners)
         self._cut = 5 * len(nodes)
 
-        def bind(of: Scene) -> BoundRods:
-            return on_surface(rod.of_scene(of, plan), len(nodes))
-
-        bound = bind(scene)
+        bound = self.rods_of(scene)
         self.number = number = np.full(
             (2 * len(nodes) + len(bound.own), 3), -1
         )  # of every vector's components
@@ -107,7 +103,7 @@ class DiscretePlate(Discrete):
         self.free, self.size = np.flatnonzero(~self.is_held), self.is_held.size
         self.unknowns, self.scale = len(self.free), np.full(self.size, self.lever)
         self.scale[number[: len(nodes)]] = 1.0
-        self.bind(bind, bound, number[bound.sites].reshape(-1, 27))
+        self.bind(bound, number[bound.sites].reshape(-1, 27))
         if (state := natural_at(scene, AT_GAUSS[0] @ plan.corners)) is not None:
             self.natural = state.made(partial(own_strains, self.elements, self.section, self.size))
 

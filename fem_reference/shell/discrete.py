@@ -35,9 +35,9 @@ from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import cross
-from fem_reference.surface.bound_rods import BoundRods, block_diagonal, on_surface
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import field_mesh, plan_of
+from fem_reference.surface.rod import block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
@@ -71,10 +71,7 @@ class DiscreteShell(DiscreteElements):
         self.any_strain = element.stands_any_strain
         n = self.nodes
 
-        def bind(of: Scene) -> BoundRods:
-            return on_surface(rod.of_scene(of, plan), n)
-
-        bound = bind(scene)
+        bound = self.rods_of(scene)
         self.supports = supports = rod.hold_bases(surface_supports.of_scene(scene, plan.mesh), bound.rods)
         free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
         free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
@@ -101,7 +98,7 @@ class DiscreteShell(DiscreteElements):
         self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.own])
         turns = np.concatenate([supports.director, bound.held])
         self._held = np.concatenate([supports.position, np.tile(turns, (3, 1)).T])
-        self.bind(bind, bound, components_of(bound))
+        self.bind(bound, components_of(bound))
 
     def solver(self) -> DirectSolver:
         return DirectSolver(self.symmetric, lambda: self.pattern.fronts)

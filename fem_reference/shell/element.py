@@ -26,8 +26,9 @@ digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mod
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 
@@ -94,11 +95,17 @@ _OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]."""
+    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²].
+
+    past, drag: e_n (m, 54) and σ of a step of creep (see `pseudo_transient`), which adds σ D (e − e_n) to the
+    stresses, of D at no strain.
+    """
 
     reference: np.ndarray
     stiffness: np.ndarray
     areas: np.ndarray
+    past: np.ndarray | float = field(default=0.0, kw_only=True)
+    drag: float = field(default=0.0, kw_only=True)
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
@@ -146,11 +153,12 @@ class Element:
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
-        return weighed(self.stiffness, strain)
+        dragged = strain + self.drag * (strain - self.past) if self.drag else strain
+        return weighed(self.stiffness, dragged)
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D, ∂s/∂e (m, 54, 54) at strains (m, 54)."""
-        return self.stiffness
+        return (1.0 + self.drag) * self.stiffness if self.drag else self.stiffness
 
     @property
     def coupled(self) -> bool:
@@ -168,23 +176,9 @@ class Element:
         parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
         return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
 
-    def dragged(self, strain: np.ndarray, drag: float) -> Element:
-        """Elements of stresses (1 + σ) D e − σ D e_n: a step of creep from strains e_n (m, 54), drag σ."""
-        past = strain * (drag / (1.0 + drag))
-        slow = (1.0 + drag) * self.stiffness
-        return DraggedElement(self.reference, slow, self.areas, past)
-
-
-@dataclass(frozen=True)
-class DraggedElement(Element):
-    """Elements of stiffness (1 + σ) D, their strains less `past`, σ e_n/(1 + σ) (m, 54): a step of creep from
-    strains e_n (see `pseudo_transient`)."""
-
-    past: np.ndarray
-
-    def strain(self, change: np.ndarray) -> np.ndarray:
-        """e − past (m, 54)."""
-        return super().strain(change) - self.past
+    def dragged(self, strain: np.ndarray, drag: float) -> Self:
+        """The elements in a step of creep from strains (m, 54) with a drag."""
+        return replace(self, past=strain, drag=drag)
 
 
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:

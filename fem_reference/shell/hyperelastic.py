@@ -13,12 +13,12 @@ are 1, and these are the stresses of `Element`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 
-from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, STRAINS, Element, cartesian
+from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, cartesian
 from fem_reference.shell.laws import LAWS, Law, Response
 from fem_reference.shell.natural import grown
 from fem_reference.shell.slant import Slant, linear, slant
@@ -37,7 +37,7 @@ _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
 class HyperelasticElement(Element):
     """Elements of a material and its law; stiffness: D at no strain; membrane, bending: T (m, 9, 3, 21);
     slanted: T of shear (m, 9, 2, 12); heights, weights: ζ [m] and ∫ dζ [m] of points through the thickness,
-    (3,). drag: σ of a step of creep from strains `past` (m, 54), at stresses s + σ D₀ (e − e_n)."""
+    (3,)."""
 
     law: Law
     material: Material
@@ -46,14 +46,12 @@ class HyperelasticElement(Element):
     slanted: np.ndarray
     heights: np.ndarray
     weights: np.ndarray
-    past: np.ndarray
-    drag: float = 0.0
 
     @classmethod
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
         linear = Element.build(nodes, section_of(material, thickness))
-        half, rest = 0.5 * thickness, np.zeros((len(nodes), STRAINS))
+        half = 0.5 * thickness
         return cls(
             linear.reference,
             linear.stiffness,
@@ -63,7 +61,6 @@ class HyperelasticElement(Element):
             *cartesian(nodes),
             half * _LEVELS,
             half * _SHARES,
-            rest,
         )
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
@@ -128,10 +125,6 @@ class HyperelasticElement(Element):
         )
         shear = np.sum(self._shear * self._slant(stretch, strain).energy)
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
-
-    def dragged(self, strain: np.ndarray, drag: float) -> Element:
-        """Elements of stresses s + σ D₀ (e − e_n), from strains e_n (m, 54) with drag σ."""
-        return replace(self, past=strain, drag=drag)
 
     def _strains(self, strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return E and κ (m, 9, 3) at every element's points of the sampled strains (m, ≥ 42)."""

@@ -30,7 +30,7 @@ from fem_reference.surface import carried, rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
-from fem_reference.surface.bound_rods import BoundRods, block_diagonal
+from fem_reference.surface.rod import BoundRods, block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.sparsity import Pattern
@@ -65,10 +65,7 @@ class DiscreteSolid(DiscreteElements):
         self._products = plain.products
         self.per_vector = np.ones(27)
 
-        def bind(of: Scene) -> BoundRods:
-            return on_columns(rod.of_scene(of, columns.plan), columns)
-
-        bound = bind(scene)
+        bound = self.rods_of(scene)
         self.column_supports = of_scene(scene, columns, clamp, bound.rods)
         self.supports = self.column_supports.line
         self.free = ~self.column_supports.held
@@ -84,7 +81,10 @@ class DiscreteSolid(DiscreteElements):
         self.scale[self._cut :] = self.lever
         levels = columns.levels
         places = np.concatenate([levels * np.arange(3) + columns.layers, 3 * levels + np.arange(6)])
-        self.bind(bind, bound, components_of(bound), places)
+        self.bind(bound, components_of(bound), places)
+
+    def rods_of(self, scene: Scene) -> BoundRods:
+        return on_columns(rod.of_scene(scene, self.plan), self.columns)
 
     @cached_property
     def _inertia(self) -> np.ndarray:

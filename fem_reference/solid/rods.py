@@ -16,8 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fem_reference.solid.mesh import Columns
-from fem_reference.surface.bound_rods import BoundRods
-from fem_reference.surface.rod import SQUARE, Rod
+from fem_reference.surface.rod import SQUARE, BoundRods, Rod
 from fem_reference.surface.rod_elements import RodElements
 
 DIRECTORS = 9  # of a side: d, m and t of its three nodes

@@ -15,8 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fem_reference.surface.biquadratic import SIDE_MASS, THREE, THREE_WEIGHTS, side_shape
-from fem_reference.surface.bound_rods import BoundRods
-from fem_reference.surface.rod import Rod
+from fem_reference.surface.rod import BoundRods, Rod
 from fem_reference.surface.supports import Driven
 from sheetbench.scenes import Scene
 

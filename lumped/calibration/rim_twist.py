@@ -5,11 +5,15 @@ there form runs; a run is the strip of `lumped.calibration.edge_twist`, of cells
 cell at a free end of it has the factor of a strip with as many cells. Ends within the sheet's rectangle are
 free; ends at its edges are the supports' to say, and stand in `edge_shear` and `strip_shear`.
 
-Towards an oblique rim it is the twisting moment in the rim's own axes that fades. Springs on 2 κ_nt + r κ_tt
-there are strain springs and couplings in the grid's axes, of what of each cell lies within a cell's length l
-of the rim, with the factor of a strip of cells of that width along the rim. Along a rim that is cut out of
-the grid at any angle a lattice without them loses 0.9 to 0.98 of the width of twist that it loses along one
-of its lines (`tests/lumped/calibration/test_oblique_rims.py`).
+Towards an oblique rim it is the twisting moment in the rim's own axes that fades. With n across the rim and t
+along it, D in their axes and the factor f of a wide strip of cells as wide as the grid's, what of a cell lies
+within its own length of the rim takes −(1 − f) D̃66/Σ z_k² as strain springs and couplings on
+
+    γ_nt + r ε_tt = (2 n₁ t₁ + r t₁²) ε₁ + (2 n₂ t₂ + r t₂²) ε₂ + (n₁ t₂ + n₂ t₁ + r t₁ t₂) γ,
+
+S along the rim being 1/(t₁²/Sx + t₂²/Sy). Along a rim that is cut out of the grid at any angle a lattice
+without them loses 0.9 to 0.98 of the width of twist that it loses along one of its lines
+(`tests/lumped/calibration/test_oblique_rims.py`).
 """
 
 from __future__ import annotations
@@ -18,12 +22,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from lumped import moduli
+from lumped import moduli, sections
 from lumped.calibration.cell_by_cell import EachCell
 from lumped.calibration.edge_twist import AT_CORNERS, MOST, Twist, edge_factors, twist_of, with_edges
-from lumped.calibration.oblique_rims import at_oblique_rims
+from lumped.coverage import ObliqueRims
 from lumped.spring_constants import EDGES_OWN, RIMS_OWN, Springs, along_edge, either, rank_one
 
+STRIP = 12  # cells across a strip whose far edge is not felt
 ALIKE = 1e-9  # shares of cells that one straight line cuts
 
 
@@ -128,3 +133,38 @@ def _aligned(share: np.ndarray, axis: int, near_oblique: np.ndarray) -> np.ndarr
     around = np.pad(lines, ((0, 0), (1, 1)), constant_values=np.inf)
     alike = (np.abs(around[:, :-2] - lines) < ALIKE) | (np.abs(around[:, 2:] - lines) < ALIKE)
     return (share > 1.0 - ALIKE) | (~near_oblique & (alike.T if axis == 0 else alike))
+
+
+def at_oblique_rims(
+    rims: ObliqueRims, each: EachCell, twist: Twist, whole: moduli.Moduli
+) -> tuple[np.ndarray, list[str]]:
+    """Return what the layers' cells take times Σ z_k², (rows, columns, 6) [N·m], as `Springs.strains` has it,
+    and notes; whole: moduli of the cells' springs."""
+    there = each.there[rims.rows, rims.columns]
+    rows, columns, part, n = (each_of[there] for each_of in rims)
+    at = rows, columns
+    t = np.stack([-n[:, 1], n[:, 0]], axis=1)
+    states = np.stack([_strains(a, b) for a, b in ((n, n), (t, t), (n, t))], axis=1)
+    bending = states @ whole.bending[at] @ np.swapaxes(states, 1, 2)
+    twisting, stretch = (form(bending)[:, 0] for form in (sections.twisting, sections.stretch_by_twist))
+    shear, free = (
+        1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.free_shear, each.section.free_shear)
+    )
+    share = (t**2 * twist.shares[at][:, ::-1]).sum(axis=1)
+    width, lost = np.sqrt(each.sides[at].prod(axis=1)), np.sqrt(twisting / free)
+    strips = np.repeat([width, twisting, shear, share], STRIP, axis=1).reshape(4, -1, STRIP)
+    factor = edge_factors(strips[0], strips[1], strips[2], strips[3], lost, False)
+    notes = []
+    if not np.all(factor > 0.0):
+        notes.append("no twisting stiffness of the cells along an oblique rim makes it right")
+        factor = np.where(np.isnan(factor), 1.0, factor)
+    # γ_nt + r ε_tt, whose strains along x and y count twice in the first
+    strain = ([2.0, 2.0, 1.0] * states[:, 2] + stretch[:, None] * [1.0, 1.0, 0.5] * states[:, 1]).T
+    taken = np.zeros((*each.there.shape, len(RIMS_OWN)))
+    np.add.at(taken, at, rank_one(part * (np.maximum(factor, AT_CORNERS) - 1.0) * twisting, *strain))
+    return taken, notes
+
+
+def _strains(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """ε1, ε2 and γ (m, 3) of the strain of directions a and b, (m, 2)."""
+    return np.column_stack([a * b, a[:, 0] * b[:, 1] + a[:, 1] * b[:, 0]])

@@ -1,4 +1,4 @@
-"""An edge moved rigidly beside a support, a chain or another moved edge: refused, or the models agree."""
+"""Edges that are moved: without strain where nothing holds; at corners, with what else holds them."""
 
 from functools import cache
 
@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from numpy.testing import assert_allclose
+from rod_cases import driven
 
 import fem_reference
 import lumped
@@ -202,3 +203,32 @@ def test_a_tilt_that_a_motion_forbids_is_not_sought():
     with pytest.raises(BadInput, match=r"allow no tilt.*x1"):
         unknown(scene, "tilt_y0")
     assert scenes.free_rigid_motions(scene) == []
+
+
+def motion_of(displacement, rotation, edge="x1"):
+    still = (0.0, 0.0, 0.0)
+    return EdgeMotion(
+        kind="motion",
+        edge=edge,
+        time=(0.0, 1.0),
+        displacement=(still, displacement),
+        rotation=(still, rotation),
+    )
+
+
+@pytest.mark.parametrize(("model", "scale"), [("shell", 1.0), ("solid", 1.0), ("plate", 1e-4)])
+def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it(model, scale):
+    """Without strain; the plate by a small motion_of, in which nothing is longer to first order."""
+    shift, turn = scale * np.array([0.01, -0.02, 0.03]), scale * np.array([0.5, -0.3, 0.2])
+    moved = motion_of(tuple(shift), tuple(turn), "y1")
+    scene = driven(gravity=None).model_copy(update={"supports": (), "actuators": (moved,)})
+    solution = fem_reference.solve(scene, model, elements=3)
+    assert solution.status is Status.CONVERGED
+    assert sum(solution.energies.values()) < 1e-12 * scale**2
+    flat = np.array([[0.0, 0.0, 0.0], [0.188, 0.0, 0.0], [0.0, 0.188, 0.0]])
+    corners = flat + solution.displacement(flat[:, :2])
+    sides = np.linalg.norm(np.diff(flat, axis=0), axis=1)
+    assert np.linalg.norm(np.diff(corners, axis=0), axis=1) == pytest.approx(
+        sides, rel=max(1e-9, 1e-8 / scale * (scale < 1))
+    )
+    np.testing.assert_allclose(solution.displacement([[0.094, 0.188]])[0], shift, atol=1e-12)

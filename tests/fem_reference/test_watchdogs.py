@@ -1,10 +1,12 @@
 """What ends a run early says its status, the place on the sheet, and what to change."""
 
+import cases
 import numpy as np
 import pytest
 
 import fem_reference
 import lumped
+from comparisons.comparison.branches import shape
 from comparisons.stability.limit import start, system
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import rectangle
@@ -20,7 +22,7 @@ from sheetbench.runs.run import Run
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
 from sheetbench.runs.watch import Watch
-from sheetbench.scenes import EdgeLoad
+from sheetbench.scenes import Curved, EdgeLoad
 from studies.stability.scenes import sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
@@ -151,3 +153,38 @@ def test_a_sheet_pulled_out_of_its_model_says_so():
     lattice = lumped.solve(pressed(-0.8), calibrated(HEAVY))
     assert truth.status is lattice.status is Status.STRAIN_OUTSIDE_MODEL
     assert "stretched by" in truth.message and "link strain" in lattice.message
+
+
+LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX
+SHARES = (0.0, 0.4, 0.65, 0.74, 0.995 * LIMIT, 1.005 * LIMIT)
+P3 = [(0.15, 0.075)]
+
+
+def bent(share):
+    """With a share of the weight, by its density."""
+    density, supports = 1200.0 * (share or 1.0), (Curved(edge="x0", curvature=-8.0),)
+    return cases.sheet(
+        0.15, 0.15, 0.002, 1e7, 0.45, density, weight=9.81 if share else 0.0, supports=supports
+    )
+
+
+def sag(found):
+    assert found.status is Status.CONVERGED, found.message
+    return float(found.displacement(P3)[0, 2])
+
+
+@pytest.mark.parametrize("elements", [12, pytest.param(16, marks=pytest.mark.slow)])
+def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(elements):
+    """Measured: between 0.7656 and 0.7664 on 12 elements, 0.7648 and 0.7656 on 16, with −15.17 mm."""
+    before, found, sags = bent(0.0), fem_reference.solve(bent(0.0), model="shell", elements=elements), []
+    for share in SHARES[1:]:
+        scene, last, start = bent(share), found, before
+        found = fem_reference.solve(
+            scene, model="shell", elements=elements, near=lambda at, s=start, f=last: shape(s, f, at)
+        )
+        sags.append(sag(found))
+        before = scene
+    *smooth, folded = sags
+    assert np.diff(smooth).max() < 0.0  # ever lower, without a jump
+    assert AT_LIMIT < smooth[-1] < 0.9 * AT_LIMIT
+    assert folded < 2.0 * AT_LIMIT

@@ -1,5 +1,6 @@
 """Compiled kernels: kept, compiled anew with what they are made of, and announced."""
 
+import json
 import os
 import platform
 import shutil
@@ -7,18 +8,21 @@ import stat
 import subprocess
 import sys
 import time
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 from dynamic_cases import make_scene, springs
 from llvmlite.binding import get_host_cpu_features
+from numba import njit, typeof
 
 import lumped
 from lumped.dynamics.explicit.steps import march
 from sheetbench.kernels import MONTH, NOTICE, ROOT, X86_64_V3, Locator, _remove_old, made_of
 from sheetbench.numerics import maps
 from sheetbench.numerics.maps import csr_arrays
+from sheetbench.numerics.typed import TypedTuple, typed
 
 ASK = """
 import logging, sys
@@ -159,3 +163,75 @@ def test_kernels_of_former_sources_go_after_a_month(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {
         "sheetbench.numerics.maps-new", "sheetbench.numerics.maps-young", "sheetbench.numerics.banded-old",
     }  # fmt: skip
+
+
+class Inner(NamedTuple):
+    values: np.ndarray
+    number: int
+
+
+class Other(NamedTuple):
+    values: np.ndarray
+    number: int
+
+
+class Outer(NamedTuple):
+    inner: Inner | Other
+    at: np.ndarray
+
+
+def test_a_compiled_function_takes_a_typed_tuple_as_the_named_one():
+    """Tuples of two classes with the same arrays, typed before or not, are told apart."""
+
+    @njit
+    def total(outer):
+        return outer.inner.values[outer.at[0]] + outer.inner.number
+
+    values, at = np.array([1.0, 2.0]), np.array([1])
+    for kind in (Inner, Other):
+        plain = Outer(kind(values, 3), at)
+        within = Outer(typed(kind(values, 3)), at)
+        for given in (plain, typed(plain), within, typed(within)):
+            assert total(given) == 5.0
+            assert typeof(given) == typeof(plain)
+        assert isinstance(typed(plain), TypedTuple)
+    assert len(total.signatures) == 2
+
+
+UNCOMPILED = """
+import json
+
+import fem_reference, lumped
+import sheetbench as sb
+
+
+def numbers():
+    clamped = sb.load("two-edges-clamped")
+    settling = sb.load("two-edges-settling")
+    rubber = clamped.replace(material=clamped.material.replace(law="neo-hookean"))
+    at = [[0.1, 0.15]]
+    springs, elastic = (lumped.calibrate(clamped.sheet, one.material, 3) for one in (clamped, rubber))
+    return {
+        "lattice": lumped.solve(clamped, springs).displacement(at).tolist(),
+        "rubber lattice": lumped.solve(rubber, elastic).displacement(at).tolist(),
+        "shell": fem_reference.solve(clamped, elements=1).displacement(at).tolist(),
+        "lattice's modes": [lumped.modes(clamped, springs, 2).frequencies.tolist()],
+        "shell's modes": [fem_reference.modes(clamped, elements=1, count=2).frequencies.tolist()],
+        "esdirk": lumped.simulate(settling, springs, 4e-3).probes["P4"].tolist(),
+        "verlet": lumped.simulate(settling, springs, 5e-4, integrator="verlet").probes["P4"].tolist(),
+    }
+"""
+
+
+@pytest.mark.nightly  # half a minute of Python
+def test_they_give_what_compiled_ones_do():
+    ran = subprocess.run(
+        [sys.executable, "-c", f"{UNCOMPILED}\nprint(json.dumps(numbers()))"],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True, timeout=300,
+    )  # fmt: skip
+    assert ran.returncode == 0, ran.stderr[-2000:]
+    here: dict[str, Any] = {}
+    exec(UNCOMPILED, here)
+    for name, found in here["numbers"]().items():
+        flat, same = ([x for row in rows for x in row] for rows in (found, json.loads(ran.stdout)[name]))
+        assert same == pytest.approx(flat, rel=1e-6, abs=1e-9 * max(map(abs, flat))), name

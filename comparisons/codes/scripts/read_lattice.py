@@ -155,18 +155,6 @@ def part_of(lattice, along, part, share):
     return found
 
 
-def shares(lattice):
-    """Shares of the stiffness of contact, from one with which the load leaves points 1/50 of the sheet deep,
-    or of a fifth of the least radius."""
-    if not len(lattice["contact_area"]):
-        return [1.0]
-    radii = lattice["obstacle_radius"][lattice["obstacle_kind"] > 0]
-    depth = 0.02 * min([np.ptp(lattice["positions"], axis=0).max(), *(0.2 * radii)])
-    soft = np.abs(lattice["load"]).sum() / lattice["contact_area"].sum() / depth
-    soft = np.clip(soft / lattice["contact_stiffness"].max(), 1e-6, 1)
-    return np.geomspace(soft, 1, 1 + int(np.ceil(np.log10(1 / soft))))
-
-
 def equilibrium(lattice, along, steps=1):
     """Displacements (n, 3) at rest: Newton, the tangent by differences, supports by multipliers.
 
@@ -182,7 +170,7 @@ def equilibrium(lattice, along, steps=1):
         np.add.at(held, (row, masses, lattice["hold_axis"][row]), 1 / len(masses))
     held = held.reshape(holds, 3 * n)
     u, push, h = np.zeros(3 * n), np.zeros(holds), 1e-7 * lattice["link_rest_length"].max()
-    soft, *stiffer = shares(lattice)
+    soft, *stiffer = np.geomspace(1e-4, 1, 5) if len(lattice["contact_area"]) else [1.0]  # of stiffness
     for part, share in [*((n / steps, soft) for n in range(1, steps + 1)), *((1, s) for s in stiffer)]:
         now, damping = part_of(lattice, along, part, share), 0.0
         moved = np.inf

@@ -32,6 +32,7 @@ POISSON = 0.499  # written beside constants of incompressible sheets
 AS_GOOD, GOOD = 1.5, 0.01  # times the least misfit, or of the largest stress: then few constants will do
 LIMITS = (1e-6, 1e3)  # of gent's limit over the largest I₁ − 3, less 1: beyond, it is not seen
 LAWS = ("neo-hookean", *WORDS)
+POWERS = {"neo-hookean": (0,), "mooney-rivlin": (0, 0), "yeoh": (0, 1, 2)}  # of x in what the keys multiply
 KEYS = {"neo-hookean": ("young",), **{law: words.keys for law, words in WORDS.items()}}
 
 
@@ -95,7 +96,7 @@ def fit(law: str, curves: Sequence[Curve]) -> Fit | None:
     def constants(q: np.ndarray) -> list[float]:
         if law == "gent":
             return [size * float(q[0]), most * (1.0 + float(np.exp(q[1])))]
-        return [size * float(v) / most**k for k, v in zip(_powers(law), q, strict=True)]
+        return [size * float(v) / most**k for k, v in zip(POWERS[law], q, strict=True)]
 
     def misfit(q: np.ndarray) -> np.ndarray:
         of = energy(law, constants(q))
@@ -152,10 +153,6 @@ _BOUNDS = {
     "yeoh": ([0.0, -inf, 0.0], [inf, inf, inf]),
     "gent": ([0.0, log(LIMITS[0])], [inf, log(LIMITS[1])]),
 }
-
-
-def _powers(law: str) -> tuple[int, ...]:
-    return {"neo-hookean": (0,), "mooney-rivlin": (0, 0), "yeoh": (0, 1, 2)}[law]
 
 
 def _independent(left: np.ndarray) -> float:

@@ -112,6 +112,7 @@ def test_the_mesh_is_that_of_the_whole_sheet():
     ("case", "axes"),
     [
         (scenes.load("two-edges-clamped"), ()),
+        (scenes.load("actuated-edge"), ()),
         (make_scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(0.0, 1.0, -9.81))), ()),
         (make_scene([Clamped(edge="x0")], gravity=Gravity(acceleration=(5.0, 0.0, -9.81))), (1,)),
         (make_scene([Clamped(edge="x0"), Hinged(edge="x1")]), (1,)),

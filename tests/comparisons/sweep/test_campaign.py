@@ -37,14 +37,11 @@ def test_outcomes_come_in_the_order_asked_and_are_kept(store):
     assert not seen
 
 
-def test_the_key_is_what_is_asked_and_nothing_else():
+def test_the_key_is_what_is_asked_and_the_code_that_answers(monkeypatch):
+    """After a fix yesterday's rows are not read: they are of other code."""
     assert task("square", x=1.0).key == Run("campaign_tasks:square", {"x": 1.0}, "other", timed=True).key
     assert task("square", x=1.0).key != task("square", x=2.0).key
     assert task("square", x=(1, 2)).key == task("square", x=[1, 2]).key
-
-
-def test_the_key_holds_the_code_that_answers(monkeypatch):
-    """After a fix yesterday's rows are not read: they are of other code."""
     before = task("square", x=1.0).key
     monkeypatch.setattr(runs_campaign, "source", lambda: "other code")
     assert task("square", x=1.0).key != before
@@ -68,15 +65,12 @@ def test_every_task_is_where_its_name_says():
     assert all(callable(function(name)) for name in TASKS)
 
 
-def test_a_run_that_fails_is_a_row_with_its_status(store):
+def test_a_run_that_fails_is_a_row_and_a_fault_not_filed_as_the_users_mistake(store):
     found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store, pool=Here)
     assert [outcome.status for outcome in found] == ["refused", "failed", "done"]
     assert found[0].message == "x = −1: must be positive"
     assert found[1].message == "ZeroDivisionError: by nothing"
     assert found[2].row == {"value": None}
-
-
-def test_a_fault_is_not_filed_as_the_users_mistake(store):
     found = carry_out([task("stumble", over=over) for over in ("value", "type", "matrix")], store, pool=Here)
     for outcome, kind in zip(found, ("ValueError", "TypeError", "LinAlgError"), strict=True):
         assert outcome.status == "failed"

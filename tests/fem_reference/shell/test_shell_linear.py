@@ -1,58 +1,57 @@
-"""The sparse direct solver with rslab and without, and the adaptive tracing of an awkward structure."""
+"""The adaptive tracing of an awkward structure, of one unknown."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from one_unknown import Spring
-from scipy.sparse import csr_matrix, random_array
+from scipy.sparse import csr_matrix
 
-import sheetbench.numerics.direct
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import LoadStepFailed
+from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.stability import nearest_to_zero
 
+
+@dataclass
+class Balance:
+    residual: float
+    size: float = 1.0
+
+
+@dataclass
+class Spring(Structure[float, Balance]):
+    force: Callable[[float], float]
+    slope: Callable[[float], float]
+    symmetric: bool = True
+
+    def rest(self):
+        return 0.0
+
+    def forces(self, u, load_factor):
+        return Balance(self.force(u) - load_factor)
+
+    def imbalance(self, u, forces):
+        return abs(forces.residual)
+
+    def gap(self, u, load_factor):
+        return 0.0
+
+    def system(self, u, forces, load_factor, mixed=True):
+        return csr_matrix(([self.slope(u)], ([0], [0]))), np.array([-forces.residual])
+
+    def advance(self, u, forces, load_factor, step):
+        return u + step[0]
+
+    def length(self, start, end):
+        return abs(end - start)
+
+
 pytestmark = pytest.mark.smoke
-
-
-def indefinite(n=120, negative=17):
-    noise = random_array((n, n), density=0.03, rng=np.random.default_rng(1))
-    diagonal = np.where(np.arange(n) < negative, -50.0, 50.0)
-    matrix = csr_matrix(noise + noise.T) + csr_matrix(np.diag(diagonal))
-    matrix.sum_duplicates()
-    matrix.sort_indices()
-    return matrix
-
-
-@pytest.fixture(params=["rslab", "superlu"])
-def library(request, monkeypatch):
-    """Factors by rslab, and without it."""
-    if request.param == "superlu":
-        monkeypatch.setattr(sheetbench.numerics.direct, "rslab", None)
-
-
-@pytest.mark.parametrize("symmetric", [True, False])
-def test_solves_and_tells_the_inertia(library, symmetric):
-    matrix, b = indefinite(), np.arange(120.0)
-    solver = DirectSolver(symmetric)
-    for scale in (1.0, 3.0):  # the second time on the analysis of the first
-        factor = solver.factor(matrix * scale)
-        np.testing.assert_allclose(scale * (matrix @ factor.solve(b)), b, atol=1e-9)
-        assert factor.inertia == ((103, 17, 0) if symmetric else None)
-
-
-def test_the_inertia_is_told_where_a_diagonal_is_small(library):
-    factor = DirectSolver().factor(csr_matrix(np.array([[1.0, 2.0], [2.0, 1.0]])))
-    assert factor.inertia == (1, 1, 0)  # eigenvalues 3 and −1
-
-
-@pytest.mark.parametrize("entry", [1.0, np.nan], ids=["singular", "not finite"])
-def test_refuses_what_it_cannot_solve(library, entry):
-    matrix = csr_matrix(np.array([[1.0, entry, 0.0], [entry, 1.0, 0.0], [0.0, 0.0, 2.0]]))
-    with pytest.raises(SingularMatrixError):
-        DirectSolver().factor(matrix).solve(np.array([1.0, 2.0, 3.0]))
 
 
 def test_steps_shrink_where_one_step_does_not_converge():

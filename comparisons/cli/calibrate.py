@@ -130,5 +130,5 @@ def command(
         modes = damping.ratios(of, springs)
         own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
         files = ({}, []) if for_ is None else lattice_files(of, springs, for_)
-        answer = SheetCalibration(**own, scene=of, expected=off, modes=modes, lattice=files)
+        answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -50,9 +50,7 @@ def compare(
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
     """
-    if not isinstance(scene, Scene):
-        scene = load_static(scene)
-    require_static(scene)
+    scene = load_static(scene)
     whole = {"elements": elements, "law": law, "branch": lattice.branch, "symmetry": lattice.symmetry}
     against = resolve(scene, Elements.given(reference, whole))
     first = resolve(scene, lattice)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -40,11 +39,11 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         axis.add_collection(PolyCollection(elements, facecolors="none", edgecolors=HELD, linewidths=0.3))
     for number, patch in enumerate(scene.patches, start=1):
         colour = colormaps[PATCHES](0.2 + 0.6 * number / (len(scene.patches) + 1))
-        drawn_as = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
-        _part(axis, scene, patch.shape, f"patch {number}", drawn_as)
+        look = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
+        _part(axis, scene, patch.shape, f"patch {number}", **look)
     for name, support in named(scene.supports).items():
         if (shape := place(support)) is not None:
-            _part(axis, scene, shape, name, {"facecolor": HELD, "edgecolor": "none", "alpha": 0.6})
+            _part(axis, scene, shape, name, facecolor=HELD, edgecolor="none", alpha=0.6)
         for line in held_lines(scene, support):
             axis.plot(*1e3 * line.T, color=DARK, linewidth=3.0 if holds_director(support) else 1.5)
     for number, load in enumerate(scene.loads, start=1):
@@ -52,12 +51,11 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
             for ends in edge_ends(scene, load.edge, load.where):
                 axis.plot(*1e3 * np.array(ends).T, color=LOAD, linewidth=1.5)
         elif (shape := getattr(load, "where", None)) is not None:
-            drawn_as = {"facecolor": LOAD, "edgecolor": LOAD, "alpha": 0.2}
-            _part(axis, scene, shape, f"load {number}", drawn_as)
+            _part(axis, scene, shape, f"load {number}", facecolor=LOAD, edgecolor=LOAD, alpha=0.2)
     for number, payload in enumerate(scene.masses, start=1):
         if payload.where is not None:
-            drawn_as = {"facecolor": PAYLOAD, "edgecolor": PAYLOAD, "alpha": 0.4}
-            _part(axis, scene, payload.where, f"mass {number}", drawn_as)
+            look = {"facecolor": PAYLOAD, "edgecolor": PAYLOAD, "alpha": 0.4}
+            _part(axis, scene, payload.where, f"mass {number}", **look)
         elif payload.at is not None:
             axis.plot(*1e3 * np.array(payload.at), "s", markersize=7, color=PAYLOAD)
     for one in scene.obstacles:
@@ -92,7 +90,7 @@ def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
             axis.plot(*at, marker="." if along[2] > 0.0 else "x", color=LOAD, markersize=5)
 
 
-def _part(axis: Axes, scene: Scene, shape: Shape, name: str, drawn_as: Mapping[str, Any]) -> None:
+def _part(axis: Axes, scene: Scene, shape: Shape, name: str, **drawn_as: Any) -> None:
     """The part of the sheet in a shape, with its name at the upper left, a patch's at the lower right."""
     area = scene.region.intersection(shape.area)
     axis.add_patch(_filled(area, **drawn_as))

@@ -215,8 +215,7 @@ def _motion_error(row: Mapping[str, Any], truth: Mapping[str, Any]) -> float | N
     rest."""
     largest = off = 0.0
     for name, known in truth["probes"].items():
-        for axis, values in enumerate(np.array(known).T):
-            expected = np.interp(row["time"], truth["time"], values)
-            off = max(off, float(np.abs(np.array(row["probes"][name])[:, axis] - expected).max()))
-            largest = max(largest, float(np.abs(values).max()))
+        expected = np.transpose([np.interp(row["time"], truth["time"], axis) for axis in np.transpose(known)])
+        off = max(off, float(np.abs(np.array(row["probes"][name]) - expected).max()))
+        largest = max(largest, float(np.abs(known).max()))
     return off / largest if largest > 0.0 else None

@@ -14,10 +14,12 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import isfinite
+from typing import Any
 
 from comparisons.comparison import strain_law
+from comparisons.comparison.comparison import load_static
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, items
 from comparisons.sweep import load
@@ -27,7 +29,7 @@ from comparisons.tradeoff.advice import Advice, TrialRow
 from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
-from sheetbench.scenes import AnyScene, require_static, scene_of
+from sheetbench.scenes import AnyScene
 from sheetbench.scenes.language.units import amount
 from sheetbench.scenes.objects.grid import MASSES
 
@@ -56,8 +58,7 @@ def advise(
     a static answer; BadInput where not even the coarsest reference fits into memory, for a grid, and for
     springs and grading that contradict each other.
     """
-    scene = scene_of(scene)
-    require_static(scene)
+    scene = load_static(scene)
     tolerance, budget = _limits(tolerance, budget)
     own = lattice if calibration is None else lattice.but(calibration=calibration)
     trials = TrialSolves(scene, own, items(models) if isinstance(models, str) else models)
@@ -210,18 +211,21 @@ def _advice(
     )
 
 
+def _lattice(trials: TrialSolves, chosen: SolvedHere | None, springs: Mapping[str, Any]) -> Lattice:
+    """Return the choice, or the usual grid with some springs where that is no lattice."""
+    spec = None if chosen is None else chosen.ask.spec
+    return spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1).but(**springs)
+
+
 def _grading(trials: TrialSolves, chosen: SolvedHere | None) -> str:
     """Return what was made of graded lattices: of the choice, or of the usual grid where that is no
     lattice."""
     if trials.grading is None:
         return ""
-    lattice = chosen.ask.spec if chosen is not None else None
-    if not isinstance(lattice, Lattice):
-        lattice = trials.lattice(MASSES - 1)
+    lattice = _lattice(trials, chosen, {})
     value, why = trials.grading_of(lattice)
     masses = " × ".join(lattice.size.split("×")[:2])
-    taken = "taken" if lattice.grading else "not taken"
-    text = f"grading {value:g} {taken}" if value else "no grading"
+    text = f"grading {value:g} {'taken' if lattice.grading else 'not taken'}" if value else "no grading"
     return f"{text}, {masses} masses" + (f": {why}" if why else "")
 
 
@@ -237,9 +241,7 @@ def _calibration(trials: TrialSolves, chosen: SolvedHere | None) -> str:
 
 def _limit(trials: TrialSolves, chosen: SolvedHere | None) -> str:
     """From which stretch on the lattice chosen, or else the usual one, is no rubber, if this sheet is."""
-    lattice = chosen.ask.spec if chosen is not None else None
-    if not isinstance(lattice, Lattice):
-        lattice = trials.lattice(MASSES - 1).but(**trials.springs)
+    lattice = _lattice(trials, chosen, trials.springs)
     return strain_law.limit(resolve(trials.scene, lattice, "springs"), trials.reference.answer.stretch or 0.0)
 
 

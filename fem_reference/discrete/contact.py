@@ -102,13 +102,10 @@ class Touching(SheetItem):
 
     stored = potential
 
-    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
-        if shape.v is None or not shape.v.any():
-            return 0.0, 0.0
-        moved = float(np.linalg.norm(step) / np.linalg.norm(shape.v)) * self.obstacle.velocity(shape.at)
-        rubbed = self._resisted(shape)[0]
-        taken = rubbed.sum(axis=(0, 1, 2)) @ moved - self._onto(shape, rubbed) @ step
-        return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ moved)
+    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+        velocity, rubbed = self.obstacle.velocity(shape.at), self._resisted(shape)[0]
+        taken = rubbed.sum(axis=(0, 1, 2)) @ velocity - self._onto(shape, rubbed) @ shape.v
+        return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ velocity)
 
     def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {self.name: (self._points(shape.vectors), self._pulled(shape))}

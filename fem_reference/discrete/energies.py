@@ -52,6 +52,6 @@ def spent(sheet: Discrete, start: SheetMotion, end: SheetMotion, late: float) ->
         work += 0.5 * sign * sum(sheet.elastic(sheet.shape(q, time)) for q in (start.q, end.q))
     shape = sheet.shape(middle, half_way, step / h)
     for item in sheet.items:
-        taken, done = item.exchanged(shape, step)
-        damped, work = damped + taken, work + done
+        taken, done = item.exchanged(shape)
+        damped, work = damped + h * taken, work + h * done
     return np.array([damped, work])

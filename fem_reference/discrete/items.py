@@ -50,9 +50,9 @@ class SheetItem(Protocol):
         """The part of it that a motion keeps as energy [J]; what is not kept is work."""
         return 0.0
 
-    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
-        """Energy dissipated and work done [J] in a step (N,) of a motion, whose middle the shape is."""
-        return 0.0, float(self.force(shape) @ step)
+    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+        """Power dissipated and put in [W] in a shape that moves."""
+        return 0.0, float(self.force(shape) @ shape.v)
 
 
 class Dead(SheetItem):
@@ -70,8 +70,8 @@ class Dead(SheetItem):
     def stored(self, shape: SheetShape) -> float:
         return self.potential(shape) if self._factor is None else 0.0
 
-    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
-        return 0.0, 0.0 if self._factor is None else float(self.force(shape) @ step)
+    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+        return 0.0, 0.0 if self._factor is None else float(self.force(shape) @ shape.v)
 
 
 class Following(SheetItem):
@@ -128,8 +128,8 @@ class Drag(SheetItem):
         )
         return np.arange(len(out)), out
 
-    def exchanged(self, shape: SheetShape, step: np.ndarray) -> tuple[float, float]:
-        return -float(self.force(shape) @ step), 0.0
+    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+        return -float(self.force(shape) @ shape.v), 0.0
 
 
 def _flow(shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

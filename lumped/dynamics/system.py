@@ -179,7 +179,9 @@ class System:
     def loads(self, times: Sequence[float]) -> np.ndarray:
         """Loads at times if they change, those that do not follow the sheet, (k or 1, n, 3) [N]."""
         dead = self.problem.loads.dead
-        return np.array([self.external(dead, time) for time in (times if self.working else times[:1])])
+        if not self.working:
+            return dead[None].copy()
+        return np.array([self.external(dead, time) for time in times])
 
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """External force."""

@@ -46,6 +46,7 @@ STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
 KEEP_FACTORS_UP_TO = 14  # corrections of a step's stages up to which the next one keeps the factors: two each
+LENGTHEN_UP_TO = 22  # and up to which it may be longer: four each, beyond which shorter steps cost less
 
 
 class Esdirk(Integrator):
@@ -126,7 +127,9 @@ class Esdirk(Integrator):
             return step, error, self._error * largest
 
         shortest = 1e-6 * min(self._control.step, at_most)
-        step, _ = self._control.take(attempt, at_most, shortest)
+        step, h = self._control.take(attempt, at_most, shortest)
+        if self._newton.made > LENGTHEN_UP_TO:
+            self._control.step = min(self._control.step, h)
         self._largest = largest
         return self._advance(state, step)
 

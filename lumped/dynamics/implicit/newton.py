@@ -10,8 +10,7 @@ multipliers' rows of û and v̂ apart, and does it compiled where it can.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,8 +34,7 @@ REUSE_FACTORS_WITHIN = 0.2  # relative change of c₂ within which factors serve
 UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
 
-@dataclass(frozen=True)
-class StepEquation:
+class StepEquation(NamedTuple):
     """The equation of a step or stage: time t [s], û and v̂ (size, 3), c₂ [1/s²], c₁ [1/s], of a system with
     its branches there."""
 

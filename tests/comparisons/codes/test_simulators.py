@@ -14,7 +14,7 @@ from comparisons.codes.files import to_sofa
 from comparisons.codes.lattice import CODES, READERS
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Hinged, PointLoad, Scene
+from sheetbench.scenes import Hinged, PointLoad, Pressure, Scene
 
 SCRIPTS = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts"
 READER = runpy.run_path(str(SCRIPTS / "read_lattice.py"))
@@ -81,6 +81,9 @@ def test_what_they_do_not_have_is_refused():
         to_sofa(described(CORNER, method="consistent"), CORNER)
     with pytest.raises(BadInput, match="hold the mean of their layers"):
         to_sofa(described(HINGED, 3), HINGED)
+    blown = CORNER.replace(loads=(Pressure(value=4.0),))
+    with pytest.raises(BadInput, match="follow the sheet; dead loads only"):
+        to_sofa(described(blown, 3), blown)
 
 
 @pytest.mark.parametrize("code", CODES)

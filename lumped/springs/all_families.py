@@ -33,21 +33,22 @@ from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
 
-class SpringArrays(NamedTuple):
-    """The springs of a lattice that have an energy."""
-
-    links: LinkArrays
-    layers: CellArrays
-    middle: CellArrays
-    faces: CellArrays
-
-
 class Blocks(NamedTuple):
     """Where a tangent's blocks are: their number; `Pattern.mirror`; each mass's block with itself (n,)."""
 
     total: int
     mirror: np.ndarray
     diagonal: np.ndarray
+
+
+class SpringArrays(NamedTuple):
+    """The springs of a lattice that have an energy, and where their tangent's blocks are."""
+
+    links: LinkArrays
+    layers: CellArrays
+    middle: CellArrays
+    faces: CellArrays
+    where: Blocks
 
 
 Stresses = tuple[np.ndarray, ...]  # four, as `Springs`
@@ -63,10 +64,11 @@ class AllFamilies:
         self.families = tuple(families)
         found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
-        self.springs = typed(SpringArrays(LinkArrays(*links_), *(CellArrays(*parts) for parts in cells_)))
-        self._found, self._pattern = found, pattern
+        where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
+        layers, middle, faces = (CellArrays(*parts) for parts in cells_)
+        arrays = SpringArrays(LinkArrays(*links_), layers, middle, faces, where)
+        self.springs, self._found, self._pattern = typed(arrays), found, pattern
         self._cells = {at: family for at, family in found.items() if isinstance(family, SpringCells)}
-        self._where = typed(Blocks(pattern.blocks, pattern.mirror, pattern.diagonal))
         self._others = [family for place, family in found.items() if place < 0]
         rounded = [family.rounded() for family in families] if single else None
         self._rounded = None if rounded is None else AllFamilies(rounded, pattern)
@@ -158,7 +160,6 @@ class AllFamilies:
             scale,
             inertia,
             self.springs,
-            self._where,
         )
         for family in self._others:
             apart = np.zeros_like(blocks)
@@ -224,11 +225,11 @@ def tangent(
     scale: float,
     inertia: np.ndarray,
     springs: SpringArrays,
-    where: Blocks,
 ) -> np.ndarray:
     """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
     springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
     It is symmetric: what is above the diagonal is copied."""
+    where = springs.where
     blocks = np.zeros((where.total, 3, 3))
     strain = extrapolated and measures(springs.layers.law) == 3
     links.add_tangent(u, springs.links, stress[0], strain, share, NUMBA_TRUE, blocks)

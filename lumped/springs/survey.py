@@ -7,11 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.springs import cells, links
-from lumped.springs.cells import CellArrays
-from lumped.springs.links import LinkArrays
 from sheetbench.numerics.typed import njit
-
-Springs = tuple[LinkArrays, CellArrays, CellArrays, CellArrays]  # cells of layers, the mid-surface and faces
 
 
 class Survey(NamedTuple):
@@ -25,12 +21,11 @@ class Survey(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def survey(
-    u: np.ndarray, springs: Springs, areas: tuple[Any, ...], kind: np.ndarray, kinds: int, layers: int
+    u: np.ndarray, springs: Any, areas: tuple[Any, ...], kind: np.ndarray, kinds: int, layers: int
 ) -> tuple[np.ndarray, float, float]:
     """Return the energies of the links by kind (m,) and of both kinds of springs on cells, (kinds + 6,) [J],
-    and the rest of a `Survey`; areas: the three tags of area springs alone."""
-    along, in_layers, middle, faces = springs
-    elongation = links.elongations(u, along)
+    and the rest of a `Survey`; springs: `SpringArrays`; areas: the three tags of area springs alone."""
+    along, elongation = springs.links, links.elongations(u, springs.links)
     energies, stretch, summed, met = np.zeros(kinds + 6), 0.0, 0.0, 0
     for m in range(len(elongation)):
         half, e = 0.5 * along.constants[m], elongation[m]
@@ -40,9 +35,9 @@ def survey(
             summed, met = summed + e, met + 1
             if met % layers == 0:
                 stretch, summed = stretch + half * (summed * summed) / layers, 0.0
-    add_sums(cells.energies(u, in_layers, areas[0]), energies[kinds:])
-    add_sums(cells.energies(u, middle, areas[1]), energies[kinds + 2 :])
-    add_sums(cells.energies(u, faces, areas[2]), energies[kinds + 4 :])
+    add_sums(cells.energies(u, springs.layers, areas[0]), energies[kinds:])
+    add_sums(cells.energies(u, springs.middle, areas[1]), energies[kinds + 2 :])
+    add_sums(cells.energies(u, springs.faces, areas[2]), energies[kinds + 4 :])
     return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
 
 

@@ -7,6 +7,8 @@ links as stiff as these. Springs of unequal stiffness along x, y and z are neith
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from lumped.actuators import Drive
@@ -45,6 +47,6 @@ def balance(
     known = None if linear else state.residual
     size = (known or problem.residual(at, share)).scale
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
-    allowed = np.sqrt(len(at)) * max(LIMITS.tolerance * size, problem.rounding(state.u))
-    arm = float(np.sqrt((places**2).sum(axis=1).max()))
-    return Balance(force, moment, size, float(allowed), arm, objective=problem.assembly.conservative)
+    allowed = math.sqrt(len(at)) * max(LIMITS.tolerance * size, problem.rounding(state.u))
+    arm = math.sqrt(np.einsum("ij,ij->i", places, places).max())
+    return Balance(force, moment, size, allowed, arm, objective=problem.assembly.conservative)

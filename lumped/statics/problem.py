@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,12 +19,24 @@ from lumped.loads import Loads
 from lumped.springs import all_families
 from lumped.springs.all_families import SpringArrays, Stresses
 from lumped.springs.survey import Survey
+from lumped.springs.tiles import NUMBA_TRUE
 from lumped.supports import Constraints
+from sheetbench.numerics import banded
+from sheetbench.numerics.continuation.newton import SOLVED
+from sheetbench.numerics.direct import Count, Factor
 from sheetbench.numerics.maps import Rows, product, transposed_product
-from sheetbench.numerics.reduced import ReducedSystem
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.reduced import BandedFactor, ReducedSystem
+from sheetbench.numerics.typed import njit, typed
 
 NOTHING = np.empty((0, 3))
+
+
+class Unknowns(NamedTuple):
+    """held: (n, 3) bool, what supports hold; free: T; band: where the reduced matrix goes, if in a band."""
+
+    held: np.ndarray
+    free: Rows
+    band: banded.Band
 
 
 class Residual(NamedTuple):
@@ -76,6 +88,8 @@ class Problem:
         else:
             multipliers = self._multiplier_unknowns(coupling)
             self.system = ReducedSystem(pattern, transform, self.conservative, multipliers)
+        band = self.system.band or banded.NO_BAND
+        self._unknowns = typed(Unknowns(self.constraints.held, self._free, band))
 
     def _multiplier_unknowns(self, coupling: Coupling) -> np.ndarray:
         """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""
@@ -171,12 +185,12 @@ class Problem:
         """Return the residual at u."""
         others = self.assembly.coupling is not None or self.assembly.natural is not None or self.items
         flat = not (others or u.any())  # where springs are at rest
-        internal = np.zeros_like(u) if flat else self.internal(u, load_factor)[1]
+        internal = np.zeros(u.shape) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
-        loads, held, n = (self.loads.force(u), self.driving), self.constraints.held, self.system.unknowns
-        return Residual(*unbalanced_force(internal, *loads, load_factor, held, self._free, n))
+        load, n = self.loads.force(u), self.system.unknowns
+        return Residual(*unbalanced_force(internal, load, self.driving, load_factor, self._unknowns, n))
 
     def advance(
         self, u: np.ndarray, step: np.ndarray, load_factor: float, moved: np.ndarray | None = None
@@ -184,15 +198,43 @@ class Problem:
         """Return where a step (m,) [m] of the unknowns from u leads, with what is moved (n, 3) [m] beside,
         the residual and the predicted stresses there."""
         springs, drive = self.assembly.at(load_factor).all_families, Drive(load_factor)
-        loads, supports = (self.loads.last_dead, self.driving), (self.constraints.held, self._free)
+        moved, external = NOTHING if moved is None else moved, (self.loads.last_dead, self.driving)
         after, length, internal, stresses, residual = advance(
-            u, step, NOTHING if moved is None else moved, *loads, load_factor, *supports, springs.springs
+            u, step, moved, *external, load_factor, self._unknowns, springs.springs
         )
         if self._others or not springs.alone:
             internal = springs.beside(after, internal)
             self._add_others(after, drive, internal)
             residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
+
+    def correct(
+        self, state: LatticeState, rows: np.ndarray, count: Count
+    ) -> tuple[Factor, np.ndarray, np.ndarray, LatticeState] | None:
+        """Return the factors of the tangent with the stresses predicted at a state, the step (m,) [m] of the
+        unknowns that they give of rows (m,) [N], these and where it leads: one compiled call, and None where
+        not all is compiled."""
+        (u, load_factor), band = state[:2], self.system.band
+        springs = self.assembly.at(load_factor).all_families
+        if self._others or not springs.alone or band is None:
+            return None
+        count()
+        blocks, factors, definite, step, (after, length, _, stresses, residual) = correct(
+            u,
+            state.stresses,
+            rows,
+            self.loads.last_dead,
+            self.driving,
+            load_factor,
+            self._unknowns,
+            springs.springs,
+        )
+        if definite:
+            reached = LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
+            return BandedFactor(band, blocks, factors), step, rows, reached
+        factor = self.system.factor(blocks, count)
+        step = factor.solve(rows, SOLVED)
+        return factor, step, rows, self.advance(u, step, load_factor)
 
     def rounding(self, u: np.ndarray) -> float:
         """Return the norm of the forces [N] that rounding of the link forces leaves."""
@@ -213,18 +255,39 @@ def advance(
     load: np.ndarray,
     driving: float,
     load_factor: float,
-    held: np.ndarray,
-    free: Rows,
+    unknowns: Unknowns,
     springs: SpringArrays,
 ) -> tuple[np.ndarray, float, np.ndarray, Stresses, tuple[np.ndarray, np.ndarray, float, float]]:
     """Return what `all_families.advance` does of a step (m,) [m] of the unknowns with what is `moved` (n, 3)
     [m] beside, if anything, and `unbalanced_force` there."""
-    move = product(free, step).reshape(u.shape)
+    move = product(unknowns.free, step).reshape(u.shape)
     if len(moved):
         move += moved
     after, length, internal, stresses = all_families.advance(u, move, springs)
-    residual = unbalanced_force(internal, load, driving, load_factor, held, free, len(step))
+    residual = unbalanced_force(internal, load, driving, load_factor, unknowns, len(step))
     return after, length, internal, stresses, residual
+
+
+@njit(cache=True, nogil=True)
+def correct(
+    u: np.ndarray,
+    stresses: Stresses,
+    rows: np.ndarray,
+    load: np.ndarray,
+    driving: float,
+    load_factor: float,
+    unknowns: Unknowns,
+    springs: SpringArrays,
+) -> tuple[np.ndarray, np.ndarray, bool, np.ndarray, Any]:
+    """Return the tangent's blocks, factors in a band, whether they are such and give a finite step, that step
+    from u and what `advance` makes of it."""
+    none, band = np.empty(0), unknowns.band
+    blocks = all_families.tangent(u, stresses, NUMBA_TRUE, 1.0, 1.0, none, springs)
+    factors, definite = banded.factored(blocks, band)
+    step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else np.zeros(len(rows))
+    definite = definite and np.isfinite(np.sum(step))
+    found = advance(u, step, np.empty((0, 3)), load, driving, load_factor, unknowns, springs)
+    return blocks, factors, definite, step, found
 
 
 @njit(cache=True, nogil=True)
@@ -233,12 +296,11 @@ def unbalanced_force(
     load: np.ndarray,
     driving: float,
     load_factor: float,
-    held: np.ndarray,
-    free: Rows,
+    unknowns: Unknowns,
     n: int,
 ) -> tuple[np.ndarray, np.ndarray, float, float]:
     """Return load_factor × load less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the
-    external forces plus those of the supports' and, driving, of a natural state [N]; held: (k, 3) bool."""
+    external forces plus those of the supports' and, driving, of a natural state [N]."""
     out = np.empty_like(internal)
     total = loads = supports = 0.0
     for i in range(len(out)):
@@ -246,9 +308,9 @@ def unbalanced_force(
             external = load_factor * load[i, q]
             out[i, q] = external - internal[i, q]
             loads += external**2
-            if held[i, q]:
+            if unknowns.held[i, q]:
                 supports += internal[i, q] ** 2
-    reduced = transposed_product(free, out.ravel(), n)
+    reduced = transposed_product(unknowns.free, out.ravel(), n)
     for value in reduced:
         total += value * value
     return out, reduced, np.sqrt(total), np.sqrt(loads) + np.sqrt(supports) + abs(load_factor) * driving

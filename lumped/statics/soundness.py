@@ -93,10 +93,11 @@ def sharpest_bend(
     positions: np.ndarray,
     areas: np.ndarray,
     u: np.ndarray,
-    longest: np.ndarray,
-) -> tuple[float, int, int]:
-    """Return the largest ℓ² √|κ₁ κ₂| [m] of all cells and the cell (j, i); longest: ℓ (ny − 1, nx − 1) [m], a
-    cell's longer side; κ₁ κ₂ from the directors' changes along x and y."""
+    along_x: np.ndarray,
+    along_y: np.ndarray,
+) -> tuple[float, float, int, int]:
+    """Return the largest ℓ² √|κ₁ κ₂| [m] of all cells, ℓ the longer of a cell's sides along_x (nx − 1,) and
+    along_y (ny − 1,) [m], that ℓ and the cell (j, i); κ₁ κ₂ from the directors' changes along x and y."""
     ny, nx, _ = columns.shape
     middle, director = surface(columns, positions, u)
     largest, row, column = -1.0, 0, 0
@@ -111,10 +112,10 @@ def sharpest_bend(
                 d_x, d_y = d[0, 1] - d[0, 0] + d[1, 1] - d[1, 0], d[1, 0] - d[0, 0] + d[1, 1] - d[0, 1]
                 xx, xy, yx, yy = xx + m_x * d_x, xy + m_x * d_y, yx + m_y * d_x, yy + m_y * d_y
             gauss = 0.25 * math.sqrt(abs(xx * yy - (0.5 * (xy + yx)) ** 2)) / areas[j, i]
-            bent = longest[j, i] ** 2 * gauss
+            bent = max(along_x[i], along_y[j]) ** 2 * gauss
             if bent > TIED * largest:
                 largest, row, column = bent, j, i
-    return largest, row, column
+    return largest, max(along_x[column], along_y[row]), row, column
 
 
 @njit(cache=True)

@@ -71,7 +71,7 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         return self.problem.multipliers
 
     def rest(self) -> LatticeState:
-        return LatticeState(np.zeros_like(self.problem.loads.dead), 0.0)
+        return LatticeState(np.zeros(self.problem.loads.dead.shape), 0.0)
 
     def start(self, u: np.ndarray) -> Start[LatticeState]:
         """Return the start at full load beside a displacement (n, 3) [m]."""
@@ -122,6 +122,13 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         self, state: LatticeState, forces: LatticeForces, load_factor: float, step: np.ndarray
     ) -> LatticeState:
         return self.problem.advance(state.u, step, load_factor, forces.moved)
+
+    def correct(
+        self, state: LatticeState, forces: LatticeForces, load_factor: float, count: Count
+    ) -> tuple[Factor, np.ndarray, np.ndarray, LatticeState] | None:
+        if self._iterates or state.stresses is None or state.load_factor != load_factor:
+            return None
+        return self.problem.correct(state, forces.residual.reduced, count)
 
     def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
         return state._replace(stresses=of.stresses)

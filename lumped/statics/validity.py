@@ -22,6 +22,7 @@ Each is reported with the place on the sheet where it is worst and what to chang
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -90,13 +91,12 @@ def layers(scene: Scene, assembly: Assembly, u: np.ndarray, found: Survey) -> st
     if _stretch_share(assembly, u, found) < FREE_OF_STRETCH:
         return ""
     x, y = lattice.lines
-    longest = np.maximum(x.widths[None, :], y.widths[:, None])
-    bent, j, i = sharpest_bend(*lattice.plan, u, longest)
+    bent, longest, j, i = sharpest_bend(*lattice.plan, u, x.widths, y.widths)
     if not bent > 0.0:
         return ""
     h, nu = scene.sheet.thickness, scene.material.poisson
-    width = longest[j, i] * np.sqrt(h / bent) / (12.0 * (1.0 - nu**2)) ** 0.25
-    ratio = longest[j, i] / width
+    width = longest * math.sqrt(h / bent) / (12.0 * (1.0 - nu**2)) ** 0.25
+    ratio = longest / width
     if ratio < RESOLVED:
         return ""
     where = place(lattice, int(lattice.columns()[j, i, 0]))

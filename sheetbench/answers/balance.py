@@ -10,6 +10,7 @@ flat one). What is left over is compared with what the model's own tolerance and
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -42,8 +43,8 @@ class Balance:
     @property
     def left(self) -> float:
         """The larger of the force and of the moment over the arm [N]."""
-        moment = float(np.linalg.norm(self.moment)) / self.arm if self.objective else 0.0
-        return max(float(np.linalg.norm(self.force)), moment)
+        moment = math.hypot(*self.moment.tolist()) / self.arm if self.objective else 0.0
+        return max(math.hypot(*self.force.tolist()), moment)
 
     @property
     def relative(self) -> float:

@@ -117,8 +117,12 @@ def newton(
         try:
             rows = structure.rows(state, forces, target) if serves else None
             again = rows is not None
+            once = None if again else structure.correct(state, forces, target, path.count)
             if rows is not None and factor is not None:
                 step = factor.solve(rows, SOLVED)
+            elif once is not None:
+                factor, step, rows, following = once
+                off, blurred = 0.0, last**2
             else:
                 matrix, rows = structure.system(state, forces, target)
                 near, factor = factor if not refined else None, None
@@ -131,7 +135,8 @@ def newton(
                     step, factor = found, near
         except SingularMatrixError as error:
             raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
-        following = structure.advance(state, forces, target, step)
+        if once is None:
+            following = structure.advance(state, forces, target, step)
         lengths.append(structure.length(state, following))
         off += lengths[-1]
         if not lengths[-1] < limits.farthest:

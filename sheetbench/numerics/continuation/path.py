@@ -62,10 +62,11 @@ class Path(Generic[State, Forces]):
 
     def factored(self, matrix: Matrix) -> Factor:
         """The factors of a matrix, counted. Raises SingularMatrixError."""
-        self._count()
-        return self.solver.factor(matrix, self._count)
+        self.count()
+        return self.solver.factor(matrix, self.count)
 
-    def _count(self) -> None:
+    def count(self) -> None:
+        """Count a factorisation."""
         self.factorisations += 1
 
     def tangent(self, state: State, load_factor: float) -> Matrix:

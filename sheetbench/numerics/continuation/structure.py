@@ -93,6 +93,13 @@ class Structure(Protocol[State, Forces]):
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step."""
 
+    def correct(
+        self, state: State, forces: Forces, load_factor: float, count: Count
+    ) -> tuple[Factor, np.ndarray, np.ndarray, State] | None:
+        """Return factors (counted) of `system`, their step, the right-hand side and the state after it, in
+        one, with what the last step extrapolated; None where they are not made at once."""
+        return None
+
     def with_stresses(self, state: State, of: State) -> State:
         """A state with the stresses that a step to another has extrapolated."""
 

@@ -16,10 +16,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from lumped.actuators.actuator import Acting, Drive
+from lumped.actuators.actuator import Acting, Drive, RigidMotion
 from lumped.actuators.chain import BoundChain
 from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, shared_corners, shared_ends
-from lumped.actuators.edge_motion import RigidMotion
 from lumped.coverage import held_columns, reached_parts
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene

@@ -74,7 +74,7 @@ class Run(Generic[AnyState]):
         """Go on to the end, or to a fault, from the last checkpoint or the start: how it ended. start: the
         state to begin in, with the work of what moves at once."""
         self._method.forget()
-        state, since = self._resumed() or self._sampled(start()), 0
+        state, since = self._resumed() or self._passed(start())[0].state, 0
         while self.samples <= self._schedule.samples:
             try:
                 last = self._method.go(state, self._goal(state.time) - state.time)
@@ -115,11 +115,6 @@ class Run(Generic[AnyState]):
             fault = self._take(samples)
         self.spent = self.spent + np.array([last.dissipated, last.work])
         return last, fault
-
-    def _sampled(self, start: Advance[AnyState]) -> AnyState:
-        """The start, sampled."""
-        self._passed(start)
-        return start.state
 
     def _take(self, samples: Any) -> Fault | None:
         """Keep samples up to the first that means nothing, and why it does not; energies: since the step

@@ -1,4 +1,4 @@
-"""Edges that are moved: without strain where nothing holds; at corners, with what else holds them."""
+"""Edges and supports that are moved: without strain where nothing holds; at corners, with what holds them."""
 
 from functools import cache
 
@@ -12,7 +12,19 @@ import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Chain, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Symmetric
+from sheetbench.scenes import (
+    Chain,
+    Clamped,
+    Curved,
+    EdgeMotion,
+    Gravity,
+    Held,
+    Hinged,
+    Material,
+    Scene,
+    Sheet,
+    Symmetric,
+)
 from sheetbench.scenes.objects.supports import Motion
 
 WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1
@@ -218,7 +230,7 @@ def motion_of(displacement, rotation, edge="x1"):
 
 @pytest.mark.parametrize(("model", "scale"), [("shell", 1.0), ("solid", 1.0), ("plate", 1e-4)])
 def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it(model, scale):
-    """Without strain; the plate by a small motion_of, in which nothing is longer to first order."""
+    """Without strain; the plate by a small motion, in which nothing is longer to first order."""
     shift, turn = scale * np.array([0.01, -0.02, 0.03]), scale * np.array([0.5, -0.3, 0.2])
     moved = motion_of(tuple(shift), tuple(turn), "y1")
     scene = driven(gravity=None).model_copy(update={"supports": (), "actuators": (moved,)})
@@ -232,3 +244,53 @@ def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it(model, scale):
         sides, rel=max(1e-9, 1e-8 / scale * (scale < 1))
     )
     np.testing.assert_allclose(solution.displacement([[0.094, 0.188]])[0], shift, atol=1e-12)
+
+
+SMALL = Sheet(length_x=0.1, length_y=0.04, thickness=0.002)
+SOFT = Material(young=1e6, poisson=0.3, density=1100.0)
+DOWNWARDS = Gravity(acceleration=(0.0, 0.0, -9.81))
+RAISED = (0.0, 0.0, 0.004)
+POINTS = np.array([(0.05, 0.02), (0.1, 0.0), (0.02, 0.04)])
+ALL = ["lumped", "plate", "shell", "solid"]
+
+
+def small(*supports, actuators=(), gravity=DOWNWARDS):
+    return Scene(
+        name="moved", sheet=SMALL, material=SOFT, gravity=gravity, supports=supports, actuators=actuators
+    )
+
+
+def solved(scene, model):
+    if model == "lumped":
+        springs = lumped.calibrate(SMALL, SOFT, grid=(11, 5), method="consistent")
+        found = lumped.solve(scene, springs)
+    else:
+        found = fem_reference.solve(scene, model=model, elements=2)
+    assert found.status is Status.CONVERGED, found.message
+    return found
+
+
+@pytest.mark.parametrize("model", ALL)
+def test_sheets_and_all_their_supports_move_as_one(model):
+    """The held edge moves in z alone, which is all that it holds: a translation strains nothing."""
+    along = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.003, 0.0, 0.004)))
+    free_along = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.5, 0.5, 0.004)))
+    supports = (Hinged(edge="x0", motion=along), Held(edge="x1", components=("z",), motion=free_along))
+    light = Gravity(acceleration=(0.0, 0.0, -0.981))  # the plate's slopes stay below 1
+    still = solved(small(Hinged(edge="x0"), Held(edge="x1", components=("z",)), gravity=light), model)
+    moved = solved(small(*supports, gravity=light), model)
+    expected = still.displacement(POINTS) + np.array([0.003, 0.0, 0.004])
+    assert_allclose(moved.displacement(POINTS), expected, atol=1e-8)
+
+
+def test_a_run_that_settles_ends_where_statics_are():
+    """The hinge's corner masses, held by a clamp that moves alike, are moved once."""
+    rise = Motion(time=(0.0, 0.05), displacement=((0.0, 0.0, 0.0), RAISED))
+    damped = SOFT.replace(damping_time=0.02)
+    scene = small(Clamped(edge="x0", motion=rise), Hinged(edge="y0", motion=rise)).replace(material=damped)
+    scene = scene.replace(probes={"P": (0.1, 0.04), "corner": (0.0, 0.0)})
+    springs = lumped.calibrate(SMALL, damped, grid=(7, 3), method="consistent")
+    run = lumped.simulate(scene, springs, 1.5, every=0.5, integrator="esdirk")
+    assert_allclose(run.probes["corner"][-1], RAISED, atol=1e-12)
+    rest = lumped.solve(scene, springs).displacement([(0.1, 0.04)])[0]
+    assert_allclose(run.probes["P"][-1], rest, atol=1e-4 * np.abs(rest).max())

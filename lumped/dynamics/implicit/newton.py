@@ -113,10 +113,17 @@ class Newton:
         """u of the equation. tolerance [m]: of the last correction, else the iteration's own.
         Raises StepFailed, or SingularMatrixError."""
         small = self.tolerance if tolerance is None else tolerance
-        found = (
-            None if self._compiled is None else self._solve_compiled(self._compiled, equation, guess, small)
+        if self._compiled is not None:
+            found = self._solve_compiled(self._compiled, equation, guess, small)
+            if found is not None:
+                return found
+        return self.solve(
+            (equation.mass_coefficient, equation.damping_coefficient),
+            lambda u: self._residual(equation, u),
+            lambda u: self._blocks(equation, u),
+            guess,
+            tolerance=small,
         )
-        return self._solve_general(equation, guess, small) if found is None else found
 
     def excess(self, equation: StepEquation, u: np.ndarray) -> float:
         """Return the energy [J] that u (n, 3) has too much by the equation, along stiff directions most: half
@@ -129,15 +136,6 @@ class Newton:
             return 0.5 * float(np.vdot(workspace.force, u - corrected))
         left = self._system.problem.reduce(self._residual(equation, u))
         return 0.5 * float(left @ self._factor.solve(left)) if self._factor and self._key == by else np.inf
-
-    def _solve_general(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray:
-        return self.solve(
-            (equation.mass_coefficient, equation.damping_coefficient),
-            lambda u: self._residual(equation, u),
-            lambda u: self._blocks(equation, u),
-            guess,
-            tolerance=small,
-        )
 
     def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
         """Inertia and internal less external forces (size, 3) [N]."""

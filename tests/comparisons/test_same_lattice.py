@@ -1,6 +1,7 @@
 """The same words mean the same lattice, in every verb and function: its constants, caught where the
 solver gets them."""
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -69,7 +70,9 @@ def caught(monkeypatch, tmp_path):
 
 
 def of_panel(panel):
-    return resolve(panel.scene, panel.first().lattice).springs
+    values = {name: slider.value for name, slider in panel.sliders.items()}
+    sent = {"number": 0, "values": values, "calibration": panel.start}
+    return resolve(panel.scene, panel.read(json.dumps(sent)).lattice).springs
 
 
 def verb(words):

@@ -13,6 +13,7 @@ import fem_reference
 import lumped
 from lumped import System, build_problem, step_limit
 from lumped.assembly import Assembly
+from lumped.statics import validity
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
@@ -172,3 +173,16 @@ def test_what_the_law_cannot_do_is_refused_by_name():
     scene = strip([{"edge": "x0", "kind": "clamped"}])
     with pytest.raises(ValueError, match="cannot have area, stretch and shear"):
         scenes.SpringSet.model_validate({**lattice(scene).springs.model_dump(), "area": 1.0})
+
+
+def test_layers_that_shear_alike_hold_all_the_energy_in_their_mean_stretch():
+    """Links along the sides have no energy of a shear along them; layers displaced oppositely have no mean."""
+    sheet = Sheet(length_x=0.1, length_y=0.1, thickness=1e-3)
+    material = Material(young=1e6, poisson=0.45, density=1000.0)
+    assembly = Assembly(sheet, lumped.calibrate(sheet, material, grid=5, method="hyperelastic"))
+    points, height = assembly.lattice.positions, assembly.lattice.positions[:, 2:]
+    alike = 0.02 * points[:, [1, 0, 2]] * [1.0, 1.0, 0.0]
+    for u, share in ((alike, 1.0), (alike * np.sign(height), 0.0)):
+        found = assembly.survey(u)
+        assert found.energies["axial"] < 0.01 * found.energies["rubber"]
+        assert validity._stretch_share(assembly, u, found) == pytest.approx(share, abs=0.01)

@@ -176,7 +176,7 @@ def test_what_the_law_cannot_do_is_refused_by_name():
 
 
 def test_layers_that_shear_alike_hold_all_the_energy_in_their_mean_stretch():
-    """Links along the sides have no energy of a shear along them; layers displaced oppositely have no mean."""
+    """Links along sides have no energy of a shear along them; layers displaced oppositely have no mean."""
     sheet = Sheet(length_x=0.1, length_y=0.1, thickness=1e-3)
     material = Material(young=1e6, poisson=0.45, density=1000.0)
     assembly = Assembly(sheet, lumped.calibrate(sheet, material, grid=5, method="hyperelastic"))

@@ -17,9 +17,8 @@ from lumped.contact import Contact
 from lumped.items import LatticeItem
 from lumped.loads import Loads
 from lumped.springs import all_families
-from lumped.springs.all_families import SpringArrays, Stresses
+from lumped.springs.all_families import NO_STRESSES, SpringArrays, Stresses
 from lumped.springs.survey import Survey
-from lumped.springs.tiles import NUMBA_TRUE
 from lumped.supports import Constraints
 from sheetbench.numerics import banded
 from sheetbench.numerics.continuation.newton import SOLVED
@@ -209,19 +208,19 @@ class Problem:
         return LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
 
     def correct(
-        self, state: LatticeState, rows: np.ndarray, count: Count
+        self, state: LatticeState, rows: np.ndarray, load_factor: float, count: Count
     ) -> tuple[Factor, np.ndarray, np.ndarray, LatticeState] | None:
         """Return the factors of the tangent with the stresses predicted at a state, the step (m,) [m] of the
         unknowns that they give of rows (m,) [N], these and where it leads: one compiled call, and None where
         not all is compiled."""
-        (u, load_factor), band = state[:2], self.system.band
+        u, band = state.u, self.system.band
         springs = self.assembly.at(load_factor).all_families
         if self._others or not springs.alone or band is None:
             return None
         count()
         blocks, factors, definite, step, (after, length, _, stresses, residual) = correct(
             u,
-            state.stresses,
+            state.stresses or NO_STRESSES,
             rows,
             self.loads.last_dead,
             self.driving,
@@ -282,7 +281,8 @@ def correct(
     """Return the tangent's blocks, factors in a band, whether they are such and give a finite step, that step
     from u and what `advance` makes of it."""
     none, band = np.empty(0), unknowns.band
-    blocks = all_families.tangent(u, stresses, NUMBA_TRUE, 1.0, 1.0, none, springs)
+    predicted = len(stresses[0]) + len(stresses[1]) > 0
+    blocks = all_families.tangent(u, stresses, predicted, 1.0, 1.0, none, springs)
     factors, definite = banded.factored(blocks, band)
     step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else np.zeros(len(rows))
     definite = definite and np.isfinite(np.sum(step))

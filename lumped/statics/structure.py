@@ -126,9 +126,9 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
     def correct(
         self, state: LatticeState, forces: LatticeForces, load_factor: float, count: Count
     ) -> tuple[Factor, np.ndarray, np.ndarray, LatticeState] | None:
-        if self._iterates or state.stresses is None or state.load_factor != load_factor:
+        if self._iterates or forces.moved is not None:
             return None
-        return self.problem.correct(state, forces.residual.reduced, count)
+        return self.problem.correct(state, forces.residual.reduced, load_factor, count)
 
     def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
         return state._replace(stresses=of.stresses)

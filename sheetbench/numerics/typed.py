@@ -44,7 +44,7 @@ def typed(value: T) -> T:
 
 def _key(value: Any) -> Any:
     if isinstance(value, TypedTuple):
-        return value._numba_type_
+        return id(value._numba_type_)  # of those kept, whose hash is that of all their parts
     if isinstance(value, tuple):
         return type(value), *map(_key, value)
     return (value.dtype, value.ndim, value.flags.num) if isinstance(value, np.ndarray) else type(value)

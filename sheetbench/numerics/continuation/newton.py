@@ -56,17 +56,22 @@ class Predictor(Generic[State, Forces]):
         forces = structure.forces(path.state, self.target)
         try:
             rows = None if self.factor is None else structure.rows(path.state, forces, self.target)
-            if rows is None:
+            fresh = self.factor is None and not structure.prestrained
+            once = structure.correct(path.state, forces, self.target, path.count) if fresh else None
+            if once is not None:
+                self.factor, step, rows, self.state = once
+            elif rows is None:
                 matrix, rows = structure.system(path.state, forces, self.target)
                 if structure.prestrained:  # the tangent would be of stresses at the target, nothing moved yet
                     matrix = path.tangent(path.state, path.load_factor)
                 if self.factor is None or not structure.symmetric:
                     self.factor = path.factored(matrix)
             assert self.factor is not None
-            step = self.factor.solve(rows, SOLVED)
+            if once is None:
+                step = self.factor.solve(rows, SOLVED)
+                self.state = structure.advance(path.state, forces, self.target, step)
         except SingularMatrixError as error:
             raise LoadStepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
-        self.state = structure.advance(path.state, forces, self.target, step)
         self.length = structure.length(path.state, self.state)
         self.work = abs(float(step @ rows))
 

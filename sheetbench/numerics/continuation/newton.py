@@ -100,14 +100,8 @@ def newton(
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
             settled = imbalance <= structure.imbalance_floor(state, forces)
-        touched, touching = (
-            touching,
-            [
-                one.report(structure.placed(state, target))[1] > 0.0
-                for one in structure.contacts
-                if close > 0.0
-            ],
-        )
+        touched, contacts = touching, structure.contacts if close > 0.0 else ()
+        touching = [one.report(structure.placed(state, target))[1] > 0.0 for one in contacts]
         loose = relative <= close and np.array_equal(touched, touching)
         if loose or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None

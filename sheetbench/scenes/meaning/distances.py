@@ -128,9 +128,8 @@ def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
         gaps = {"position: the flat sheet begins": nearest(scene, obstacle)[0]}
         for edge in (one.edge for one in held if one.motion is None):
             along = np.linspace(*scene.sheet.edge_ends(edge), GRID)
-            gaps[f"motion: in its last place edge {edge}, which is held, is"] = _gap(scene, obstacle, along)[
-                0
-            ]
+            where = f"motion: in its last place edge {edge}, which is held, is"
+            gaps[where] = _gap(scene, obstacle, along)[0]
         for where, gap in gaps.items():
             inside = f"{where} {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
             yield f"{name}.", inside if gap < -INSIDE * scene.sheet.thickness else None

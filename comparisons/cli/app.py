@@ -137,7 +137,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _options_of(verb: str) -> frozenset[str]:
-    """Return a verb's options, as "--symmetry"."""
+    """Return a verb's options, as "--large"."""
     return frozenset(name for one in verb_group((verb,)).commands[verb].params for name in one.opts)
 
 

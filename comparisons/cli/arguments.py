@@ -4,7 +4,7 @@
 
     [compare]
     elements = 24
-    symmetry = true
+    large = true
 
 A flag that is false is left out, as on the command line. They stand before the options of the command line,
 which therefore win, and are kept with the command beside its results.
@@ -30,7 +30,7 @@ def with_defaults(
 ) -> list[str]:
     """Return a command's arguments with the options of its verb's table behind the verb, and say so.
 
-    options_of: a verb's options, as "--symmetry". Raises Refused for a file that cannot be read, tables of no
+    options_of: a verb's options, as "--large". Raises Refused for a file that cannot be read, tables of no
     verb, keys that are no option and values that no option takes.
     """
     verb, *others = arguments or [""]

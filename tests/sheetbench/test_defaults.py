@@ -7,7 +7,7 @@ from comparisons.cli.arguments import FILE
 from comparisons.cli.arguments import with_defaults as with_defaults_of
 
 VERBS = ("compare", "modes")
-OPTIONS = ("grid", "layer-distance", "uncertainty", "no-uncertainty", "model", "symmetry", "count", "large")
+OPTIONS = ("grid", "layer-distance", "uncertainty", "no-uncertainty", "model", "animate", "count", "large")
 
 
 def with_defaults(arguments, verbs):
@@ -22,9 +22,9 @@ def folder(tmp_path, monkeypatch):
 
 def test_options_of_the_file_come_before_those_of_the_command(folder, capsys):
     text = '[compare]\ngrid = "3"\nlayer_distance = -1\nuncertainty = false\nmodel = ["a", "b"]\n'
-    text += "symmetry = true\nlarge = false\n"
+    text += "animate = true\nlarge = false\n"
     (folder / FILE).write_text(text + "[modes]\ncount = 2\n", encoding="utf-8")
-    options = ["--grid=3", "--layer-distance=-1", "--no-uncertainty", "--model=a", "--model=b", "--symmetry"]
+    options = ["--grid=3", "--layer-distance=-1", "--no-uncertainty", "--model=a", "--model=b", "--animate"]
     assert with_defaults(["compare", "S", "--grid", "5"], VERBS) == ["compare", *options, "S", "--grid", "5"]
     assert capsys.readouterr().err == f"{FILE}: compare {' '.join(options)}\n"
     assert with_defaults(["modes", "S", "--quiet"], VERBS) == ["modes", "--count=2", "S", "--quiet"]

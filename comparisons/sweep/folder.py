@@ -55,8 +55,8 @@ class Folder:
         if mixed and not overwrite:
             name, difference = next(iter(mixed.items()))
             raise BadInput(
-                f"{option} = '{path}': holds files of another '{name}' (of another {difference}); choose another "
-                "folder, or --overwrite"
+                f"{option} = '{path}': holds files of another '{name}' (of another {difference}); "
+                "choose another folder, or --overwrite"
             )
         self._stale = [name for name in {**mixed, verb: ""} if name in self._runs] if overwrite else []
 

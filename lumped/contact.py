@@ -120,9 +120,7 @@ class Contact(LatticeItem):
 
     def _spread(self, values: np.ndarray, out: np.ndarray, of: Any = ...) -> np.ndarray:
         """Add what points (m, p, …) of patches share to the masses' (n, …), and return that."""
-        touched = values.any(axis=tuple(range(1, values.ndim)))
-        shares = np.einsum("pq,mp...->mq...", self.weights, values[touched])
-        np.add.at(out, self.nodes[of][touched], shares)
+        np.add.at(out, self.nodes[of], np.einsum("pq,mp...->mq...", self.weights, values))
         return out
 
     def _spread_blocks(self, points: np.ndarray, blocks: np.ndarray, of: Any) -> None:

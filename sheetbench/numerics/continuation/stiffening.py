@@ -27,7 +27,7 @@ from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
 LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
-LOOSE = 0.03  # residual at which soft load steps end, and stages but the last
+LOOSE = 0.05  # residual at which soft load steps end, and stages but the last
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 

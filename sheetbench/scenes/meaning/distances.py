@@ -143,7 +143,7 @@ def require_no_obstacles(scene: SceneFields, who: str) -> None:
 
 def require_frictionless(scene: SceneFields) -> None:
     """Raise SceneError where an obstacle has friction, for a sheet at rest."""
-    why = "the answer at rest depends on the path; let it settle in motion (--duration), or take friction = 0"
+    why = "at rest the answer depends on the path; let it settle in motion (--duration), or take friction = 0"
     for name, one in scene.named_obstacles().items():
         if one.friction > 0.0:
             raise SceneError(f"scene '{scene.name}': {name}.friction = {one.friction:g}: {why}")

@@ -4,7 +4,7 @@ Along a load path of stiff penalties row after row of points comes to act, each 
 method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. So soft
 ones are raised at the full load in stages of equal factors, each Newton's method from the last shape with the
 stresses that it extrapolated; all but the last end at a small residual. One that fails takes the square root
-of its factor. What is said of the end is that of the last stage. Where soft penalties lead nowhere, or through
+of its factor. What is said of the end is that of the last stage. Where soft penalties lead nowhere or through
 an obstacle, `settle` begins again from rest with stiff ones, in so many load steps that no obstacle moves by
 more than a quarter of its radius in one.
 

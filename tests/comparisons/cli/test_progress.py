@@ -4,11 +4,9 @@ nothing with --quiet; in characters that a terminal has."""
 import io
 import logging
 import sys
-from concurrent.futures import Executor, Future
 from typing import Any
 
 import pytest
-from campaigns import task
 from commands import run
 from rich.console import Console
 
@@ -26,7 +24,7 @@ from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
 from comparisons.pictures import work
 from comparisons.pictures.work import Pace, Work
-from comparisons.sweep.campaign import GOING, Progress, campaign, carry_out
+from comparisons.sweep.campaign import GOING, Progress
 from sheetbench.answers.size import Size
 from sheetbench.answers.solution import Iteration
 
@@ -129,31 +127,6 @@ def test_a_fit_tells_what_it_is_trained_on():
     with running(progress=reports.append):
         calibrate(training_scenes(*parts())[0], spec, named=False)
     assert [one.doing.split()[0] for one in reports] == ["training", "training", "fitting"]
-
-
-class Two(Executor):
-    """A pool whose runs end when both have begun."""
-
-    def __init__(self, workers):
-        self.begun: list[tuple[Future[Any], Any, tuple[Any, ...]]] = []
-
-    def submit(self, work, /, *arguments, **named):
-        future: Future[Any] = Future()
-        self.begun.append((future, work, arguments))
-        if len(self.begun) == 2:
-            for one, does, what in self.begun:
-                one.set_result(does(*what))
-        return future
-
-
-def test_a_campaign_tells_which_runs_go_on(tmp_path):
-    seen: list[Progress] = []
-    with campaign(tmp_path) as store:
-        runs = [task("square", x=x) for x in (1.0, 2.0)]
-        carry_out(runs, store, pool=Two, workers=2, progress=seen.append)
-    assert [(p.done, p.status, len(p.going)) for p in seen] == [
-        *((0, GOING, 1), (0, GOING, 2), (1, "done", 1), (2, "done", 0)),
-    ]
 
 
 @pytest.mark.parametrize("terminal", [True, False])

@@ -80,11 +80,10 @@ def newton(
     path: Path[State, Forces], first: Start[State] | Predictor[State, Forces], close: float = 0.0
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those at hand are,
-    which next to nothing has changed since. close: a residual that is good enough once a
-    correction has left the same points touching obstacles. Raises StepFailed."""
+    which next to nothing has changed since. close: a residual that is good enough. Raises
+    StepFailed."""
     structure, limits = path.structure, path.limits
     state, target, before = first.state, first.target, np.inf
-    touching: list[np.ndarray] = []
     factor = first.factor if structure.linear and isinstance(first, Predictor) else None
     off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
     works, lengths = [first.work], [first.length]
@@ -100,10 +99,7 @@ def newton(
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
             settled = imbalance <= structure.imbalance_floor(state, forces)
-        touched, contacts = touching, structure.contacts if close > 0.0 else ()
-        touching = [one.report(structure.placed(state, target))[1] > 0.0 for one in contacts]
-        loose = relative <= close and np.array_equal(touched, touching)
-        if loose or (settled and structure.gap(state, target) <= limits.tolerance):
+        if relative <= close or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None
         last, back = lengths[-1], limits.back
         if len(lengths) > back and last >= max(lengths[-1 - back], limits.shrinking * lengths[-2]):

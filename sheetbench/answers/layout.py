@@ -7,7 +7,7 @@ columns that name the rows. Only a word longer than the width itself is broken.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from io import StringIO
 from itertools import pairwise, repeat
@@ -65,16 +65,13 @@ class _Strip:
         return [*lines, self.unit] if self.unit else lines
 
 
-def blocks(table: Table, width: int | None, say: Callable[[str], str] = terminal) -> list[Block]:
+def blocks(table: Table, width: int | None) -> list[Block]:
     """Return the table without its details, in blocks of at most `width` columns of text; without one, in
-    one.
-
-    say: what makes a text fit to be shown, before it is laid out.
-    """
+    one."""
     brief, width = table.brief(), width and max(width, LEAST)
-    shown = [[say(text) for text in row] for row in brief.shown_rows()]
+    shown = [[terminal(text) for text in row] for row in brief.shown_rows()]
     strips = [
-        _Strip(column, say(column.title), say(column.bracketed_unit), [row[i] for row in shown])
+        _Strip(column, terminal(column.title), terminal(column.bracketed_unit), [row[i] for row in shown])
         for i, column in enumerate(brief.columns)
     ]
     firsts = strips[0].cells

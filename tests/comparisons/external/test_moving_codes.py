@@ -73,6 +73,7 @@ def test_a_motion_that_another_code_is_not_given_says_why(code):
         r"\[air\] out": SWING.replace(air=Air(drag=1.0)),
         "with a history": SWING.replace(gravity=Gravity((0.0, 0.0, -9.81), history=grown)),
         "bent or turned": load("curved-edge"),
+        r"\[\[mass\]\]": SWING.replace(masses=({"at": (0.1, 0.1), "mass": 0.1},)),
         "driven": SWING.replace(supports=(), actuators=(DRIVEN,)),
     }
     for why, scene in scenes.items():

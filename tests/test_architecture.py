@@ -85,6 +85,13 @@ def imported(path):
     return {second if (second := ".".join(part[:2])) in GROUND else part[0] for part in ours}
 
 
+def circles(graph):
+    """Return what of a graph, name to the names that it imports, lies on circles or leads to one."""
+    while leaves := {name for name, below in graph.items() if not below & graph.keys()}:
+        graph = {name: below for name, below in graph.items() if name not in leaves}
+    return sorted(graph)
+
+
 @pytest.mark.parametrize("package", ALLOWED)
 def test_imports_run_one_way(package):
     files = sorted((ROOT / package).rglob("*.py"))
@@ -119,9 +126,7 @@ def test_rooms_of_the_comparisons_import_from_lower_floors():
             if parts[0] == "comparisons" and len(parts) > 2 and ":" not in name:
                 assert FLOORS[parts[1]] <= FLOORS[room], f"{path.relative_to(ROOT)} imports {name}"
                 below[room].add(parts[1])
-    while leaves := {room for room, others in below.items() if not others & below.keys() - {room}}:
-        below = {room: others for room, others in below.items() if room not in leaves}
-    assert not below, f"rooms that import each other: {', '.join(sorted(below))}"
+    assert not circles({room: others - {room} for room, others in below.items()})
 
 
 def test_contributors_read_of_every_room():
@@ -169,9 +174,7 @@ def test_no_file_imports_itself_by_way_of_others(package):
         return found
 
     graph = {name: modules(path) for name, path in files.items() if path.name != "__init__.py"}
-    while leaves := {name for name, below in graph.items() if not below & graph.keys()}:
-        graph = {name: below for name, below in graph.items() if name not in leaves}
-    assert not graph, f"import circles among {', '.join(sorted(graph))}"
+    assert not circles(graph)
 
 
 ROOMS_OF_SCENES = {"language": 0, "objects": 1, "meaning": 2}  # what is in no room is above them
@@ -188,9 +191,7 @@ def test_rooms_of_the_scenes_import_from_lower_floors_and_in_no_circle():
         floors = [ROOMS_OF_SCENES.get(other.split(".")[2], 3) for other in graph[name]]
         own = ROOMS_OF_SCENES.get(name.split(".")[2], 3)
         assert max(floors, default=0) <= own, f"{name} imports from a higher floor"
-    while leaves := {name for name, below in graph.items() if not below & graph.keys()}:
-        graph = {name: below for name, below in graph.items() if name not in leaves}
-    assert not graph, f"import circles among {', '.join(sorted(graph))}"
+    assert not circles(graph)
 
 
 def test_every_figure_is_there():
@@ -251,15 +252,6 @@ def test_what_is_private_stays_in_its_file(package):
     for path in sorted((ROOT / package).rglob("*.py")):
         for module, name in names_from(path):
             assert not name.startswith("_"), f"{path.relative_to(ROOT)} imports {name} from {module}"
-
-
-def test_the_reader_sees_every_way_to_import(tmp_path):
-    file = tmp_path / "sample.py"
-    file.write_text(
-        "import lumped.springs.links as s\nfrom comparisons import models\n"
-        'from sheetbench import scenes\nM = {"a": "fem_reference.shell.statics"}\n'
-    )
-    assert imported(file) == {"lumped", "comparisons", "fem_reference", "sheetbench.scenes"}
 
 
 @pytest.mark.parametrize("package", ["lumped", "fem_reference", "comparisons", "studies"])

@@ -21,7 +21,6 @@ from sheetbench.scenes import (
     Scene,
     Sheet,
     Symmetric,
-    load,
 )
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.objects.natural import Natural, Temperature
@@ -280,38 +279,3 @@ def test_a_free_dome_snaps_into_a_cylinder_at_the_same_curvature_in_both_models(
     for found, rel in ((shell, 0.02), (lattice, 0.1)):
         rise = np.sort(np.abs(found.displacement([[0.1, 0.0], [0.0, 0.1]])[:, 2])) / h
         assert rise[1] == pytest.approx(3.78, rel=rel) and rise[0] == pytest.approx(0.45, abs=0.06)
-
-
-@pytest.mark.nightly
-def test_a_bistable_bilayer_is_snapped_by_the_same_force_in_both_models():
-    """An arch on its corners, pushed down in its middle step by step, each answer from the last one's shape,
-    up to the force at which it has no shape beside that any more. The lattice is of second order: from 9
-    masses, 3 % above, to 17. Forces within 0.2 %."""
-    of, middle = load("bistable-bilayer"), np.array([[0.05, 0.05]])
-    own = lumped.calibrate(of.sheet, of.material, (17, 17, 2), cells=lumped.sections_of(of, (17, 17, 2)))
-
-    def by_lattice(pushed, near):
-        found = lumped.solve(pushed, own, near=near)
-        return found, found.mesh.point_data["displacement"]
-
-    def by_shell(pushed, near):
-        found = fem_reference.solve(pushed, "shell", elements=8, near=near)
-        return found, lambda points: found.displacement(points[:, :2])
-
-    def path(solve):
-        force, step, near, rises = 0.0, 0.2, None, {}
-        while step > 1.5e-3:
-            push = of.loads[0].replace(force=(0.0, 0.0, -force - step * bool(rises)), history=None)
-            found, shape = solve(of.replace(loads=(push,)), near)
-            assert found.succeeded, found.message
-            if (rise := found.displacement(middle)[0, 2]) > 0.0:
-                force, near = force + step * bool(rises), shape
-                rises[round(force, 6)] = rise
-            else:  # upside down
-                step /= 2.0
-        return force, rises
-
-    (lattice, on_lattice), (shell, on_shell) = path(by_lattice), path(by_shell)
-    assert lattice == pytest.approx(shell, rel=0.01) and shell == pytest.approx(0.777, rel=5e-3)
-    for force in (0.0, 0.2, 0.4, 0.6):
-        assert on_lattice[force] == pytest.approx(on_shell[force], rel=0.01)

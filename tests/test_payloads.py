@@ -4,18 +4,14 @@ import numpy as np
 import pytest
 from cases import sheet
 from scipy.optimize import brentq
-from sheetbench_felupe import MODEL as FELUPE
-from sheetbench_mujoco import MODEL as MUJOCO
 
 import fem_reference
 import lumped
 from comparisons.external.bricks import Bricks, forces
-from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.calculix.model import deck
-from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.model import Triangles, problem
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Gravity, Material, PointLoad
+from sheetbench.scenes import Gravity, Material
 from sheetbench.scenes.meaning.parameters import parameter, put
 
 LENGTH, WIDTH, THICK, YOUNG, DENSITY, TIP = 0.2, 0.02, 0.003, 2e6, 1100.0, 5e-3
@@ -154,25 +150,6 @@ def test_judges_are_given_the_weight():
     pointed = strip(body(at=(0.17, 0.013)))
     handed = problem(pointed, Triangles.of(pointed.sheet, 2), np.ones(1))["force"]
     assert handed.sum(axis=0) == pytest.approx([0.0, 0.0, -TIP * 9.81])
-
-
-@pytest.mark.parametrize("judge", [FELUPE, MUJOCO], ids=lambda judge: judge.name)
-def test_a_judge_answers_a_payload_as_a_force(judge):
-    pytest.importorskip(judge.name)
-    pull = PointLoad(at=(LENGTH, WIDTH / 2.0), force=(0.0, 0.0, -9.81 * TIP))
-    size = {"elements": 2} if judge is FELUPE else {"grid": [11, 3]}
-    scenes = strip(body(), young=2e8), strip(loads=(pull,), young=2e8)
-    found = [judge.solve(scene, {**judge.settings, **size}) for scene in scenes]
-    assert all(one.status is Status.CONVERGED for one in found)
-    # MuJoCo stops within 1e-4 of the side, on another way there
-    assert np.allclose(*(ending(scenes[0], one) for one in found), rtol=0.0, atol=2e-4 * LENGTH)
-
-
-@pytest.mark.parametrize("judge", [CALCULIX, KRATOS], ids=lambda judge: judge.name)
-def test_a_judge_of_motions_refuses_what_it_has_no_inertia_for(judge):
-    scene = strip(body(), loads=())
-    assert "[[mass]]" in judge.refusal_of_motion(scene, judge.settings)
-    assert "[[mass]]" not in judge.refusal_of_motion(scene.replace(masses=()), judge.settings)
 
 
 @pytest.mark.parametrize("name", ["mass1", "young"])

@@ -189,7 +189,6 @@ class CampaignOptions(Group):
     no_effect: ClassVar[dict[str, str]] = {"without_out": "retry"}
     workers: Annotated[int | None, Kind(least=1)] = None
     scheduler: str | None = None
-    wait: bool = False
     retry: bool = False
 
 
@@ -199,7 +198,6 @@ class ClusterOptions(CampaignOptions):
 
     Args:
         scheduler (ADDRESS): A dask scheduler, as tcp://host:8786.
-        wait: With --scheduler: wait where there is no worker, instead of stopping.
     """
 
-    no_effect: ClassVar[dict[str, str]] = {"without_scheduler": "wait", "with_scheduler": "workers"}
+    no_effect: ClassVar[dict[str, str]] = {"with_scheduler": "workers"}

@@ -11,7 +11,7 @@ from comparisons.cli.verb import no_effect
 from comparisons.tradeoff import usual
 from sheetbench.choices import INTEGRATORS, REFERENCES
 
-OF_ROWS = "lumped_pair model symmetry elements repeats duration integrator workers scheduler wait retry"
+OF_ROWS = "lumped_pair model symmetry elements repeats duration integrator workers scheduler retry"
 
 
 @no_effect(

@@ -102,22 +102,3 @@ def heavy_elastica(drop: float, per: float = 0.01) -> tuple[float, float, float]
 
     z = fsolve(lambda z: ends(z) * [1, s0, 1 / drop], [6 * drop / s0, 2 / 3, 1.0])
     return z[2] * s0, z[1] * s0, per * z[0] / s0
-
-
-def laid_shape(drop: float, at: list[float], per: float = 0.01) -> np.ndarray:
-    """Displacements along and up (n, 2) [m] of that strip at places along it [m]."""
-    lift_off, carried, moment = heavy_elastica(drop, per)
-
-    def slope(s: float, y: np.ndarray) -> list[float]:
-        return [y[1], -(carried - s) * np.cos(y[0]) / per, np.cos(y[0]), -np.sin(y[0])]
-
-    found = solve_ivp(
-        slope, [0, lift_off], [0, moment / per, 0, 0], rtol=1e-10, atol=1e-12, dense_output=True
-    )
-    hanging = [found.sol(min(s, lift_off))[2:] for s in at]
-    return np.array(
-        [
-            (x + max(s - lift_off, 0.0) - s, z if s < lift_off else -drop)
-            for s, (x, z) in zip(at, hanging, strict=True)
-        ]
-    )

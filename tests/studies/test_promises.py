@@ -114,13 +114,6 @@ def test_advice_keeps_its_tolerance_on_two_drawn_scenes_and_has_a_cost(store, mo
     assert rows[0].cost is not None and rows[1].cost is None
 
 
-@pytest.mark.slow
-def test_advice_on_forty_drawn_scenes(store):
-    rows, skipped = study.advised(store, workers=2)
-    shares = Promises(tuple(rows), skipped).shares()
-    assert len(shares) == len(study.TOLERANCES) and all(row.met for row in shares)
-
-
 def test_on_the_stored_scenes_errors_are_expected_within_a_factor_of_two():
     """On four of five of each group's cases that have an estimate, never three times it; four of five have
     one."""
@@ -134,21 +127,12 @@ def test_on_the_stored_scenes_errors_are_expected_within_a_factor_of_two():
 @pytest.mark.parametrize("name", ["hinged-corner", "auxetic-two", "pull-hard"])
 def test_the_stored_displacements_are_the_lattices(name):
     """Of scenes that the rule by layers' widths got wrong."""
-    require_stored(stored()[name], 2, 1e-5)
-
-
-@pytest.mark.slow
-def test_the_stored_lattices_are_todays():
-    for row in stored().values():
-        require_stored(row, None, 1e-4)
-
-
-def require_stored(row, most, tolerance):
-    for known in row["lattices"][:most]:
+    row = stored()[name]
+    for known in row["lattices"][:2]:
         answer = lattice(row["scene"], tuple(known["grid"]))
         assert answer["status"] == known["status"], row["scene"].name
         size = np.abs(known["probes"]).max()
-        np.testing.assert_allclose(answer["probes"], known["probes"], atol=tolerance * size)
+        np.testing.assert_allclose(answer["probes"], known["probes"], atol=1e-5 * size)
 
 
 def test_the_command_writes_what_it_counted(tmp_path, capsys, in_process, monkeypatch):

@@ -134,7 +134,6 @@ ROWS = {
     f"tradeoff {TWO} --lumped '' --plate '' --shell '' --solid ''": "no model left",
     f"compare {ONE} --uncertainty --no-uncertainty": "--uncertainty and --no-uncertainty: give one",
     f"compare {ONE} --duration 0.1 --branch path": "--branch: no effect with --duration",
-    f"tradeoff {ONE} --wait": "--wait: no effect without --scheduler",
     f"tradeoff {ONE} --retry": "--retry: no effect without --out",
     f"tradeoff {ONE} --workers 2 --scheduler tcp://127.0.0.1:9": "--workers: no effect with --scheduler",
     f"crosscheck {ONE} --duration 0.1 --judges '' --workers 2": "--workers: no effect with --duration",

@@ -139,16 +139,6 @@ def test_naming_a_calibration_leaves_no_companion(scene):
     assert alone.solutions[0].settings["calibration"] == "uniform"
 
 
-@pytest.mark.parametrize(
-    ("load", "said"), [(64.0, "times are too long: the machine was busy (load 64"), (0.1, "")]
-)
-def test_times_of_a_busy_machine_are_said_to_be_so(quick, scene, monkeypatch, load, said):
-    monkeypatch.setattr("os.getloadavg", lambda: (load, load, load))
-    monkeypatch.setattr("os.cpu_count", lambda: 8)
-    text = compare(scene, Lattice(3), elements=2, uncertainty=False, companion=False).report().tables[1].text
-    assert text.startswith(said) and bool(text) == bool(said)
-
-
 def test_the_pull_of_a_stretched_sheet_stands_beside_the_costs():
     """Of supports that are moved; the vectors of all supports are in the tables that are written."""
     moved = {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]]}

@@ -16,7 +16,7 @@ from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.models.spec import Lattice
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
-from sheetbench.scenes import Sphere, load
+from sheetbench.scenes import load
 from sheetbench.scenes.objects.supports import Motion
 
 SMALL = {"grid": 5, "elements": 2}
@@ -162,31 +162,6 @@ def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
         for probe, u in one.probes.items():
             assert np.array_equal(second.histories[name].probes[probe], u)
     assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
-
-
-def test_an_obstacle_that_comes_up_is_seen_where_it_is(tmp_path):
-    """A ball below a sheet, pale brown on white: its lower end is higher in the last frame."""
-    from PIL import Image
-
-    from comparisons.pictures import offscreen
-
-    if impossible := offscreen.why_not():
-        pytest.skip(impossible)
-    rise = Motion(time=(0.0, 0.02), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.03)))
-    ball = Sphere(position=(0.094, 0.094, -0.1), radius=0.04, motion=rise)
-    scene = sb.load("one-edge-clamped").replace(obstacles=(ball,), gravity=None)
-    both = compare_motion(scene, 0.02, Lattice(3), elements=2, uncertainty=False, every=0.01, frames=2)
-    assert replace(both, animate=True).figures()[-1].write(tmp_path) is None
-    heights = []
-    with Image.open(tmp_path / "both.gif") as image:
-        for number in range(2):
-            image.seek(number)
-            pixels = np.asarray(image.convert("RGB"), dtype=int)
-            pale = ((pixels[..., 0] - pixels[..., 2] > 8) & (pixels.min(axis=2) > 110))[:220]  # over the bar
-            middle = pale.shape[1] // 2
-            halves = [np.flatnonzero(half.sum(axis=1) > 10) for half in (pale[:, :middle], pale[:, middle:])]
-            heights.append([rows.max() for rows in halves])
-    assert np.all(np.array(heights[1]) < np.array(heights[0]) - 5)
 
 
 def test_an_undamped_sheet_is_said_not_to_settle():

@@ -9,7 +9,6 @@ import pytest
 from sheetbench_felupe import LAWS as FELUPE_LAWS
 from sheetbench_felupe import MODEL as FELUPE
 
-import fem_reference
 from comparisons.comparison.comparison import error
 from comparisons.external import answer as external
 from comparisons.external.answer import ExternalCode
@@ -20,6 +19,7 @@ from comparisons.external.kratos.model import MODEL as KRATOS
 from fem_reference.verification.strain_laws import RUBBERS
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
+from sheetbench.face import solve
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
     Chain,
@@ -27,6 +27,7 @@ from sheetbench.scenes import (
     Curved,
     EdgeLoad,
     EdgeMotion,
+    Gravity,
     Held,
     Hinged,
     PointLoad,
@@ -39,10 +40,6 @@ from sheetbench.scenes import (
 
 JUDGES: tuple[ExternalCode, ...] = (CALCULIX, KRATOS, FELUPE)
 SEED = load("two-edges-clamped")
-
-
-def changed(**changes):
-    return SEED.model_copy(update=changes)
 
 
 def needed(judge):
@@ -84,8 +81,8 @@ def test_results_that_cannot_be_read_are_one_line(damage):
     ("code", "said"),
     [
         ("import sys; print(' *ERROR in sheet: no good'); sys.exit(3)", "exit status 3: .*no good"),
-        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by signal 11"),
-        ("import time; time.sleep(60)", "stopped: no answer within 0.5 s"),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by SIGSEGV"),
+        ("import time; time.sleep(60)", "no answer within 0.5 s"),
         ("", "cannot be started: No such file"),
     ],
 )
@@ -107,9 +104,9 @@ def fake_program(folder, monkeypatch, script):
 @pytest.mark.parametrize(
     ("script", "said"),
     [
-        ("echo '*ERROR in gen3delem: boom'; exit 201", "CalculiX: left with exit status 201: .*boom"),
+        ("echo '*ERROR in gen3delem: boom'; exit 201", "CalculiX: exit status 201: .*boom"),
         ("echo nonsense > sheet.dat", "CalculiX: its .dat file has no displacements"),
-        ("kill -9 $$", "CalculiX: ended by signal 9"),
+        ("kill -9 $$", "CalculiX: ended by SIGKILL"),
     ],
 )
 def test_a_judge_that_fails_is_an_answer_with_a_status(tmp_path, monkeypatch, script, said):
@@ -129,15 +126,6 @@ def test_a_judge_that_is_not_here_says_what_it_needs(monkeypatch):
     monkeypatch.setattr(type(KRATOS), "version", lambda self: None)
     with pytest.raises(BadInput, match=r"sheetbench\[kratos\]"):
         KRATOS.solve(SEED, KRATOS.settings)
-
-
-@pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
-def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge):
-    needed(judge)
-    chain = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
-    for scene in (changed(actuators=(chain,)), changed(loads=(EdgeLoad(edge="x1", moment_per_length=0.1),))):
-        solution = judge.solve(scene, judge.settings)
-        assert solution.status is Status.REFUSED and len(solution.remarks) == 1
 
 
 @pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
@@ -167,6 +155,10 @@ SHIFT = EdgeMotion(
     displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.005)),
     rotation=((0.0, 0.0, 0.0), (0.1, 0.0, 0.0)),
 )
+FIBRES = {"kind": "orthotropic", "young_1": 9e6, "young_2": 3e6, "poisson_12": 0.3, "shear_12": 1e6,
+          "shear_23": 1e6, "angle": 0.5, "density": 1000.0}  # fmt: skip
+DISC = {"circle": {"centre": (0.09, 0.1), "radius": 0.05}}
+FIN = [(0.0, 0.0), (0.188, 0.05), (0.188, 0.138), (0.0, 0.188)]
 WORDS: dict[str, dict[str, Any]] = {
     "pressure": {"supports": tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1")), "gravity": None,
         "loads": (Pressure(value=300.0),)},
@@ -178,21 +170,47 @@ WORDS: dict[str, dict[str, Any]] = {
     "motion": {"supports": (Clamped(edge="x0"),), "actuators": (SHIFT,)},
     "half": {"supports": (Clamped(edge="x0"), Symmetric(edge="y0"))},
     "curved": {"supports": (Curved(edge="x0", curvature=-1.0),)},
+    "fin": {"outline": FIN, "taper_x": (0.003, 0.002), "supports": (Clamped(edge="x0"),)},
+    "pouch": {"supports": tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")), "gravity": None,
+        "loads": (Pressure(value=2000.0, where=DISC),)},
+    "fibres": {"outline": FIN, "material": FIBRES, "supports": (Clamped(edge="x0"),),
+        "gravity": Gravity((0.0, 0.0, -1.0))},
+    "slab": {"patches": [{"shape": {"rectangle": {"x": (0.0, 0.188), "y": (0.0, 0.1)}}, "young": 1e8}]},
 }  # fmt: skip
+DRAWN = ("fin", "pouch", "fibres", "slab")  # for CalculiX, on 10 elements within 0.5 % of the shell
+
+
+ROD = Chain(edge="x1", segments=2, bending_stiffness=1.0, line_density=1.0, radius=1e-3)
+PLIES = [{"thickness": 0.001, "angle": a} for a in (0.0, 1.0, 0.0)]
+UNKNOWN = {  # to every judge, and the word that it says
+    "actuator": {"actuators": (ROD,)},
+    "moment": {"loads": (EdgeLoad(edge="x1", moment_per_length=0.1),)},
+    "patch": {"patches": [{"shape": DISC, "thickness": 0.004}]},
+    "layer": {"layers": PLIES, "material": FIBRES},
+}
+
+
+@pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
+@pytest.mark.parametrize("word", UNKNOWN)
+def test_a_judge_refuses_what_it_cannot_take_in_a_sentence(judge, word):
+    needed(judge)
+    solution = judge.solve(SEED.replace(**UNKNOWN[word]), {**judge.settings, "elements": 3})
+    assert solution.status is Status.REFUSED and len(solution.remarks) == 1
+    assert word in solution.message
 
 
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("word", WORDS)
 def test_a_scenes_words_mean_the_same_to_every_judge(word):
-    """Within what coarse meshes leave: 4 × 4 bricks, 8 × 8 × 2 Kirchhoff triangles, whose error is O(h²).
-
-    A curved edge has a narrow layer: 4.4 % with 4 bricks, 0.5 with 6, 0.2 with 8.
-    """
-    scene = changed(**WORDS[word], probes=PROBES)
-    truth = fem_reference.solve(scene, model="shell", elements=6).displacement(scene.probe_points())
-    here = [judge for judge in JUDGES if judge.version() is not None]
+    """Within what coarse meshes leave; a curved edge has a narrow layer, 4.4 % with 4 bricks."""
+    drawn = word in DRAWN
+    scene = SEED.replace(**WORDS[word], probes={} if drawn else PROBES)
+    truth = solve(scene, "shell", elements=12 if drawn else 6).displacement(scene.probe_points())
+    here = [judge for judge in (JUDGES[:1] if drawn else JUDGES) if judge.version() is not None]
     for judge in here:
         elements, within = (8, 0.04) if judge is KRATOS else (4, 0.05 if word == "curved" else 0.02)
+        if drawn:
+            elements, within = 10, 0.005
         solution = judge.solve(scene, {**judge.settings, "elements": elements})
         assert solution.status is Status.CONVERGED, (judge.name, solution.message)
         off = error(solution.displacement(scene.probe_points()), truth)
@@ -231,65 +249,6 @@ def test_stretched_rubber_is_our_solid_s_or_refused_by_name(judge, rubber):
         assert found.status is Status.REFUSED and f"law '{rubber.law}'" in found.message
         return
     end = np.array([[0.1, 0.025]])
-    ours = fem_reference.solve(scene, "solid", elements=2).displacement(end)[0, 0]
+    ours = solve(scene, "solid", elements=2).displacement(end)[0, 0]
     assert found.status is Status.CONVERGED and ours > 0.5 * scene.sheet.length_x
     assert found.displacement(end)[0, 0] == pytest.approx(ours, rel=1e-3 if judge is FELUPE else 3e-3)
-
-
-def test_rubber_that_is_not_nearly_incompressible_is_none_of_calculix():
-    needed(CALCULIX)
-    for settings, why in (({}, "near ν = ½"), ({"linear": True}, "not linear")):
-        found = CALCULIX.solve(pulled_rubber(RUBBERS[0]), {**CALCULIX.settings, **settings})
-        assert found.status is Status.REFUSED and why in found.message
-
-
-FIBRES = {"kind": "orthotropic", "young_1": 9e6, "young_2": 3e6, "poisson_12": 0.3, "shear_12": 1e6,
-          "shear_23": 1e6, "angle": 0.5, "density": 1000.0}  # fmt: skip
-DISC = {"circle": {"centre": (0.09, 0.1), "radius": 0.05}}
-FIN = [(0.0, 0.0), (0.188, 0.05), (0.188, 0.138), (0.0, 0.188)]
-DRAWINGS: dict[str, dict[str, Any]] = {
-    "fin": {
-        "sheet": SEED.sheet.replace(outline=FIN, taper_x=(0.003, 0.002)),
-        "supports": (Clamped(edge="x0"),),
-    },
-    "pouch": {
-        "supports": tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")),
-        "gravity": None,
-        "loads": (Pressure(value=2000.0, where=DISC),),
-    },
-    "fibres": {
-        "sheet": SEED.sheet.replace(outline=FIN),
-        "material": FIBRES,
-        "supports": (Clamped(edge="x0"),),
-        "gravity": {"acceleration": (0.0, 0.0, -1.0)},
-    },
-    "slab": {
-        "patches": [{"shape": {"rectangle": {"x": (0.0, 0.188), "y": (0.0, 0.1)}}, "young": 1e8}]
-    },
-}  # fmt: skip
-
-
-@pytest.mark.sweep(4)
-@pytest.mark.parametrize("drawing", DRAWINGS)
-def test_the_shell_is_the_bricks_of_calculix_on_drawn_sheets(drawing):
-    """Bricks of 6, 8 and 10 across are 0.56, 0.18, 0.14 % (fin) and 0.36, 0.55, 0.26 % (pouch) off a shell of
-    24 elements."""
-    needed(CALCULIX)
-    scene = SEED.replace(**DRAWINGS[drawing], probes={})
-    points = scene.probe_points()
-    found = CALCULIX.solve(scene, {**CALCULIX.settings, "elements": 10})
-    assert found.status is Status.CONVERGED, found.message
-    off = error(
-        found.displacement(points), fem_reference.solve(scene, "shell", elements=12).displacement(points)
-    )
-    assert off is not None and off < 0.005
-
-
-@pytest.mark.parametrize("judge", JUDGES, ids=lambda judge: judge.name)
-def test_a_drawn_sheet_is_refused_by_the_word_that_a_judge_does_not_know(judge):
-    needed(judge)
-    thick = SEED.replace(patches=[{"shape": DISC, "thickness": 0.004}])
-    plies = SEED.replace(layers=[{"thickness": 0.001, "angle": a} for a in (0.0, 1.0, 0.0)], material=FIBRES)
-    for scene, word in ((thick, "patch"), (plies, "layer")):
-        found = judge.solve(scene, {**judge.settings, "elements": 3})
-        assert found.status is Status.REFUSED and word in found.message

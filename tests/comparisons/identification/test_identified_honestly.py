@@ -10,7 +10,6 @@ from cases import POINTS, with_material
 
 import fem_reference
 import lumped
-from comparisons.external.calculix.model import CalculiX
 from comparisons.identification import fit as search
 from comparisons.identification.fit import Fit, nearest
 from comparisons.identification.identification import identify
@@ -201,40 +200,6 @@ def test_damping_is_sought_from_a_scene_without_any():
     first = float(lumped.modes(undamped, count=1).frequencies[0])
     assert unknown(undamped, "damping_time").start == pytest.approx(0.02 / (np.pi * first), rel=0.05)
     assert unknown(undamped, "damping_rate").start == pytest.approx(0.08 * np.pi * first, rel=0.05)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("scene", [THICK, THIN], ids=["4 mm", "2 mm"])
-def test_the_truth_is_in_the_interval_of_18_of_20_seeds(scene):
-    """Data of solid elements by CalculiX where it is installed, else of a shell of 24 elements a side."""
-    solid = {**CalculiX.settings, "elements": 16}
-    if CalculiX().version():
-        values = CalculiX().solve(scene, solid).displacement(POINTS)
-    else:
-        values = fem_reference.solve(scene, elements=24).displacement(POINTS)
-    hits = 0
-    for seed in range(20):
-        low, high = identify(scene, Displacements(POINTS, noisy(values, seed))).unknowns["young"].interval
-        hits += low < TRUE < high < 1.1 * low
-    assert hits >= 18
-
-
-@pytest.mark.slow
-def test_a_strip_that_swings_far():
-    """True values 0.6 MPa, 4 ms, 0.5 1/s; a plain search from 0.5, 1, 0.1 ends at 0.534, 0.39, 0.57."""
-    sheet = scenes.Sheet(length_x=0.12, length_y=0.04, thickness=0.002)
-    material = scenes.Material(young=0.6e6, poisson=0.48, density=1070.0, damping_time=4e-3, damping_rate=0.5)
-    supports = (scenes.Clamped(edge="x0"),)
-    true = scenes.Scene(name="strip", sheet=sheet, material=material, gravity=SEED.gravity, support=supports)
-    run = lumped.simulate(true, duration=2.5)
-    rows = np.linspace(0, len(run.time) - 1, 50).astype(int)[1:]
-    values = run.probes["P4"][rows] + np.random.default_rng(0).normal(0.0, 0.5e-3, (49, 3))
-    data = Displacements(np.tile(true.probes["P4"], (49, 1)), values, run.time[rows])
-    start = with_material(true, young=0.5e6, damping_time=1e-3, damping_rate=0.1)
-    found = identify(start, data, ["young", "damping_time", "damping_rate"])
-    assert found.explained and not found.warnings
-    for name, value in (("young", 0.6e6), ("damping_time", 4e-3), ("damping_rate", 0.5)):
-        assert found.unknowns[name].value == pytest.approx(value, rel=0.05)
 
 
 def test_unknowns_are_identified_on_springs_with_a_layer_distance():

@@ -39,8 +39,9 @@ def cell(page, fact, model):
     return page.inner_text(f"[data-fact^='{fact}'] [data-model={model}]")
 
 
-def test_dragging_moves_the_lattice_and_the_shell_follows(page):
+def test_dragging_moves_the_lattice_and_the_shell_follows(page, address):
     page, watch = page
+    assert watch.requests and all(url.startswith(address) for url in watch.requests)
     before = page.evaluate(PLACES), cell(page, "Largest", "lattice"), cell(page, "Largest", "shell")
     number = page.evaluate("live.asked()")
     box = page.locator("#slider-young").bounding_box()
@@ -118,19 +119,3 @@ def test_springs_of_another_grid_and_the_scene_are_copied(page):
         until(page, f"document.getElementById('copied').textContent.startsWith('Copied: the {of}')")
         assert page.evaluate("navigator.clipboard.readText()").startswith(begins)
     assert watch.troubles == []
-
-
-def test_it_asks_nobody_else(page, address):
-    _, watch = page
-    assert watch.requests and all(url.startswith(address) for url in watch.requests)
-
-
-def test_it_fits_a_phone(browser, address):  # noqa: F811
-    phone = {"width": 360, "height": 740}
-    with opened(browser, address, offline=False, viewport=phone) as (page, watch):
-        until(page, ANSWERED)
-        assert page.evaluate("document.documentElement.scrollWidth") <= 360
-        page.locator("#reset").scroll_into_view_if_needed()
-        seen = page.locator("#stage canvas").first.bounding_box()
-        assert seen["y"] >= -1 and page.locator("#headline").bounding_box()["y"] < 740
-        assert watch.troubles == []

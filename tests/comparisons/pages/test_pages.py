@@ -15,7 +15,7 @@ from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
 from comparisons.pages import studies as pages
-from comparisons.pages.page import page, pictures, question, whole_words
+from comparisons.pages.page import page, question
 from comparisons.pages.studies import Study, read, tables
 from comparisons.sweep.folder import Folder
 from comparisons.tradeoff.answer import DynamicTradeoff
@@ -94,13 +94,6 @@ def test_tables_sort_by_click_and_by_key_numbers_by_value(shown):
     assert table.locator("tbody tr").first.locator("td").all_text_contents()[2:] == ["=r3", "MPa"]
 
 
-def test_a_phone_needs_no_sideways_scrolling(shown):
-    before = shown.viewport_size
-    shown.set_viewport_size({"width": 360, "height": 740})
-    assert shown.evaluate("document.documentElement.scrollWidth") <= 360
-    shown.set_viewport_size(before)
-
-
 def test_print_has_pictures_for_sheets_and_all_open(shown):
     shown.emulate_media(media="print")
     shown.evaluate("dispatchEvent(new Event('beforeprint'))")
@@ -111,14 +104,6 @@ def test_print_has_pictures_for_sheets_and_all_open(shown):
     shown.evaluate("dispatchEvent(new Event('afterprint'))")
     assert shown.locator(".taken").count() == 0 and shown.locator("details[open]").count() == 0
     shown.emulate_media(media="screen")
-
-
-def test_the_first_key_leads_past_the_contents(shown):
-    shown.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
-    shown.locator(".skip").focus()
-    assert shown.locator(".skip").bounding_box()["x"] >= 0
-    shown.keyboard.press("Enter")
-    assert shown.evaluate("document.activeElement.id") == "studies"
 
 
 def test_tables_are_shown_as_the_run_showed_them(studies):
@@ -133,11 +118,6 @@ def test_tables_are_shown_as_the_run_showed_them(studies):
         for row in table.shown_rows():
             assert f"| {' | '.join(row)} |" in text
     assert not comparison.troubles
-
-
-def test_options_and_names_stay_on_one_line():
-    shown = 'try <span class="whole">--about</span> <span class="whole">&lt;a-b&gt;</span>'
-    assert whole_words("try --about <a-b>") == shown
 
 
 @pytest.mark.parametrize("there", [True, False])
@@ -171,13 +151,6 @@ def _motion_tradeoff(folder, drawn=False):
         found.report() if drawn else replace(found.report(), pictures=())
     )
     return folder
-
-
-def test_a_trade_of_motion_has_its_figure_and_its_notes(tmp_path):
-    (study,) = read(_motion_tradeoff(tmp_path, drawn=True)).studies
-    assert {"motion.svg", "motion.png", "motion.pdf"} <= set(study.files)
-    assert [name for name, _ in pictures(study)] == ["motion.svg"]
-    assert "uncertainty of that reference" in study.notes[0] and not study.troubles
 
 
 def test_no_verb_has_a_page_of_its_own():

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from commands import run
 
-from comparisons.reproduction import findings
 from comparisons.reproduction.answers import answer, published, scene
 from comparisons.reproduction.printed_errors import cells, means
 from comparisons.reproduction.reproduction import Reproduction, reproduce
@@ -85,17 +84,6 @@ def test_every_printed_error_is_of_the_larger_value():
     assert Counter(cell.of for cell in found.values()) == {"model": 13, "experiment": 8, "both": 3}
     mean = means(list(found.values()))
     assert mean["printed"] == pytest.approx(0.0492, abs=5e-5) and mean["of_experiment"] > mean["printed"]
-
-
-def test_what_is_kept_of_the_nearest_sheets_says_where_it_comes_from():
-    stored = findings.stored()
-    assert "at commit f525c8e5" in stored["made"] and stored["made"] in findings.nearest_table().text
-    for fit in stored["fits"]:
-        assert 0 <= fit["met"] < fit["entries"] and 0.0 < fit["rms"] < fit["error"]
-    text = " ".join(one["finding"] for one in stored["findings"])
-    for fit in stored["fits"]:
-        if fit["by"] == "misfit" and fit["met"] == 3 and fit["tests"] == [1]:
-            assert f"has 3 of {fit['entries']} entries" in text
 
 
 def test_the_run_is_by_the_default_integrator():

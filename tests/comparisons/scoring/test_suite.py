@@ -14,7 +14,6 @@ from comparisons.scoring.reference import FILE, VERSION, document, references
 from sheetbench import scenes
 from sheetbench.choices import SUITES
 from sheetbench.errors import BadInput
-from studies.master_curves.curves import way
 
 FROZEN = {  # of scenes and values, by the version that they are from
     ("statics", "motion", "modes"): "15198e1a28208c6d",  # 2.0
@@ -79,11 +78,3 @@ def test_the_verb_lists_and_exports_it(tmp_path, capsys):
         assert (float(row["x"]), float(row["y"])) == place and row["ux"] == row["seconds"] == ""
         with pytest.raises(BadInput, match="no answer yet"):  # x and y are none
             read_answers(tmp_path / f"answers-{suite}.csv")
-
-
-@pytest.mark.parametrize(("load", "drop"), [(0.1, 0.01249), (1.0, 0.12456), (10.0, 1.0668), (100.0, 5.8881)])
-def test_curves_of_the_cantilever_are_the_published_ones(load, drop):
-    """Drop over reach of the heavy elastica (Romero et al. 2021)."""
-    known = references()[f"cantilever-{load:g}"]
-    along, down, aside = way(known.scene, known.values[0])
-    assert down / (1.0 + along) == pytest.approx(drop, rel=1e-3) and abs(aside) < 1e-12

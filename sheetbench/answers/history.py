@@ -5,10 +5,9 @@ Part of the question's language, as `Solution` is for statics: it holds no mecha
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,14 +28,6 @@ UNDAMPED = (
 )
 COMPONENTS = ("ux", "uy", "uz")
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
-
-
-@dataclass(frozen=True)
-class ProbeRow:
-    """Displacement of a probe at the end and its largest component on the way."""
-
-    probe: str
-    moved: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -102,11 +93,11 @@ class History(Answer):
         """A row per probe: the displacement at the end and its largest excursion."""
         rows = []
         for name, u in self.probes.items() if len(self.time) else ():
-            moved = dict(zip(COMPONENTS, u[-1], strict=True)) | {"largest": np.abs(u).max()}
-            rows.append(ProbeRow(name, moved))
+            rows.append((name, *u[-1], np.abs(u).max()))
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and its largest component during the motion"
-        return (Table.of(ProbeRow, rows, caption, "probes"),)
+        moved = (MILLIMETRES("z.3f", name) for name in (*COMPONENTS, "largest"))
+        return (Table.listed(caption, ("probe", *moved), rows, "probes"),)
 
     def figures(self) -> tuple[Picture, ...]:
         """Probes and energies over time."""

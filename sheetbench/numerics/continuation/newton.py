@@ -84,7 +84,7 @@ def newton(
     StepFailed."""
     structure, limits = path.structure, path.limits
     state, target, before = first.state, first.target, np.inf
-    factor: Factor | None = None
+    factor = first.factor if structure.linear and isinstance(first, Predictor) else None
     off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
     works, lengths = [first.work], [first.length]
     for _ in range(limits.corrections):
@@ -95,7 +95,7 @@ def newton(
         if not isfinite(relative):
             raise LoadStepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
-        alike = factor is not None and max(off, blurred) <= path.alike
+        alike = factor is not None and (structure.linear or max(off, blurred) <= path.alike)
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
             settled = imbalance <= structure.imbalance_floor(state, forces)
@@ -121,7 +121,10 @@ def newton(
             else:
                 matrix, rows = structure.system(state, forces, target)
                 near, factor = factor if not refined else None, None
-                found = None if near is None else path.solver.iterated(matrix, near, rows)
+                found = None
+                if near is not None:
+                    iterated = path.solver.iterated
+                    found = near.solve(rows, SOLVED) if structure.linear else iterated(matrix, near, rows)
                 if found is None or near is None:
                     near = None  # its memory is needed
                     factor = path.factored(matrix)

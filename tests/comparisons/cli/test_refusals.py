@@ -56,7 +56,6 @@ ROWS = {
     "compare": "Missing argument 'SCENE'; see sheetbench compare --help",
     "compare no-such-scene": f"no-such-scene|{TWO}",
     f"compare {ONE} --elements many": "--elements = 'many'",
-    f"compare {TWO} --duration 0.1 --symmetry": "--symmetry: no effect with --duration",
     f"tradeoff {TWO} --duration 0.1 --repeats 2": "--repeats: no effect with --duration",
     f"tradeoff {TWO} --integrator esdirk": "--integrator: no effect without --duration",
     f"compare {TWO} --lumped 9y": "--lumped|9y",

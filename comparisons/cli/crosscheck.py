@@ -6,7 +6,6 @@ from typing import Any
 
 from comparisons.cli.options import CampaignOptions, Listed, SpringOptions
 from comparisons.cli.output import PictureOptions
-from sheetbench.choices import REFERENCES
 
 SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
 
@@ -48,7 +47,7 @@ def command(
     from sheetbench.errors import require_effect
 
     codes = find_codes(None if judges is None else items(judges))
-    given = dict(zip(("lumped", *REFERENCES), (grid, plate, shell, solid), strict=True))
+    given = dict(zip(SIZES, (grid, plate, shell, solid), strict=True))
     sizes = {name: SIZES[name] if text is None else text for name, text in given.items()}
     if not codes:
         require_effect("without external codes", {"--meshes": meshes})

@@ -42,8 +42,7 @@ class MotionComparison(Answer):
     """Histories by model, the lattice's first, the reference's last.
 
     uncertainty: how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are
-    measured, None where a run of it did not end; animate: draw the sheets moving, side by
-    side.
+    measured, None where a run of it did not end; animate: draw the sheets moving, side by side.
     """
 
     file_name = "motion"

@@ -109,7 +109,6 @@ ROWS = {
     f"{SIMULATE} --error -1": "error = -1: of a step|lies between 0 and 0.1",
     f"compare {ONE} --duration 0.1 --error 0.1": "error",
     f"{SIMULATE} --duration -1": "duration = -1 s",
-    f"{SIMULATE} --measured nowhere.csv": "nowhere.csv",
     f"{SIMULATE} --animate": "--animate: no effect without --out",
     f"{SIMULATE} --animate --no-pictures --out a": "--animate: no effect with --no-pictures",
     f"compare {ONE} --figure pdf": "--figure: no effect without --out",

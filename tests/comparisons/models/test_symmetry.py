@@ -19,7 +19,6 @@ from sheetbench.scenes import (
     PointLoad,
     Pressure,
     Scene,
-    SceneError,
     Sheet,
     Symmetric,
 )
@@ -143,12 +142,6 @@ def test_a_grid_without_a_line_of_masses_on_the_plane_is_solved_whole():
 def test_the_solid_is_solved_whole():
     with pytest.raises(BadInput, match="solid: is always solved whole"):
         models.solve(ONE_EDGE, "solid", elements=2, symmetry=True)
-
-
-def test_a_plane_of_symmetry_alone_leaves_the_sheet_loose():
-    with pytest.raises(SceneError, match="nothing stops"):
-        scenes.require_static(make_scene([Symmetric(edge="x1"), Symmetric(edge="y1")]))
-    scenes.require_static(make_scene([Symmetric(edge="x1"), Held(edge="x0", components=("y", "z"))]))
 
 
 def test_a_rod_between_two_planes_of_symmetry_is_refused():

@@ -6,12 +6,10 @@ import json
 import numpy as np
 import pytest
 from campaigns import Here
-from cases import sheet
 from commands import run
 from matplotlib.figure import Figure
 from verbs import run_here
 
-import lumped
 from comparisons.models.spec import Elements, External, Lattice, LatticePair, lattices, parse, references
 from comparisons.sweep import load, task
 from comparisons.sweep.campaign import campaign
@@ -176,34 +174,6 @@ def test_labels_of_close_points_do_not_lie_on_each_other(scene):
         names = [text.get_text() for text in drawn.legends[0].get_texts()]
         assert any(name.startswith("lumped consistent  (order ") for name in names)
         assert drawn.axes[1].get_title(loc="left") == "Observed convergence"
-
-
-@pytest.mark.nightly
-def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(tmp_path):
-    """A soft strip of 120 by 40 mm swings in 1.8 s while it is flat, in a quarter of that where it hangs."""
-    strip = sheet(0.12, 0.04, 0.002, 0.6e6, 0.45, 1100.0, weight=9.81)
-    springs = lumped.calibrate(strip.sheet, strip.material, grid=3)
-    flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
-    options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 800, "pool": Here}
-    with campaign(tmp_path) as store:
-        found = dynamic_tradeoff(strip, 0.1, store, divisions=(4,), reference=Elements("shell", 2), **options)
-    assert found.lowest_period < 0.5 * flat
-    assert any(row.status == "converged" for row in found.rows)
-    assert len(found.rows) == 1 or found.rows[0].status != "converged"
-
-
-@pytest.mark.nightly
-def test_motions_with_strains_beyond_the_model_are_measured_and_say_so(tmp_path):
-    """A sheet too heavy for its law: its rows had neither error nor cost."""
-    heavy = sheet(0.2, 0.1, 0.003, 2e4, weight=9.81)
-    options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 400, "pool": Here}
-    shell = Elements("shell", 2)
-    with campaign(tmp_path) as store:
-        found = dynamic_tradeoff(heavy, 0.05, store, divisions=(40,), reference=shell, **options)
-    (row,) = found.rows
-    assert row.status == found.reference.status == "strain-outside-model"
-    assert 0.0 < row.error < 1.0 and row.seconds_per_second > 0.0 and found.uncertainty > 0.0
-    assert found.succeeded and any("strain-outside-model" in line for line in found.complaints())
 
 
 def test_equal_complaints_are_one_line():

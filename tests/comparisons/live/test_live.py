@@ -234,27 +234,6 @@ def test_it_ends_by_ctrl_c():
     assert "Traceback" not in terminal.shown and "http://127.0.0.1:" in terminal.shown
 
 
-def test_a_drawn_sheet_with_fibres_has_their_sliders_and_is_compared_where_it_is():
-    """Masses beyond a rim are compared at the nearest point of the sheet."""
-    fibres = {"kind": "orthotropic", "young_1": 1e8, "young_2": 2e7, "poisson_12": 0.3, "shear_12": 8e6}
-    scene = sb.load("one-edge-clamped").replace(
-        outline=[(0.0, 0.0), (0.188, 0.05), (0.188, 0.14), (0.0, 0.188)],
-        material={**fibres, "density": 1e3},
-        patches=[
-            {"shape": {"circle": {"centre": (0.05, 0.09), "radius": 0.02}}, "young": 1e9, "poisson": 0.3}
-        ],
-        loads=[{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}],
-    )
-    panel = Panel(scene, elements=2, lattice=Lattice(5))
-    assert {"young_1", "young_2", "angle", "patch1.young", "loads"} <= set(panel.sliders)
-    assert "uniform" not in panel.calibrations
-    question = panel.read(query_of(panel, 0))
-    turned = {**question.values, "angle": 0.5, "loads": 2.0}
-    moved = panel.scene_of(question.model_copy(update={"values": turned}))
-    assert moved.material.angle == 0.5 and moved.loads[0].force_per_area[2] == 2.0
-    assert server.shell(moved, question)["error"] < 0.2
-
-
 PANEL = Panel(load("curved-edge"), 2, Lattice(3, "uniform", k=550.0))
 FEW = {"grid": (3, 4), "elements": (2, 3)}  # larger ones answer alike, later
 ENDS = [

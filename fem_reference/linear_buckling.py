@@ -5,11 +5,8 @@ The plate's strains are linear, and so its stiffness is the same under every loa
 
 from __future__ import annotations
 
-from typing import cast
-
 import numpy as np
 
-from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.static import Static
 from fem_reference.sheets import SHEETS
 from fem_reference.surface.mesh import Elements, divisions
@@ -36,7 +33,7 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
     if model not in ("shell", "solid"):
         raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")
     begin, counts = now(), divisions(scene.sheet, elements)
-    sheet = cast(DiscreteElements, SHEETS[model](scene, counts, law=scene.material.law or STRAIN_LAW))
+    sheet = SHEETS[model](scene, counts, law=scene.material.law or STRAIN_LAW)
     smallest = STILL * max(scene.sheet.lengths)
     found, states = buckling_modes(
         Static(sheet),

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from fem_reference.discrete.answer import equilibrium
-from fem_reference.discrete.sheet import Discrete
-from fem_reference.plate import statics as plate_statics
+from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
@@ -23,6 +22,8 @@ from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.scenes import EdgeMotion, Scene
 from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
 
+Sheet = TypeVar("Sheet", bound=DiscreteElements)
+
 
 def plate(
     scene: Scene,
@@ -32,7 +33,7 @@ def plate(
     *,
     moving: bool = False,
     reach: float = 1.0,
-) -> Discrete:
+) -> DiscreteElements:
     """Return the plate; graded: unless given at rest, and in motion where an edge lets twist go."""
     if moving:
         _refuse_edge_motions(scene, "plate")
@@ -50,7 +51,7 @@ def shell(
     *,
     moving: bool = False,
     reach: float = 1.0,
-) -> Discrete:
+) -> DiscreteElements:
     """Return the shell."""
     mesh = mesh_of(scene, elements, graded, reach)
     return _named(DiscreteShell(mesh, scene, section, law, moving), elements, graded=graded, law=law)
@@ -66,7 +67,7 @@ def solid(
     *,
     moving: bool = False,
     reach: float = 1.0,
-) -> Discrete:
+) -> DiscreteElements:
     """Return the solid, whose mesh is as in statics whatever the reach."""
     if moving:
         _refuse_edge_motions(scene, "solid")
@@ -75,10 +76,10 @@ def solid(
     return _named(made, elements, f" × {layers}", grading=grading, layers=layers, law=law, clamp=clamp)
 
 
-SHEETS: dict[str, Callable[..., Discrete]] = {"plate": plate, "shell": shell, "solid": solid}
+SHEETS: dict[str, Callable[..., DiscreteElements]] = {"plate": plate, "shell": shell, "solid": solid}
 
 
-def _named(sheet: Discrete, elements: Elements, through: str = "", **settings: Any) -> Discrete:
+def _named(sheet: Sheet, elements: Elements, through: str = "", **settings: Any) -> Sheet:
     if sheet.scene.sheet.mesh is not None and "graded" in settings:
         settings["graded"] = False
     counts = divisions(sheet.scene.sheet, elements)
@@ -93,7 +94,7 @@ def _refuse_edge_motions(scene: Scene, model: str) -> None:
             raise BadInput(f"actuator {name}: the {model} in motion has no edge motions; the shell has")
 
 
-def start(sheet: Discrete) -> np.ndarray:
+def start(sheet: DiscreteElements) -> np.ndarray:
     """Return q (N,) of a sheet in motion at t = 0: flat, or the equilibrium to start from
     (`scenes.meaning.motion`). Raises NoEquilibrium where there is no stable one."""
     if starts_flat(sheet.scene):
@@ -106,11 +107,9 @@ def start(sheet: Discrete) -> np.ndarray:
     return sheet.placed(q, 0.0)
 
 
-def _equilibrium(sheet: Discrete, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
+def _equilibrium(sheet: DiscreteElements, scene: Scene) -> tuple[np.ndarray, Status, Sequence[str]]:
     """q (N,) under the full load of a scene on a sheet's mesh, how the path there ended, and notes."""
     mesh, own = sheet.plan.mesh, sheet.settings
-    if sheet.model == "plate":
-        q, _, _, status, notes = plate_statics.solved(DiscretePlate(mesh, scene))
-        return q, status, notes
     of_sheet = {name: own[name] for name in ("layers", "law", "clamp") if name in own}
-    return equilibrium((DiscreteShell if sheet.model == "shell" else DiscreteSolid)(mesh, scene, **of_sheet))
+    kind: Any = type(sheet)
+    return equilibrium(kind(mesh, scene, **of_sheet))

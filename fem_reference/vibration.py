@@ -33,8 +33,8 @@ import numpy as np
 
 from fem_reference.defaults import with_defaults
 from fem_reference.discrete.answer import equilibrium
+from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.items import Following
-from fem_reference.discrete.sheet import Discrete
 from fem_reference.sheets import SHEETS
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import Elements, divisions
@@ -152,7 +152,7 @@ def _slow(scene: Scene) -> float:
     return np.sqrt(material.young / (12.0 * material.density)) * sheet.thickness / max(sheet.lengths) ** 2
 
 
-def rigid_motions(sheet: Discrete) -> np.ndarray:
+def rigid_motions(sheet: DiscreteElements) -> np.ndarray:
     """Return the flat sheet's rigid motions (N, 6), along the axes and about them through its middle."""
     arms = np.pad(sheet.plan.nodes - sheet.plan.nodes.mean(axis=0), ((0, 0), (0, 1)))
     still, up = np.zeros_like(arms), np.tile([0.0, 0.0, 1.0], (len(arms), 1))
@@ -161,14 +161,14 @@ def rigid_motions(sheet: Discrete) -> np.ndarray:
     return np.array([sheet.of_vectors(*motion) for motion in motions]).T
 
 
-def _free_rigid_motions(sheet: Discrete) -> int:
+def _free_rigid_motions(sheet: DiscreteElements) -> int:
     """How many independent rigid motions vanish at all that is held."""
     rigid = rigid_motions(sheet)
     held = sheet.held(rigid / np.linalg.norm(rigid, axis=0), 0.0)
     return 6 - int(np.sum(np.linalg.svd(held, compute_uv=False) > 1e-9))
 
 
-def _equilibrium(sheet: Discrete) -> np.ndarray:
+def _equilibrium(sheet: DiscreteElements) -> np.ndarray:
     """q (N,) of a shell under the full load. Raises BadInput for loads that follow the sheet, NoEquilibrium
     where there is no stable equilibrium."""
     assert isinstance(sheet, DiscreteShell)

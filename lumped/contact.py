@@ -5,10 +5,10 @@ point of area A has
 
     energy A ψ(d),   force A p n,  p = ψ',   tangent A (p' n nᵀ − p ∇n);   ψ = ½ k d² at rest,  k = E/h.
 
-Points are the columns of masses, with their tributary areas, on a plane. On a sphere or cylinder the masses
-alone sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with
-l as far as it is across a cylinder's axis, and points are at their middles; at their ends, masses among
-them, of a sheet that rests on the obstacle, or nothing would hold it at the start. In motion k is
+On a plane each cell has a point at each of its corners, a column of masses. On a sphere or cylinder these
+sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with l as
+far as it is across a cylinder's axis, and points are at their middles; at their ends, masses among them, of a
+sheet that rests on the obstacle, or nothing would hold it at the start. In motion k is
 0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 +
 δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). `docs/contact.md` has the
 reasons, and what energy they take.
@@ -22,13 +22,11 @@ from typing import Any
 
 import numpy as np
 
-from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.items import LatticeItem, Placed, Since
-from lumped.mid_surface import around
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Plane, Scene, free_rigid_motions
+from sheetbench.scenes import Scene, free_rigid_motions
 from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle
@@ -37,15 +35,15 @@ FINEST = 32  # points a side of a cell
 MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where the mass is A ρ h, not at edges
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
-KINDS = ("plane", "sphere", "cylinder")
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (m, p)
 
 
 def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.ndarray, np.ndarray]:
     """Return weights (p, 4) of a cell's corners and shares (p,) of its area, of points at the middles of the
-    parts of its sides (2,) [m] or at their ends."""
-    rules = []
-    for parts in np.maximum(2, np.ceil(2.0 * sides / radius)).astype(int):
+    parts of its sides (2,) [m] or, on a plane always, at their ends."""
+    rules, fewest = [], 2 if np.isfinite(radius) else 1
+    ends |= fewest == 1
+    for parts in np.maximum(fewest, np.ceil(2.0 * sides / radius)).astype(int):
         at = (np.arange(parts + ends) + 0.5 * (not ends)) / parts
         shares = np.full(len(at), 1.0 / parts)
         shares[[0, -1]] /= 1 + ends
@@ -55,8 +53,8 @@ def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.nd
 
 
 class Contact(LatticeItem):
-    """Contact of a lattice with an obstacle. Points are in patches of the same masses, cells or columns:
-    nodes (m, q), weights (p, q) of each of the p points of a patch. Raises BadInput for one too thin."""
+    """Contact of a lattice with an obstacle: nodes (m, q) of cells, weights (p, q) of their points. Raises
+    BadInput for one too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle = name, obstacle
@@ -73,13 +71,10 @@ class Contact(LatticeItem):
                 f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
                 f"which would step over it; {1e3 * thinnest:.3g} mm or more, or a finer grid"
             )
-        if isinstance(obstacle, Plane):
-            nodes, weights, area = columns, np.ones((1, 1)), around(areas).reshape(-1, 1)
-        else:
-            corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
-            nodes = np.concatenate(corners, axis=2)
-            weights, shares = points_of_cells(sides, obstacle.radius, bool(free_rigid_motions(scene)))
-            area = areas.reshape(-1, 1) * shares
+        corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
+        nodes = np.concatenate(corners, axis=2)
+        weights, shares = points_of_cells(sides, obstacle.radius, bool(free_rigid_motions(scene)))
+        area = areas.reshape(-1, 1) * shares
         self.weights = np.repeat(weights, lattice.grid[2], axis=1) / lattice.grid[2]
         there = area[:, 0] > 0.0
         self.nodes = np.ascontiguousarray(nodes.reshape(len(area), -1)[there])
@@ -97,39 +92,35 @@ class Contact(LatticeItem):
         energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
         return stiffness * energy, stiffness * (0.5 * curved**2 / over + sure), stiffness * curved / over
 
-    def _near(self, u: np.ndarray, drive: Drive, of: Any = ...) -> tuple[Near, np.ndarray]:
+    def _near(self, at: Placed, of: Any = ...) -> tuple[Near, np.ndarray]:
         """Return where points of patches are, and their depth (m, p) [m], < 0 of one that is clear."""
+        u, drive = at
         places = self.weights @ (self._rest[of] + u[self.nodes[of]])
         found = near(self.obstacle, places, drive.load_factor, drive.time)
         return found, (0.5 + TOUCH) * self.thickness[of] - found.distance
 
-    def _pressed(self, u: np.ndarray, drive: Drive, since: Since | None = None) -> tuple[Any, Near, Pressed]:
+    def _pressed(self, at: Placed, since: Since = None) -> tuple[Any, Near, Pressed]:
         """Return which patches may touch, where their points are and how they are pressed; since: what a step
         from there has in the mean."""
         if since is not None:
-            (before, then), (after, depth) = self._near(*since), self._near(u, drive)
+            (before, then), (after, depth) = self._near(since), self._near(at)
             (had, _, _), (has, last, _) = self._law(then), self._law(depth)
             far = np.abs(depth - then) > SAME_DEPTH * self.thickness
             sunk = np.where(far, depth - then, 1.0)
             _, load, slope = self._law(0.5 * (then + depth))
             load = np.where(far, (has - had) / sunk, load)
             return ..., after.mean(before), (has, load, np.where(far, (last - load) / sunk, 0.5 * slope))
-        of: Any = ...
-        if len(self.weights) > 1:
-            places = self._rest + u[self.nodes]
-            middle = places.mean(axis=1, keepdims=True)  # no point is farther from it than a mass
-            reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1))
-            reach += 0.51 * self.thickness.max(axis=1)
-            at = near(self.obstacle, middle[:, 0], drive.load_factor, drive.time)
-            of = np.flatnonzero(at.distance < reach)
-        found, depth = self._near(u, drive, of)
+        places = self._rest + at[0][self.nodes]
+        middle = places.mean(axis=1, keepdims=True)  # no point is farther from it than a mass
+        reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1)) + 0.51 * self.thickness.max(axis=1)
+        away = near(self.obstacle, middle[:, 0], at[1].load_factor, at[1].time).distance
+        of = np.flatnonzero(away < reach)
+        found, depth = self._near(at, of)
         return of, found, self._law(depth, of)
 
     def _spread(self, values: np.ndarray, out: np.ndarray, of: Any = ...) -> np.ndarray:
         """Add what points (m, p, …) of patches share to the masses' (n, …), and return that."""
-        touched = values.any(axis=tuple(range(1, values.ndim)))
-        shares = np.einsum("pq,mp...->mq...", self.weights, values[touched])
-        np.add.at(out, self.nodes[of][touched], shares)
+        np.add.at(out, self.nodes[of], np.einsum("pq,mp...->mq...", self.weights, values))
         return out
 
     def _spread_blocks(self, points: np.ndarray, blocks: np.ndarray, of: Any) -> None:
@@ -138,51 +129,41 @@ class Contact(LatticeItem):
         of_masses = np.einsum("pa,pb,mpij->mabij", self.weights, self.weights, points[touched], optimize=True)
         np.add.at(blocks, self.slots[of][touched], of_masses)
 
-    def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
-        of, found, (energy, load, _) = self._pressed(u, drive, since)
+    def add_force(self, at: Placed, force: np.ndarray, since: Since = None) -> float:
+        of, found, (energy, load, _) = self._pressed(at, since)
         self._spread(-load[..., None] * found.normal, force, of)
         return float(energy.sum())
 
     def add_tangent(
-        self,
-        u: np.ndarray,
-        drive: Drive,
-        scale: float,
-        blocks: np.ndarray,
-        definite: bool = False,
-        since: Since | None = None,
+        self, at: Placed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
-        of, found, (_, load, slope) = self._pressed(u, drive, since)
+        of, found, (_, load, slope) = self._pressed(at, since)
         points = (scale * slope)[..., None, None] * dyad(found.normal)
         if not definite:
             points -= (scale * load)[..., None, None] * found.curvature
         self._spread_blocks(points, blocks, of)
 
-    def _resisted(
-        self, u: np.ndarray, v: np.ndarray, drive: Drive
-    ) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    def _resisted(self, at: Placed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
         """Return patches that may touch, how points move past the obstacle (m, p, 3) [m/s], and forces (m, p,
         3) [N] of dashpot and friction with their derivatives by that (m, p, 3, 3)."""
-        of, found, (_, load, _) = self._pressed(u, drive)
-        speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(drive.time))
+        of, found, (_, load, _) = self._pressed(at)
+        speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(at[1].time))
         return of, speed, found.resistance(load, speed)
 
-    def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
+    def add_resistance(self, at: Placed, v: np.ndarray, force: np.ndarray) -> float:
         if not self.resists:
             return 0.0
-        of, speed, (pull, _) = self._resisted(u, v, drive)
+        of, speed, (pull, _) = self._resisted(at, v)
         self._spread(-pull, force, of)
         return -float((pull * speed).sum())
 
-    def add_resistance_tangent(
-        self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
-    ) -> None:
+    def add_resistance_tangent(self, at: Placed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         if self.resists:
-            of, _, (_, by_speed) = self._resisted(u, v, drive)
+            of, _, (_, by_speed) = self._resisted(at, v)
             self._spread_blocks(-scale * by_speed, blocks, of)
 
     def step_share(self, start: Placed, end: Placed) -> float:
-        return self._near(*end)[0].share_of_way(self._near(*start)[0], 0.5 * self.thickness)
+        return self._near(end)[0].share_of_way(self._near(start)[0], 0.5 * self.thickness)
 
     def stiffest(self, mass: np.ndarray) -> float:
         return float((self._spread(self.area * self.share * self.full, np.zeros(self._masses)) / mass).max())
@@ -196,16 +177,10 @@ class Contact(LatticeItem):
         return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
-        depth = self._near(*at)[1]
+        depth = self._near(at)[1]
         area, load = (self._spread(one, np.zeros(self._masses)) for one in (self.area, self._law(depth)[1]))
         pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
         return ContactState.of(depth / self.thickness, self.area), pressure
-
-    def clearance(self, u: np.ndarray) -> np.ndarray:
-        """Return the way (3,) [m] that takes the nearest point to a depth of a tenth of the thickness."""
-        found, depth = self._near(u, Drive())
-        least = np.unravel_index(depth.argmax(), depth.shape)
-        return np.asarray((depth - 0.1 * self.thickness)[least] * found.normal[least])
 
 
 def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:
@@ -215,20 +190,18 @@ def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndar
     shapes = [one.obstacle for one in contacts]
     parts = [(np.empty(0, int), np.empty((0, 4, layers), int), np.empty((0, 4)), *[np.empty(0)] * 3)]
     for number, one in enumerate(contacts):
-        (patches, points), corners = one.area.shape, one.nodes.reshape(len(one.nodes), -1, layers)
-        weights = one.weights.reshape(points, -1, layers).sum(axis=2)
-        corners = np.repeat(corners, 4 // corners.shape[1], axis=1)  # of a column of masses on a plane
-        weights = np.pad(weights, ((0, 0), (0, 4 - weights.shape[1])))
+        (patches, points), corners = one.area.shape, one.nodes.reshape(-1, 4, layers)
+        weights = one.weights.reshape(points, 4, layers).sum(axis=2)
         place = np.full(one.area.size, number), np.repeat(corners, points, axis=0)
         measures = one.area, (0.5 + TOUCH) * one.thickness, one.full
         parts.append((*place, np.tile(weights, (patches, 1)), *(each.ravel() for each in measures)))
     at = [shape.position + shape.displacement(1.0) for shape in shapes]  # where each is at last
     which, corners, weights, area, offset, stiffness = map(np.concatenate, zip(*parts, strict=True))
     return {
-        "obstacle_kind": np.array([KINDS.index(shape.kind) for shape in shapes], dtype=int),
+        "obstacle_kind": np.array([shape.kind for shape in shapes]),
         "obstacle_position": np.array(at).reshape(-1, 3),
         "obstacle_direction": np.array([shape.direction for shape in shapes]).reshape(-1, 3),
-        "obstacle_radius": np.array([0.0 if isinstance(one, Plane) else one.radius for one in shapes]),
+        "obstacle_radius": np.nan_to_num([shape.radius for shape in shapes], posinf=0.0),
         **{"contact_obstacle": which, "contact_corners": corners, "contact_weights": weights},
         **{"contact_area": area, "contact_offset": offset, "contact_stiffness": stiffness},
     }

@@ -16,7 +16,7 @@ from lumped.actuators import Drive
 from sheetbench.answers.contact import ContactState
 
 Placed = tuple[np.ndarray, Drive]  # where the masses are, and when
-Since = Placed  # where a step begins, for the force whose work in it is the energy stored
+Since = Placed | None  # where a step begins, of which a mean is returned
 
 
 class LatticeItem(Protocol):
@@ -30,36 +30,29 @@ class LatticeItem(Protocol):
     velocity: Callable[[float], np.ndarray]
     resists: bool
 
-    def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray, since: Since | None = None) -> float:
-        """Add the internal force, or a step's mean one; return the energy [J]."""
+    def add_force(self, at: Placed, force: np.ndarray, since: Since = None) -> float:
+        """Add the internal force, or with the start of a step the one whose work in it is the energy stored;
+        return the energy [J]."""
 
     def add_tangent(
-        self,
-        u: np.ndarray,
-        drive: Drive,
-        scale: float,
-        blocks: np.ndarray,
-        definite: bool = False,
-        since: Since | None = None,
+        self, at: Placed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
         """Add scale × the force's derivative to the pattern's blocks (b, 3, 3) [N/m], of a step's mean one
         the symmetric part of that by its end; definite: less what could make it indefinite."""
 
-    def add_resistance(self, u: np.ndarray, v: np.ndarray, drive: Drive, force: np.ndarray) -> float:
+    def add_resistance(self, at: Placed, v: np.ndarray, force: np.ndarray) -> float:
         """Add what resists the velocity; return the power taken [W]."""
         return 0.0
 
-    def add_resistance_tangent(
-        self, u: np.ndarray, v: np.ndarray, drive: Drive, scale: float, blocks: np.ndarray
-    ) -> None:
+    def add_resistance_tangent(self, at: Placed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × its derivative by the velocity [N·s/m]."""
 
-    def exerted(self, u: np.ndarray, drive: Drive, v: np.ndarray | None = None) -> np.ndarray:
+    def exerted(self, at: Placed, v: np.ndarray | None = None) -> np.ndarray:
         """Return its forces on the masses (n, 3) [N], at a velocity (n, 3) [m/s] in motion."""
-        force = np.zeros_like(u)
-        self.add_force(u, drive, force)
+        force = np.zeros_like(at[0])
+        self.add_force(at, force)
         if v is not None:
-            self.add_resistance(u, v, drive, force)
+            self.add_resistance(at, v, force)
         return -force
 
     def step_share(self, start: Placed, end: Placed) -> float:

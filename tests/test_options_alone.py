@@ -142,8 +142,7 @@ SAME = {  # no number of the answer is another with them, and why
     ),
     **dict.fromkeys(("--toml", "--animate"), PLACES),
     "--large": "lets a model be larger than memory",
-    **dict.fromkeys(("--workers", "--scheduler", "--wait", "--retry"), "how runs are carried out"),
-    "--symmetry": "the same answer, from a part of the mesh",
+    **dict.fromkeys(("--workers", "--scheduler", "--retry"), "how runs are carried out"),
     "--repeats": "times alone",
 }
 SAME_OF = {

@@ -9,6 +9,7 @@ did not converge; 130 interrupted; 141 the output was closed, as by `head`.
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 import re
@@ -18,14 +19,14 @@ from collections.abc import MutableMapping, Sequence
 from contextlib import suppress
 from functools import cache
 from importlib import import_module
+from io import TextIOWrapper
 from shutil import get_terminal_size
 from typing import Any
 
 import typer
 from typer.main import get_command
 
-from comparisons.cli import characters, interruption, messages, startup
-from comparisons.cli.arguments import Refused, refuse_opposites, with_defaults
+from comparisons.cli import interruption, messages, startup
 from comparisons.cli.verb import as_verb
 from comparisons.sweep import interrupts
 
@@ -100,17 +101,14 @@ def main(arguments: list[str] | None = None) -> None:
     if arguments[:1] == ["help"]:
         arguments = [*arguments[1:], "--help"]
     for stream in (sys.stdout, sys.stderr):
-        characters.adapt(stream)
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors=PLAIN)
     _clean_environment(os.environ)
-    of_process = arguments == sys.argv[1:]
-    try:
-        arguments = with_defaults(arguments, VERBS, _options_of)
-        refuse_opposites(arguments)
-    except Refused as refused:
-        print(f"sheetbench: {refused}", file=sys.stderr)
-        raise SystemExit(BAD_INPUT) from None
-    if of_process:
-        sys.argv[1:] = arguments  # which are kept beside the results
+    for option in arguments:
+        if (other := option.replace("--no-", "--")) != option and other in arguments:
+            print(f"sheetbench: {other} and {option}: give one of them", file=sys.stderr)
+            raise SystemExit(BAD_INPUT)
+    if arguments == sys.argv[1:]:
         startup.begin()
     called = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one is read sooner
     command = verb_group(called, boxes=get_terminal_size().columns >= BOXES)
@@ -136,9 +134,15 @@ def main(arguments: list[str] | None = None) -> None:
             raise SystemExit(_report_error(error)) from None
 
 
-def _options_of(verb: str) -> frozenset[str]:
-    """Return a verb's options, as "--symmetry"."""
-    return frozenset(name for one in verb_group((verb,)).commands[verb].params for name in one.opts)
+def _plain(error: UnicodeError) -> tuple[str, int]:
+    """Return what is printed of characters that the output's encoding lacks: minus signs and rules as -, else
+    ?."""
+    assert isinstance(error, UnicodeEncodeError)
+    lacking = error.object[error.start : error.end]
+    return "".join("-" if one in "−─" else "?" for one in lacking), error.end
+
+
+codecs.register_error(PLAIN := "plain", _plain)
 
 
 def _drop_output() -> None:

@@ -14,7 +14,7 @@ from sheetbench.choices import REFERENCE
 FRAMES = 100  # of a motion
 
 
-@no_effect(with_duration="symmetry branch export", without_duration="every animate")
+@no_effect(with_duration="branch export", without_duration="every animate")
 def command(
     scene: str,
     lattice: LatticeOptions,
@@ -22,7 +22,6 @@ def command(
     *,
     elements: str | None = None,
     law: str | None = None,
-    symmetry: bool = False,
     model: list[str] | None = None,
     uncertainty: bool | None = None,
     branch: str | None = None,
@@ -81,7 +80,7 @@ def command(
             )
             return out.show(replace(both, animate=animate))
     loaded = load_static(scene)
-    spec = lattice.spec.but(symmetry=symmetry, branch=branch or "path")
+    spec = lattice.spec.but(branch=branch or "path")
     models |= {"--calibration": "open" if spec.calibration is None and spec.k is None else "named"}
     with output.open(scene=loaded, variant=models) as out:
 

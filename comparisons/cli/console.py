@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.text import Text
 
-from comparisons.cli.characters import spelled, takes_everything
 from comparisons.cli.lines import Lines
 from sheetbench.answers.escape import terminal
 
@@ -33,12 +32,6 @@ def speaking(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
         _quiet = verbose = False
 
 
-def printable(text: str, keep: str = "") -> str:
-    """Return a text without control characters but those in `keep`, in characters that the output's encoding
-    has."""
-    return spelled(terminal(text, keep), out.encoding)
-
-
 @contextmanager
 def progress() -> Iterator[Callable[[object], None]]:
     """Yield a function that shows what is being done, a `Work`, a campaign's progress or a text: a spinner on
@@ -50,27 +43,27 @@ def progress() -> Iterator[Callable[[object], None]]:
         with Lines(tell) as lines:
             yield lines.say
         return
-    with err.status("", spinner="dots" if takes_everything(err.encoding) else "line") as spinner:
-        yield lambda what: spinner.update(Text(spelled(terminal(str(what)), err.encoding)))
+    with err.status("", spinner="line") as spinner:
+        yield lambda what: spinner.update(Text(terminal(str(what))))
 
 
 def tell(text: str) -> None:
     """Print a line on standard error, unless quiet."""
     if not _quiet:
-        err.print(Text(spelled(terminal(text), err.encoding)), soft_wrap=True)
+        err.print(Text(terminal(text)), soft_wrap=True)
 
 
 def document(content: Mapping[str, Any]) -> None:
     """Print one JSON document; characters that the encoding lacks are escaped."""
     from sheetbench.answers.files import to_json
 
-    print(to_json(content, escaped=not takes_everything(out.encoding)), end="")
+    print(to_json(content, escaped=not out.encoding.startswith("utf")), end="")
 
 
 def heading(title: str, subtitle: str = "") -> None:
     """Print the title, bold, and the subtitle."""
-    shown, bold = printable(title), len(printable(title))
-    for i, line in enumerate(_fitted(f"{shown}  {printable(subtitle)}" if subtitle else shown)):
+    shown, bold = terminal(title), len(terminal(title))
+    for i, line in enumerate(_fitted(f"{shown}  {terminal(subtitle)}" if subtitle else shown)):
         text = Text(line)
         text.stylize("bold", 0, bold if i == 0 else 0)
         out.print(text, soft_wrap=True)
@@ -82,14 +75,14 @@ def show(table: Table) -> None:
     from sheetbench.answers.layout import blocks
 
     blank()
-    for line in _fitted(printable(table.caption)):
+    for line in _fitted(terminal(table.caption)):
         out.print(Text(line, style="bold"), soft_wrap=True)
-    for i, block in enumerate(blocks(table, out.width if out.is_terminal else None, printable)):
+    for i, block in enumerate(blocks(table, out.width if out.is_terminal else None)):
         if i > 0:
             blank()
         for line in block.head:
             out.print(Text(line, style="bold"), soft_wrap=True)
-        for line in [printable(block.rule), *block.rows]:
+        for line in [terminal(block.rule), *block.rows]:
             out.print(Text(line), soft_wrap=True)
 
 
@@ -101,7 +94,7 @@ def blank() -> None:
 def note(text: str) -> None:
     """Print a note under the tables, broken between words, further lines indented; a command to copy stays on
     one line."""
-    for line in printable(text, keep="\n").split("\n"):
+    for line in terminal(text, keep="\n").split("\n"):
         for part in [line] if line.startswith("sheetbench ") else _fitted(line, indent="  "):
             out.print(Text(part, style="dim"), soft_wrap=True)
 
@@ -118,6 +111,6 @@ def _fitted(line: str, console: Console = out, indent: str = "") -> list[str]:
 
 def warn(text: str) -> None:
     """Print a warning on standard error: one line, on a terminal broken between words."""
-    shown = spelled(terminal(text), err.encoding)
+    shown = terminal(text)
     for line in _fitted(shown, err) if err.is_terminal else [shown]:
         err.print(Text(line, style="yellow"), soft_wrap=True)

@@ -25,7 +25,6 @@ Args:
     elements (N): The reference's elements along the shorter side, or 8x4 along x and y.
     law (NAME): Law of strain of a shell or solid: {STRAIN_LAWS}. Default: the material's own, else
         {STRAIN_LAW}.
-    symmetry: Solve a half or a quarter where scene and grid are symmetric; solids are solved whole.
     model (MODEL): A further model: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped,
         lumped-pair, plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.
     export (DIR): Write the lattice for another simulator: masses, springs, supports, loads, values to check
@@ -189,7 +188,6 @@ class CampaignOptions(Group):
     no_effect: ClassVar[dict[str, str]] = {"without_out": "retry"}
     workers: Annotated[int | None, Kind(least=1)] = None
     scheduler: str | None = None
-    wait: bool = False
     retry: bool = False
 
 
@@ -199,7 +197,6 @@ class ClusterOptions(CampaignOptions):
 
     Args:
         scheduler (ADDRESS): A dask scheduler, as tcp://host:8786.
-        wait: With --scheduler: wait where there is no worker, instead of stopping.
     """
 
-    no_effect: ClassVar[dict[str, str]] = {"without_scheduler": "wait", "with_scheduler": "workers"}
+    no_effect: ClassVar[dict[str, str]] = {"with_scheduler": "workers"}

@@ -83,7 +83,6 @@ class Output:
     @contextmanager
     def campaign(self, options: CampaignOptions) -> Iterator[dict[str, Any]]:
         """Yield the keywords of a campaign: its store, in the folder or passing, workers, pool, progress."""
-        from comparisons.cli import console
         from comparisons.sweep.campaign import campaign
         from comparisons.sweep.executors import pool_of
         from comparisons.sweep.store import FILE
@@ -92,7 +91,7 @@ class Output:
             self.store_files = [FILE]
             yield {
                 "store": stack.enter_context(campaign(None if self.folder is None else self.folder.path)),
-                "pool": stack.enter_context(pool_of(options.scheduler, options.wait, console.warn)),
+                "pool": stack.enter_context(pool_of(options.scheduler)),
                 "progress": self.progress,
                 "workers": options.workers or os.cpu_count() or 1,
                 "retry": options.retry,

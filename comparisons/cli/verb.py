@@ -34,7 +34,7 @@ Command = Callable[..., Any]
 
 
 def no_effect(**rules: str) -> Callable[[Command], Command]:
-    """Declare options without effect: with_duration="symmetry branch", those that have none beside
+    """Declare options without effect: with_duration="branch export", those that have none beside
     --duration, without_duration="every", those that have none but with it."""
 
     def declare(command: Command) -> Command:

@@ -45,13 +45,13 @@ CONTACT = """
 ## Obstacles
 
 - `obstacles.csv`: rigid bodies where they are at last, in `a` a plane's unit normal, towards the sheet, or a
-  cylinder's axis; `stiffness` k in N/m³, the largest of its points.
-- `contacts.csv`: points of the mid-surface that may touch an obstacle, numbered from 0: on a plane the mean
-  of every column of masses with its area, on others points in cells. A point is at X = Σ weight × corner, a
-  corner being the mean of its masses. With y = X − position, φ = y·n on a plane, n its normal; |y| − radius
-  and n = y/|y| on a sphere; the same on a cylinder with y less its part along the axis. Depth d = offset −
-  φ; where d > 0, E = ½ k d² area, and the gradient by X is −k d area n, weight times that on each corner. The
-  offset is half the thickness and 1e-9 of it. The energy of `states.csv` is that of springs and contact.
+  cylinder's axis.
+- `contacts.csv`: points in cells of the mid-surface that may touch an obstacle, numbered from 0, with their
+  area and k in N/m³. A point is at X = Σ weight × corner, a corner being the mean of its masses. With y =
+  X − position, φ = y·n on a plane, n its normal; |y| − radius and n = y/|y| on a sphere; the same on a
+  cylinder with y less its part along the axis. Depth d = offset − φ; where d > 0, E = ½ k d² area, and the
+  gradient by X is −k d area n, weight times that on each corner. The offset is half the thickness and 1e-9
+  of it. The energy of `states.csv` is that of springs and contact.
 """
 PAGE = """\
 # {title}

@@ -62,7 +62,7 @@ NAMES = {  # and what they are
     "couple_before": "(e, p) masses of the column before it",
     "couple_after": "(e, p) of the one after it",
     "couple_moment": "(e,) [N m]",
-    "obstacle_kind": "(o,) 0 plane, 1 sphere, 2 cylinder",
+    "obstacle_kind": "(o,) names",
     "obstacle_position": "(o, 3) of a plane's point, a centre, a point of an axis, where it is at last [m]",
     "obstacle_direction": "(o, 3) unit normal or axis, 0 of a sphere",
     "obstacle_radius": "(o,) [m], 0 of a plane",
@@ -208,18 +208,13 @@ def natural(lattice: Description) -> str:
 
 
 def contacts(lattice: Description) -> dict[str, str]:
-    """Return the tables of obstacles, with the largest stiffness of their points, and of the points."""
-    of, corners = lattice.contact, [f"corner_{n}" for n in range(1, 5)]
-    most = np.zeros(len(of["obstacle_kind"]))
-    np.maximum.at(most, of["contact_obstacle"], of["contact_stiffness"])
-    kinds = np.array(["plane", "sphere", "cylinder"])[of["obstacle_kind"]]
-    place = (of[f"obstacle_{name}"] for name in ("position", "direction", "radius"))
-    joined = np.array([[*map(_joined, masses)] for masses in of["contact_corners"].tolist()])
-    numbers = (of[f"contact_{name}"] for name in ("weights", "area", "offset", "stiffness"))
-    head = ["obstacle", *corners, *(f"weight_{n}" for n in range(1, 5)), "area", "offset", "stiffness"]
+    """Return the tables of obstacles and of their points."""
+    joined = np.array([[*map(_joined, masses)] for masses in lattice.contact["contact_corners"].tolist()])
+    columns = list((lattice.contact | {"contact_corners": joined}).values())
+    four = (f"{name}_{n}" for name in ("corner", "weight") for n in range(1, 5))
     return {
-        "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius,stiffness", _rows(kinds, *place, most)),
-        "contacts.csv": _csv(",".join(head), _rows(of["contact_obstacle"], joined, *numbers)),
+        "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius", _rows(*columns[:4])),
+        "contacts.csv": _csv(",".join(["obstacle", *four, "area,offset,stiffness"]), _rows(*columns[4:])),
     }
 
 

@@ -1,8 +1,7 @@
 """A scene's motion as the lattice and as a finite-element reference have it, side by side.
 
 The reference moves a second time on elements twice as large, and a third time with steps of about twice the
-length: how far it goes then is what mesh and step leave uncertain (`uncertainty`), on the safe side, for
-both errors are at least halved by the finer run.
+length: the rows of its error bar (`comparisons.sweep.limits.motion_bar`).
 """
 
 from __future__ import annotations
@@ -13,13 +12,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from comparisons.comparison.measures import largest
 from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.external import plugins
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
+from comparisons.sweep.here import moved_here
+from comparisons.sweep.limits import motion_bar
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
@@ -82,16 +82,13 @@ def compare_motion(
     if uncertainty and truth.succeeded:
         error = LONGER * truth.settings["error"]
         longer = moved(resolve(scene, finest), f"{named} in longer steps", spacing, error=error)
-        bars = {"mesh": None, "step": _largest(longer, truth)}
-        along = finest.counts(scene)
+        rows, along = [moved_here(scene, finest, truth)], finest.counts(scene)
         if min(along[:2]) > 1:
-            half = resolve(scene, finest.but(count=(along[0] // 2, along[1] // 2)))
-            bars["mesh"] = _largest(moved(half, f"{named} on larger elements", spacing), truth)
+            half = finest.but(count=(along[0] // 2, along[1] // 2))
+            run = moved(resolve(scene, half), f"{named} on larger elements", spacing)
+            rows.append(moved_here(scene, half, run))
+        bars = motion_bar(rows, moved_here(scene, finest, longer))
     return MotionComparison(scene, {**histories, finest.kind: truth}, bars, left_out)
-
-
-def _largest(one: History, other: History) -> float | None:
-    return largest(one, other) if one.succeeded else None
 
 
 def require_motion(scene: Scene, spec: Spec) -> None:

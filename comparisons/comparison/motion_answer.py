@@ -12,6 +12,7 @@ import numpy as np
 from comparisons.comparison import frames
 from comparisons.comparison.measures import Measures, difference, leading, measured_alike
 from comparisons.models.spec import Lattice
+from comparisons.sweep.limits import in_all
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.history import COMPONENTS, History
@@ -70,8 +71,7 @@ class MotionComparison(Answer):
     def bar(self) -> float | None:
         """How far the reference may be off, by its mesh and its steps together, as `largest` is measured;
         None where one of them is not known."""
-        parts = [*self.uncertainty.values()]
-        return sum(part or 0.0 for part in parts) if parts and None not in parts else None
+        return in_all(self.uncertainty)
 
     @cached_property
     def measures(self) -> tuple[Measures, ...]:

@@ -29,7 +29,7 @@ from typing import Any, TypedDict
 
 from comparisons.pictures.work import duration
 from comparisons.sweep import interrupts
-from comparisons.sweep.executors import Pool, Processes, Watched, single_threaded
+from comparisons.sweep.executors import Pool, Processes, single_threaded
 from comparisons.sweep.store import FILE, Finished, Store
 from sheetbench.answers.files import plain
 from sheetbench.errors import BadInput
@@ -42,7 +42,6 @@ TASKS = {
     "stability.run": "comparisons.stability.limit:run",
 }
 GOING = "going on"
-POLL = 1.0  # s between looks at who carries out the runs
 
 
 @dataclass(frozen=True)
@@ -177,25 +176,22 @@ class _Session:
                     under_way[_submit(executor, run)] = run
                     self.going[run.key] = run.label
                     self._tell(run, GOING, width)
-                done, _ = wait(under_way, timeout=POLL, return_when=FIRST_COMPLETED)
-                if not done and isinstance(executor, Watched):
-                    executor.watch()
-                broken, cancelled = [], []
+                done, _ = wait(under_way, return_when=FIRST_COMPLETED)
+                broken = []
                 for future in done:
                     run = under_way.pop(future)
                     error = None if future.cancelled() else future.exception()
                     if future.cancelled() or isinstance(error, CancelledError):
-                        cancelled.append(run)
-                    elif isinstance(error, BrokenProcessPool):
+                        raise BadInput(
+                            "the connection to the cluster was lost; finished runs are kept, and the same "
+                            "command goes on"
+                        )
+                    if isinstance(error, BrokenProcessPool):
                         broken.append(run)
                     else:
                         self._keep(run, _lost(run, error) if error else future.result(), width)
                 if broken:
                     return [*broken, *under_way.values()]
-                if cancelled:  # the connection was lost, which is nobody's fault: they go again on the next
-                    waiting.extendleft([*under_way.values(), *cancelled])
-                    executor.shutdown(wait=False, cancel_futures=True)
-                    break
         return []
 
     def _keep(self, run: Run, outcome: Finished, width: int) -> None:
@@ -217,7 +213,7 @@ def _ended(executor: Executor) -> Iterator[Executor]:
     try:
         yield executor
     except BaseException:
-        executor.shutdown(wait=False, cancel_futures=True)
+        executor.shutdown(wait=False)
         raise
     executor.shutdown()
 

@@ -24,7 +24,6 @@ from sheetbench.errors import BadInput
 
 MANIFEST = "manifest.json"
 ABOUT = ("scene", "sheet", "material")  # what a run is about
-NAMED = 3  # differences that a refusal names
 
 
 class Folder:
@@ -52,16 +51,12 @@ class Folder:
         self._record = record(list(command))
         self._about, self._variant = plain(dict(about or {})), plain(dict(variant or {}))
         self._runs = _runs(self.path, option)
-        mixed = {
-            name: difference
-            for name, run in self._runs.items()
-            if (difference := self._differences(name, run))
-        }
+        mixed = {name: off for name, run in self._runs.items() if (off := self._differences(name, run))}
         if mixed and not overwrite:
             name, difference = next(iter(mixed.items()))
             raise BadInput(
-                f"{option} = '{path}': holds files of another '{name}' ({difference}); choose another "
-                "folder, or --overwrite"
+                f"{option} = '{path}': holds files of another '{name}' (of another {difference}); "
+                "choose another folder, or --overwrite"
             )
         self._stale = [name for name in {**mixed, verb: ""} if name in self._runs] if overwrite else []
 
@@ -131,19 +126,16 @@ class Folder:
         write_text(self.path / MANIFEST, to_json(whole))
 
     def _differences(self, verb: str, run: Mapping[str, Any]) -> str:
-        """Return how the scene or options of a run that left files here differ from this run's."""
-        there, here = (
-            of if "scene" in run and "scene" in self._about else {**of, **of.get("scene", {})}
-            for of in (run, self._about)
-        )
+        """Return by what the scene or options of a run that left files here are others than this run's."""
+        there, here = ({**of.get("scene", {}), **of} for of in (run, self._about))
         shared = [key for key in ABOUT if key in there and key in here]
         if not shared and verb != self._verb:
-            return "about something else"
-        phrases = _differing({key: there[key] for key in shared}, {key: here[key] for key in shared})
+            return "question"
+        pairs = {key: (there[key], here[key]) for key in shared}
         if verb == self._verb:
-            phrases += _differing(run.get("asked", {}), self._variant)
-        more = f" and {len(phrases) - NAMED} more" if len(phrases) > NAMED else ""
-        return "; ".join(phrases[:NAMED]) + more
+            options = {**run["asked"], **self._variant}
+            pairs |= {name: (run["asked"].get(name), self._variant.get(name)) for name in options}
+        return ", ".join(name for name, (theirs, ours) in pairs.items() if theirs != ours)
 
 
 def _runs(path: Path, option: str) -> dict[str, Any]:
@@ -151,33 +143,11 @@ def _runs(path: Path, option: str) -> dict[str, Any]:
     ours."""
     try:
         manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
-        return {verb: {"files": [], **run} for verb, run in manifest["runs"].items()}
+        return {verb: {"files": [], "asked": {}, **run} for verb, run in manifest["runs"].items()}
     except FileNotFoundError:
         return {}
     except (OSError, ValueError, AttributeError, TypeError, LookupError):
         raise BadInput(f"{option} = '{path}': its {MANIFEST} cannot be read; choose another folder") from None
-
-
-def _differing(there: Any, here: Any, at: str = "") -> list[str]:
-    """Where two JSON documents differ, a phrase each."""
-    if isinstance(there, dict) and isinstance(here, dict):
-        keys = dict.fromkeys([*there, *here])
-        return [
-            phrase
-            for key in keys
-            for phrase in _differing(there.get(key), here.get(key), f"{at}.{key}" if at else key)
-        ]
-    if isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
-        pairs = enumerate(zip(there, here, strict=True), start=1)
-        return [phrase for i, (a, b) in pairs for phrase in _differing(a, b, f"{at}.{i}")]
-    return [] if there == here else [f"{at} is {_short(there)} there, {_short(here)} here"]
-
-
-def _short(value: Any) -> str:
-    if isinstance(value, dict | list):
-        return f"of {len(value)}"
-    text = "nothing" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
-    return text if len(text) <= 40 else f"{text[:39]}…"
 
 
 def _remove(path: Path, name: str) -> None:

@@ -13,10 +13,11 @@ from comparisons.models.context import running
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import has_room
 from comparisons.models.solve import solve
-from comparisons.models.spec import Lattice
+from comparisons.models.spec import Lattice, Spec
 from comparisons.pictures.work import silent
 from comparisons.sweep import load
 from comparisons.sweep.solved import Ask, Solved
+from sheetbench.answers.history import History
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene
 
@@ -49,6 +50,12 @@ def here(model: Resolved[Any], name: str = "", repeats: int = 1) -> SolvedHere:
     row["cost"] = {"samples": samples, "load_average": load.average()}
     status = str(answer.status)
     return SolvedHere(Ask(model.scene, model.spec, repeats), status, answer.message, row, answer=answer)
+
+
+def moved_here(scene: Scene, spec: Spec, history: History) -> Solved:
+    """Return the row of a motion; nothing in it of one that has not reached its end."""
+    ask, row = Ask(scene, spec, duration=float(history.time[-1])), {"probes": history.probes}
+    return Solved(ask, str(history.status), history.message, row if history.succeeded else {})
 
 
 def with_room(scene: Scene, lattice: Lattice) -> Solution | None:

@@ -11,7 +11,7 @@ Models that are not distinguishable may be equal or not: finer meshes would deci
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING, Annotated
@@ -29,17 +29,20 @@ if TYPE_CHECKING:
 DIGITS = 1e-5  # of the largest displacement
 
 
-def limit(rows: Iterable[Solved], of: str = "probes") -> Uncertainty | None:
+def limit(
+    rows: Iterable[Solved], of: str = "probes", size: Callable[[Solved], float] = lambda row: row.size
+) -> Uncertainty | None:
     """Return limit and bar of a model's finest answers, three of them if there are, None below two.
 
-    of: what the bar is of, "probes" or a column. Quadratic elements miss some of the layer along edges; of
-    others an order of 2 at most counts; in motion the layer counts for nothing.
+    of: what the bar is of, "probes" or a column; size: of a row's cells, or of its steps. Quadratic elements
+    miss some of the layer along edges; of others an order of 2 at most counts; in motion the layer counts for
+    nothing.
     """
     from fem_reference.edge_layer import missed_by
     from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, estimate
 
-    usable = sorted((row for row in rows if row.usable), key=lambda row: row.size)[:3]
-    sizes = [row.size for row in usable]
+    usable = sorted((row for row in rows if row.usable), key=size)[:3]
+    sizes = [*map(size, usable)]
     if len(set(sizes)) < 2:
         return None
     ask, layers = usable[0].ask, []
@@ -47,6 +50,21 @@ def limit(rows: Iterable[Solved], of: str = "probes") -> Uncertainty | None:
         layers = [missed_by(row.ask.scene, row.row["settings"]) for row in usable]
     order = OWN_ORDER if ask.layered else ASSUMED_ORDER
     return estimate([row.values(of) for row in usable], sizes, layers, order)
+
+
+def motion_bar(meshes: Sequence[Solved], longer: Solved) -> dict[str, float | None]:
+    """Return what "mesh" and "step" leave uncertain of a motion, shares of its largest displacement, None
+    where runs did not end; meshes: the finest first; longer: its run in steps twice as long, which are of
+    second order."""
+    by = {"mesh": limit(meshes), "step": limit([meshes[0], longer], size=lambda row: 1.0 + (row is longer))}
+    known = meshes[0].usable
+    return {name: found.error if known and found is not None else None for name, found in by.items()}
+
+
+def in_all(bars: Mapping[str, float | None]) -> float | None:
+    """Return the parts of a bar together, None where one of them is not known."""
+    known = [bar for bar in bars.values() if bar is not None]
+    return sum(known) if bars and len(known) == len(bars) else None
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@
               steps in the period: what its steps alone miss
 
 Period and damping are those of `comparisons.comparison.measures`; cost is the solver's time per simulated
-second. The reference's uncertainty is its grid convergence index from n, ¾ n and ½ n elements a side, and a
-third of what steps twice as long change, for it is of second order. Steps of a lattice are the period over
+second. The reference's uncertainty is by n, ¾ n and ½ n elements a side and by steps twice as long
+(`comparisons.sweep.limits.motion_bar`). Steps of a lattice are the period over
 `divisions`, the period being the lowest mode's about the flat sheet or about its equilibrium, the shorter of
 the two: a sheet that hangs is stiffer than it was flat. Where an integrator converges with none of them its
 steps are halved until it does, down to the midpoint rule's. Explicit integrators take shares of their
@@ -28,7 +28,7 @@ from comparisons.comparison.motion import require_motion
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords
-from comparisons.sweep.limits import limit
+from comparisons.sweep.limits import in_all, motion_bar
 from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.sweep.store import Store
 from comparisons.tradeoff.answer import DynamicTradeoff
@@ -117,7 +117,7 @@ def dynamic_tradeoff(
             for row in found
         ),
         MotionRow.of(finer_rows[0], finer_rows[0]),
-        _uncertainty(*finer_rows),
+        in_all(motion_bar(finer_rows[:-1], finer_rows[-1])),
         tuple(dict.fromkeys(f"{name.removesuffix('_reason')}: {why}" for name, why in reasons)),
         tuple(f"lumped {one.springs.title}" for one in meant),
         max(map(_off, halves, truths), default=0.0),
@@ -128,16 +128,6 @@ def _place(ask: Ask, integrators: Sequence[str]) -> tuple[float, int]:
     """Lattices first, and the rows of each by integrator."""
     name = ask.run.get("integrator")
     return (ask.tags.get("lattice", np.inf), integrators.index(name) if name in integrators else 0)
-
-
-def _uncertainty(*rows: Solved) -> float | None:
-    """Of the reference, by its meshes, the finest first, and the run in longer steps, the last."""
-    *meshes, longer = rows
-    truth, slower = meshes[0].history, longer.history
-    by_mesh = limit(meshes)
-    if truth is None or slower is None or by_mesh is None:
-        return None
-    return by_mesh.error + largest(slower, truth) / 3.0
 
 
 def _off(one: Solved, other: Solved) -> float:

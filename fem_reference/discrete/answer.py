@@ -29,6 +29,7 @@ from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 
 EPSILON = float(np.finfo(float).eps)
+EXACT = Limits(first_reach=np.inf, farthest=np.inf, smallest_step=1.0)  # of linear sheets: one step is all
 
 
 def shape_of(path: Path[StaticState, Forces]) -> SheetShape:
@@ -46,9 +47,9 @@ class Traced(NamedTuple):
 
 
 def inspected(path: Path[StaticState, Forces]) -> Fault | None:
-    """Return why a step of a path is given up: an element that has turned inside out."""
-    found = shape_of(path).sheet.inside_out(path.state.q)
-    return Fault(Status.INVERTED, found) if found else None
+    """Return why a step of a path is given up."""
+    found: Fault | None = (shape := shape_of(path)).sheet.fault(shape)
+    return found
 
 
 def traced(
@@ -63,6 +64,7 @@ def traced(
     ready = now()
     start, slenderness = near and near(sheet), sheet.scene.sheet.thickness / sheet.lever
     settle = relax if sheet.creeps else None
+    options = ({"limits": EXACT} if sheet.linear else {}) | options
     options |= {"near": start, "slenderness": slenderness}
     path = trace_path(Static(sheet), sheet.solver(), inspect, settle, **options)
     path.factor = None  # a run is kept longer than that
@@ -94,37 +96,7 @@ def answered(runs: Sequence[Traced], label: str, settings: dict[str, Any], fallb
         left *= np.sqrt(sheet.unknowns)
     allowed = float(left + EPSILON * sheet.summed(shape))
     status, notes = judge(path)
-    return answer(
-        shape,
-        forces.residual,
-        forces.size,
-        allowed,
-        label=label,
-        settings=settings,
-        status=status,
-        iterations=sum(one.path.factorisations for one in runs),
-        setup_seconds=sum(one.setup_seconds for one in runs),
-        solve_seconds=sum(one.solve_seconds for one in runs),
-        history=tuple(entry for one in runs[::-1] for entry in one.path.history),
-        load_factor=share,
-        snaps=tuple(path.snaps),
-        fallback=fallback,
-        remarks=(*notes, *limit_notes(settings.get("law"), sheet.scene.material, status)),
-        stretch=shape.stretch,
-    )
-
-
-def answer(
-    shape: SheetShape,
-    residual: np.ndarray,
-    size: float,
-    allowed: float,
-    balanced: bool = True,
-    **own: Any,
-) -> Solution:
-    """Return the answer in a shape under its share of the load, with a residual (N,). size, allowed: of the
-    balance (`Balance`), which there is only where `balanced`."""
-    sheet, q, share = shape.sheet, shape.q, shape.at
+    residual, q = forces.residual, shape.q
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     edges, wrenches, line = sheet.wrenches(shape, residual)
     reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(shape)
@@ -147,6 +119,17 @@ def answer(
         mesh=mesh,
         contacts={name: state for name, (state, _) in contacts.items()},
         actuators=wrenches,
-        balance=left_over(scene, surface, edges, reactions, held, size, allowed, share) if balanced else None,
-        **own,
+        balance=left_over(scene, surface, edges, reactions, held, forces.size, allowed, share),
+        label=label,
+        settings=settings,
+        status=status,
+        iterations=sum(one.path.factorisations for one in runs),
+        setup_seconds=sum(one.setup_seconds for one in runs),
+        solve_seconds=sum(one.solve_seconds for one in runs),
+        history=tuple(entry for one in runs[::-1] for entry in one.path.history),
+        load_factor=share,
+        snaps=tuple(path.snaps),
+        fallback=fallback,
+        remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
+        stretch=shape.stretch,
     )

@@ -57,9 +57,8 @@ class Touching(SheetItem):
         deep, scale = np.maximum(depth, 0.0), self.share * self.full * self.area
         over = (ROUNDED if self.moving else 1e-100) * self.thickness
         curved, sure = np.minimum(deep, over), np.maximum(deep - over, 0.0)
-        force = curved**2 / (2.0 * over) + sure
-        energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
-        return scale * energy, scale * force, scale * curved / over
+        energy, load = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over), curved**2 / (2.0 * over) + sure
+        return scale * energy, scale * load, scale * curved / over
 
     def _pulled(self, shape: SheetShape) -> np.ndarray:
         """Return forces at points (faces, m, 9, 3) [N]."""

@@ -15,11 +15,12 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from fem_reference.discrete.relaxation import Strained, gain, with_branches
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.shell.element import Element, weighed
+from sheetbench.answers.solution import Status
+from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.sparsity import Pattern, add_blocks
 
 if TYPE_CHECKING:
@@ -74,16 +75,35 @@ class DiscreteElements(Discrete):
     def short(self, shape: SheetShape) -> np.ndarray:
         """The step (N,) to what is prescribed and onto the constraints, linear in both."""
 
+    def fault(self, shape: SheetShape) -> Fault | None:
+        """Why an equilibrium is given up: an element that has turned inside out."""
+        found = self.inside_out(shape.q)
+        return Fault(Status.INVERTED, found) if found else None
+
     def stress(self, shape: SheetShape) -> np.ndarray:
-        """s + τ D ė (m, k) and what the branches add."""
-        stress = with_branches(shape.elastic, shape.branches)
+        """s + τ D ė (m, k), and what the branches add at the end of their step."""
+        stress, step = shape.elastic, shape.branches
+        if step is not None:
+            stress = stress + ((step.gain - 1.0) * stress + step.past.reshape(stress.shape))
         return stress + self.tau * weighed(shape.moduli, shape.rate) if self.tau else stress
 
-    def elements_internal(self, shape: SheetShape) -> np.ndarray:
-        return self.scatter(self.element.forces(shape.operator, self.stress(shape)))
+    def internal(self, shape: SheetShape) -> np.ndarray:
+        """Elastic and viscous forces (N,) of the sheet's elements and of its rods."""
+        out = self.scatter(self.element.forces(shape.operator, self.stress(shape)))
+        for body in self.bodies:
+            out = out + body.scatter(body.pull(shape.q, body.stress(shape)))
+        return out
+
+    def forces(self, shape: SheetShape) -> np.ndarray:
+        """g (N,): internal and viscous less external forces."""
+        forces = self.internal(shape) - self.external(shape)
+        damped = self.alpha and shape.v is not None
+        return forces + self.alpha * (self.sheet_mass @ shape.v) if damped else forces
 
     def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
-        moduli = (1.0 + by_v * self.tau + gain(shape.branches)) * shape.moduli
+        """Zᵀ (by_a M + by_v C + K) Z, and what the constraints add under a residual (N,)."""
+        gain = 1.0 if shape.branches is None else shape.branches.gain
+        moduli = (gain + by_v * self.tau) * shape.moduli
         on_rods = [body.stress(shape) for body in self.bodies]
         return self.system(shape, moduli, self.stress(shape), on_rods, residual, by_a, by_v)[0]
 
@@ -107,7 +127,7 @@ class DiscreteElements(Discrete):
             pull = element.forces(shape.operator, weighed(moduli, element.step(shape.operator, of_move)))
             product += self.scatter(pull + element.geometric(of_move, stress))
         for item in self.items:
-            if (found := item.tangent(shape)) is not None:
+            if not self.linear and (found := item.tangent(shape)) is not None:
                 on, by_surface = found
                 add_blocks(data, slots[0][on], -self.fold(shape, on, by_surface))
                 if move is not None:
@@ -151,14 +171,16 @@ class DiscreteElements(Discrete):
         found = self.element.strain(change)
         return found if self.natural is None else found - self.natural.at(*self.instant(at))
 
-    def strains(self, q: np.ndarray) -> Strained:
-        shape = self.shape(q, 1.0)
-        return shape.strain, shape.elastic
-
     def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
+        """Strain energy [J] of the sheet by part."""
         return self.element.energies(shape.strain)
 
+    def elastic(self, shape: SheetShape) -> float:
+        """Strain energy [J] of the sheet."""
+        return sum(self.energies_by_part(shape).values())
+
     def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
+        """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
         shape, element = self.shape(q, 0.0), self.element
         change, other_change = (element.step(shape.operator, self.gather(of)) for of in (step, other))
         return float(np.sum(change * weighed(shape.moduli, other_change)))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fem_reference.discrete.sheet import Discrete
+from fem_reference.discrete.elements import DiscreteElements
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class SheetMotion:
     memory: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
-def energies(sheet: Discrete, motion: SheetMotion) -> tuple[float, float, float]:
+def energies(sheet: DiscreteElements, motion: SheetMotion) -> tuple[float, float, float]:
     """Return kinetic, elastic and potential energy [J] of a motion: of constant dead loads, and of items that
     store it."""
     q, v, time = motion.q, motion.v, motion.time
@@ -34,7 +34,7 @@ def energies(sheet: Discrete, motion: SheetMotion) -> tuple[float, float, float]
     return 0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential
 
 
-def spent(sheet: Discrete, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:
+def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:
     """Return energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
     forces times changes, of dampers those that the step balances. late: the end's share in them."""
     h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)

@@ -36,18 +36,12 @@ LIGHT = 1e-3
 BENT = {"normal": (NORMAL,), "inplane": (INPLANE,), "spatial": (NORMAL, INPLANE)}
 
 
-def components_of(bound: BoundRods) -> np.ndarray:
-    """Numbers (k, 3 a) of the components of the sides' vectors, where all vectors' are the coordinates."""
-    k, a = bound.sites.shape
-    return (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
-
-
 class Rods:
     """The rods of a scene's chains among the coordinates (N,) of a sheet.
 
-    bound: to the sheet's vectors; bind: does that for a scene with the same chains; rows: coordinates
-    (k, 3 a) of the sides' Q, −1 for none; size: N; commands: scenes with a part of the curvature each, and
-    its factor; places: of φ, d and m (9,) in Q; linear: strains are those about the flat sheet.
+    bound: to the sheet's vectors; bind: does that for a scene with the same chains; size: N; commands: scenes
+    with a part of the curvature each, and its factor; places: of φ, d and m (9,) in Q; linear: strains are
+    those about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q.
     """
 
     def __init__(
@@ -55,13 +49,14 @@ class Rods:
         scene: Scene,
         bound: BoundRods,
         bind: Callable[[Scene], BoundRods],
-        rows: np.ndarray,
         size: int,
         commands: Iterable[tuple[Scene, Factor]],
         places: np.ndarray | None = None,
         linear: bool = False,
     ):
-        self.bound, self._bind, self._linear, self._size, self.rows = bound, bind, linear, size, rows
+        self.bound, self._bind, self._linear, self._size = bound, bind, linear, size
+        k, a = bound.sites.shape
+        self.rows = (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
         self.elements: RodElements = bound.elements
         self._commands: list[tuple[np.ndarray, Factor]] = [
             (bind(alone).elements.intrinsic, factor) for alone, factor in commands
@@ -138,17 +133,15 @@ class Rods:
         """The sum (N, N) of matrices of sides (k, 3 a, 3 a)."""
         width = self.rows.shape[1]
         rows, columns = np.repeat(self.rows, width, axis=1).ravel(), np.tile(self.rows, (1, width)).ravel()
-        on = (rows >= 0) & (columns >= 0)
-        return csr_matrix((sides.ravel()[on], (rows[on], columns[on])), (self._size, self._size))
+        return csr_matrix((sides.ravel(), (rows, columns)), (self._size, self._size))
 
     def gather(self, q: np.ndarray) -> np.ndarray:
         """The sides' vectors (k, a, 3) of coordinates (N,)."""
-        return np.where(self.rows >= 0, q[self.rows], 0.0).reshape(self.elements.reference.shape)
+        return q[self.rows].reshape(self.elements.reference.shape)
 
     def scatter(self, of_sides: np.ndarray) -> np.ndarray:
         """Sums (N,) of the sides' (k, a, 3)."""
-        on = self.rows >= 0
-        return np.bincount(self.rows[on], of_sides.reshape(self.rows.shape)[on], self._size)
+        return np.bincount(self.rows.ravel(), of_sides.ravel(), self._size)
 
     def _inertia(self) -> np.ndarray:
         k, a = self._mass.shape[:2]

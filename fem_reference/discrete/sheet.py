@@ -10,7 +10,8 @@ sheet at rest with the load factor in place of the time (`discrete.static`), mod
 Viscous forces are those of the rate of strain under the elastic moduli, s = D (e + τ ė) with ė = B u̇ and τ
 the material's `dashpot_time`, as every spring of a lattice has the damper τ k; `damping_rate` α adds α M u̇.
 Their tangent leaves out how B changes with the shape, which is of the order of the turn in a step.
-Internal forces are those of the elements and of the rods (`discrete.rods`), external ones those of `items`.
+Internal forces are those of the elements (`discrete.elements`) and of the rods (`discrete.rods`), external
+ones those of `items`.
 """
 
 from __future__ import annotations
@@ -25,7 +26,6 @@ from scipy.sparse import csc_matrix, csr_matrix
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
 from fem_reference.discrete.items import Dead, Drag, Following, SheetItem
-from fem_reference.discrete.relaxation import Strained
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads, rod
@@ -46,7 +46,8 @@ from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 class Discrete(ABC):
     """N = `size` coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
 
-    norm: order of the norm that residuals are measured in. any_strain: whether the law of strain is meant for
+    norm: order of the norm that residuals are measured in; linear: strains are linear in the coordinates, and
+    loads act on the flat sheet. any_strain: whether the law of strain is meant for
     large strains. lever: the flat sheet's longer side [m]; scale: 1 of positions (N,), of directors the
     lever. own: whether the mesh has an outline of its own, in place of the scene's sheet. bodies: the rods,
     if there are any.
@@ -54,6 +55,7 @@ class Discrete(ABC):
 
     model: ClassVar[str]
     norm: ClassVar[int]
+    linear: ClassVar[bool] = False
     label: str
     settings: dict[str, Any]
     any_strain: bool = False
@@ -79,12 +81,11 @@ class Discrete(ABC):
         """The rods of a scene on the sheet."""
         return rod.on_surface(rod.of_scene(scene, self.plan), self.nodes)
 
-    def bind(self, bound: BoundRods, rows: np.ndarray, places: np.ndarray | None = None) -> None:
+    def bind(self, bound: BoundRods, places: np.ndarray | None = None) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
         scene, moving = self.scene, self.moving
         commands = commands_of(scene, moving) if bound.rods else ()
-        flat = self.model == "plate"
-        self.rods = rods = Rods(scene, bound, self.rods_of, rows, self.size, commands, places, flat)
+        self.rods = rods = Rods(scene, bound, self.rods_of, self.size, commands, places, self.linear)
         self.bodies = [rods] if rods else []
         for alone, factor in loads_of(scene, moving):
             nodal, followers = loads.of_scene(alone, self.plan)
@@ -96,7 +97,7 @@ class Discrete(ABC):
             self.items += [Following(load, factor) for load in followers]
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
-        if self.model != "plate":  # which is linear
+        if not self.linear:
             given = scene, self.plan, moving, self.model == "solid"
             self.contacts = [Touching(*given, *one) for one in scene.named_obstacles().items()]
             self.items += self.contacts
@@ -189,10 +190,6 @@ class Discrete(ABC):
 
     # forces
 
-    @abstractmethod
-    def elements_internal(self, shape: SheetShape) -> np.ndarray:
-        """Elastic and viscous forces (N,) of the sheet."""
-
     def shape(
         self, q: np.ndarray, at: float, v: np.ndarray | None = None, branches: BranchStep | None = None
     ) -> SheetShape:
@@ -208,13 +205,6 @@ class Discrete(ABC):
         held = {name: both for item in self.items for name, both in item.holds(shape).items()}
         return {name: (at.reshape(-1, 3), force.reshape(-1, 3)) for name, (at, force) in held.items()}
 
-    def internal(self, shape: SheetShape) -> np.ndarray:
-        """Forces (N,) of the sheet's elements and of its rods."""
-        out = self.elements_internal(shape)
-        for body in self.bodies:
-            out = out + body.scatter(body.pull(shape.q, body.stress(shape)))
-        return out
-
     def wrenches(
         self, shape: SheetShape, residual: np.ndarray, a: np.ndarray | None = None
     ) -> tuple[list[OnEdge], dict[str, np.ndarray], np.ndarray]:
@@ -229,16 +219,6 @@ class Discrete(ABC):
             edges += self.on_edges(shape.q, pull if a is None else pull + body.inertial(a))
         held = self.exerted(shape.q, residual)
         return edges, *exerted(self.scene, edges, self.supports.moved, held)
-
-    def forces(self, shape: SheetShape) -> np.ndarray:
-        """g (N,): internal and viscous less external forces."""
-        forces = self.internal(shape) - self.external(shape)
-        damped = self.alpha and shape.v is not None
-        return forces + self.alpha * (self.sheet_mass @ shape.v) if damped else forces
-
-    @abstractmethod
-    def tangent(self, shape: SheetShape, residual: np.ndarray, by_a: float, by_v: float) -> csr_matrix:
-        """Zᵀ (by_a M + by_v C + K) Z, and what the constraints add under a residual (N,)."""
 
     @abstractmethod
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
@@ -259,24 +239,6 @@ class Discrete(ABC):
     @abstractmethod
     def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
         """Forces (N,) of those on φ and d of elements `on`, (k, 18, 3)."""
-
-    # energies
-
-    @abstractmethod
-    def strains(self, q: np.ndarray) -> Strained:
-        """Strains, and the elastic stresses that go with them, as `relaxation` takes them."""
-
-    @abstractmethod
-    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
-        """Strain energy [J] of the sheet by part."""
-
-    def elastic(self, shape: SheetShape) -> float:
-        """Strain energy [J] of the sheet."""
-        return sum(self.energies_by_part(shape).values())
-
-    @abstractmethod
-    def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
-        """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
 
     # what is shown
 

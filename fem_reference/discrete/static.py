@@ -53,7 +53,7 @@ class Static(Creeping[StaticState, Forces]):
 
     def __init__(self, sheet: DiscreteElements):
         self.sheet, self.prestrained = sheet, sheet.natural is not None
-        self.contacts, self.size = sheet.contacts, sheet.longest
+        self.contacts, self.size, self.linear = sheet.contacts, sheet.longest, sheet.linear
         self._last: SheetShape | None = None
 
     @property

@@ -17,9 +17,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.energies import SheetMotion, spent
-from fem_reference.discrete.relaxation import remembered
-from fem_reference.discrete.sheet import Discrete
 from fem_reference.sheets import start
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
@@ -61,7 +60,7 @@ class ConstrainedAlpha:
 
     state = SheetMotion
 
-    def __init__(self, model: Discrete, step: float | None, error: float, first: float):
+    def __init__(self, model: DiscreteElements, step: float | None, error: float, first: float):
         self._usual = generalised(RADIUS)
         self.late = 1.0 - self._usual.af
         self._model, self.adapts, self._error = model, step is None, error
@@ -149,7 +148,13 @@ class ConstrainedAlpha:
         return Sampled(times, motions, share * spent[0], work + share * spent[1])
 
     def _remembered(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
-        return remembered(self._model.branches, self._model.strains(q), branches)
+        """The memory (1 + b, 2, m) at the end of a step of the branches, at rest without one: elastic
+        stresses and strains, and the branches' parts of them; empty without branches."""
+        own, shape = self._model.branches, self._model.shape(q, 1.0)
+        if not own.times:
+            return np.zeros(0)
+        x = np.stack([part.ravel() for part in (shape.elastic, shape.strain)])
+        return own.at_rest(x) if branches is None else branches.after(x)
 
     def begin(
         self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.energies import energies
-from fem_reference.discrete.sheet import Discrete
 from fem_reference.motion.generalised_alpha import Sampled
 from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.solution import Status
@@ -20,7 +20,7 @@ class ReferenceObserver:
 
     least_energy = 0.0
 
-    def __init__(self, model: Discrete, scene: Scene):
+    def __init__(self, model: DiscreteElements, scene: Scene):
         self._model, self._points = model, scene.probe_points()
         nothing = np.zeros(model.size)
         self._reactions = list(model.reactions(nothing))

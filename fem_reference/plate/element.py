@@ -1,4 +1,4 @@
-"""Biquadratic Mindlin plate element with assumed transverse shear: its strain operators at the Gauss points.
+"""Biquadratic Mindlin plate element with assumed transverse shear: its strains at the Gauss points.
 
 Kinematics, u = u₀ + ζ β with the director's tilt β (the director is e_z + β), linear:
 
@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference.shell.element import weighed
 from fem_reference.surface.biquadratic import (
     GAUSS,
-    NODES,
     TYING,
     areas,
     interpolation,
@@ -27,60 +27,99 @@ from fem_reference.surface.biquadratic import (
     product_grid,
     shape,
 )
+from fem_reference.surface.materials import Section
 
-UX, UY, W, TILT_X, TILT_Y = range(5)
+MEMBRANE, BENDING, SHEAR = slice(0, 3), slice(3, 6), slice(6, 8)
 
 
 @dataclass(frozen=True)
 class PlateElements:
-    """The elements of a mesh: m elements, q = 9 Gauss points, columns 5·node + field of the element.
+    """m elements, whose strains (ε, κ, γ) at 9 Gauss points each are linear in the change of their vectors:
+    e = B q, (9 m, 8).
 
-    nodes: (m, 9); membrane, curvature: (m, q, 3, 45); shear: (m, q, 2, 45); areas: (m, q) [m²], quadrature
-    weights times the Jacobian.
+    reference: φ and d at rest (m, 18, 3); gradient: ∇N at the Gauss points (m, 9, 2, 9); forms: B
+    (m, 72, 54); stiffness: that per strain times a point's area (9 m, 8, 8); areas: (m, 9) [m²].
     """
 
-    nodes: np.ndarray
-    membrane: np.ndarray
-    curvature: np.ndarray
-    shear: np.ndarray
+    reference: np.ndarray
+    gradient: np.ndarray
+    forms: np.ndarray
+    stiffness: np.ndarray
     areas: np.ndarray
+    stands_any_strain = False
 
     @classmethod
-    def build(cls, nodes: np.ndarray, plan: np.ndarray) -> PlateElements:
-        """Of elements with nodes (m, 9) at plan positions (n, 2) [m]."""
-        corners = plan[nodes]
+    def build(cls, nodes: np.ndarray, section: Section) -> PlateElements:
+        """Of elements with nodes at plan positions (m, 9, 2) [m]."""
         _, slope = shape(*GAUSS)
-        inverse = np.linalg.inv(jacobians(corners, slope))  # ∂ξ_a/∂x_b, by a and b
-        gradient = np.einsum("agi,egab->egib", slope, inverse)  # (m, q, 9, x)
+        inverse = np.linalg.inv(jacobians(nodes, slope))  # ∂ξ_a/∂x_b, by a and b
+        gradient = np.einsum("agi,egab->egbi", slope, inverse)
         m, q = gradient.shape[:2]
-        membrane, curvature = (np.zeros((m, q, 3, NODES, 5)) for _ in range(2))
-        for operator, x, y in ((membrane, UX, UY), (curvature, TILT_X, TILT_Y)):
-            operator[:, :, 0, :, x] = operator[:, :, 2, :, y] = gradient[..., 0]
-            operator[:, :, 1, :, y] = operator[:, :, 2, :, x] = gradient[..., 1]
-        return cls(
-            nodes=nodes,
-            membrane=membrane.reshape(m, q, 3, -1),
-            curvature=curvature.reshape(m, q, 3, -1),
-            shear=np.einsum("egab,egac->egbc", inverse, _assumed_shear(corners)),
-            areas=areas(corners),
-        )
+        forms = np.zeros((m, q, 8, 18, 3))
+        for part, of in ((MEMBRANE, slice(0, 9)), (BENDING, slice(9, 18))):
+            xx, yy, xy = np.moveaxis(forms[:, :, part, of], 2, 0)
+            xx[..., 0] = xy[..., 1] = gradient[:, :, 0]
+            yy[..., 1] = xy[..., 0] = gradient[:, :, 1]
+        forms[:, :, SHEAR] = np.einsum("egab,egaic->egbic", inverse, _assumed_shear(nodes))
+        stiffness, weights = np.zeros((m, q, 8, 8)), areas(nodes)
+        for part, moduli in zip((MEMBRANE, BENDING, SHEAR), section, strict=True):
+            stiffness[:, :, part, part] = weights[..., None, None] * moduli
+        reference = np.zeros((m, 18, 3))
+        reference[:, :9, :2], reference[:, 9:, 2] = nodes, 1.0
+        return cls(reference, gradient, forms.reshape(m, 8 * q, 54), stiffness.reshape(-1, 8, 8), weights)
 
-    @property
-    def unknowns(self) -> np.ndarray:
-        """Global numbers of the element's unknowns, (m, 45): 5·node + field."""
-        return (5 * self.nodes[:, :, None] + np.arange(5)).reshape(len(self.nodes), -1)
+    def strain(self, change: np.ndarray) -> np.ndarray:
+        """e (9 m, 8) of a change (m, 18, 3) of positions and directors."""
+        return weighed(self.forms, change.reshape(-1, 54)).reshape(-1, 8)
+
+    def operator(self, change: np.ndarray) -> np.ndarray:
+        """B, whatever the change."""
+        return self.forms
+
+    def step(self, operator: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """B δq (9 m, 8) of a step (m, 18, 3)."""
+        return self.strain(step)
+
+    def forces(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s (m, 18, 3) of stresses (9 m, 8), which are forces times lengths."""
+        return weighed(operator.swapaxes(1, 2), stress.reshape(len(operator), -1)).reshape(-1, 18, 3)
+
+    def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Zero: B does not change with a step."""
+        return np.zeros_like(step)
+
+    def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Σ |B| |s| (18,) by vector, of stresses (9 m, 8)."""
+        return self.forces(np.abs(operator), np.abs(stress)).sum(axis=(0, 2))
+
+    def stress(self, strain: np.ndarray) -> np.ndarray:
+        """s (9 m, 8), conjugate to the strains."""
+        return weighed(self.stiffness, strain)
+
+    def moduli(self, strain: np.ndarray) -> np.ndarray:
+        """∂s/∂e (9 m, 8, 8)."""
+        return self.stiffness
+
+    def tangent(self, moduli: np.ndarray) -> np.ndarray:
+        """Bᵀ D B (m, 54, 54)."""
+        m, points = len(self.forms), self.forms.reshape(-1, 8, 54)
+        return self.forms.swapaxes(1, 2) @ (moduli @ points).reshape(m, -1, 54)
+
+    def energies(self, strain: np.ndarray) -> dict[str, float]:
+        """Energy [J] of strains (9 m, 8), by part."""
+        density = strain * self.stress(strain)
+        parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
+        return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
 
 
-def _assumed_shear(corners: np.ndarray) -> np.ndarray:
-    """Covariant shear (γ_ξ, γ_η) at the Gauss points, (m, q, 2, 45), interpolated from the tying points."""
+def _assumed_shear(nodes: np.ndarray) -> np.ndarray:
+    """Covariant shear (γ_ξ, γ_η) at the Gauss points (m, q, 2, 18, 3), from the tying points."""
     assumed = []
     for direction, name in enumerate(("rr", "ss")):
         value, slope = shape(*product_grid(*TYING[name]))
-        tangent = jacobians(corners, slope)[..., direction]  # (m, 6, x) = ∂x/∂ξ or ∂x/∂η
-        sampled = np.zeros((len(corners), len(value), NODES, 5))
-        sampled[..., W] = slope[direction]
-        for axis, tilt in enumerate((TILT_X, TILT_Y)):
-            sampled[..., tilt] = tangent[..., axis, None] * value
-        onto = interpolation(*TYING[name], GAUSS)
-        assumed.append(np.einsum("qt,mtc->mqc", onto, sampled.reshape(len(corners), len(value), -1)))
+        tangent = jacobians(nodes, slope)[..., direction]  # (m, 6, x) = ∂x/∂ξ or ∂x/∂η
+        sampled = np.zeros((*tangent.shape[:2], 18, 3))
+        sampled[:, :, :9, 2] = slope[direction]
+        sampled[:, :, 9:, :2] = tangent[:, :, None] * value[..., None]
+        assumed.append(np.einsum("qt,mtic->mqic", interpolation(*TYING[name], GAUSS), sampled))
     return np.stack(assumed, axis=2)

@@ -21,23 +21,15 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from scipy.sparse import csr_matrix
 from skfem import MeshQuad
 
-from fem_reference.discrete.answer import EPSILON, answer
+from fem_reference.discrete.answer import answered, traced
 from fem_reference.plate.discrete import DiscretePlate
-from fem_reference.plate.validity import judge
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, divisions, mesh_of
-from sheetbench.answers.solution import Iteration, Solution, Status
-from sheetbench.clock import now
-from sheetbench.numerics.direct import SingularMatrixError, solve_free
-from sheetbench.numerics.threads import one_blas_thread
+from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.rigid_motions import require_static
-
-ROUNDINGS = 4.0  # of a term of K u: K is Bᵀ C B times an area
 
 
 def solve(
@@ -54,7 +46,6 @@ def solve(
     the simple support of the published Mindlin benchmarks. section: stiffness per width, from material and
     thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
-    begin = now()
     require_static(scene, "the plate, which is linear,")
     along_x, along_y = divisions(scene.sheet, elements)
     if graded is None:
@@ -65,58 +56,12 @@ def solve(
     if section is not None:
         settings["section"] = section._asdict()
     mesh = mesh_of(scene, (along_x, along_y), graded)
-    sheet = DiscretePlate(mesh, scene, section, hard_edges)
-    return _solved(begin, sheet, f"plate {along_x} × {along_y}", settings)
+    found = traced(lambda: DiscretePlate(mesh, scene, section, hard_edges))
+    return answered([found], f"plate {along_x} × {along_y}", settings)
 
 
 def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
     """Return the linear answer on any flat mesh of straight-sided quadrilaterals [m], its edges named."""
-    begin, sheet = now(), DiscretePlate(mesh, scene)
-    sheet.own = True
-    return _solved(begin, sheet, "plate", {"elements": mesh.nelements})
-
-
-def _solved(begin: float, sheet: DiscretePlate, label: str, settings: dict[str, Any]) -> Solution:
-    """The answer of a plate whose making began at that moment. A direct solution, refined once, has no other
-    residual than the rounding of K u, which a small rigid motion neither strains nor loads."""
-    ready = now()
-    q, matrix, force, status, notes = solved(sheet)
-    done = now()
-    left = matrix @ q - force
-    held = np.where(sheet.is_held, left, 0.0)
-    size = float(np.linalg.norm(force) + np.linalg.norm(held))
-    rounding = ROUNDINGS * EPSILON * (abs(matrix) @ np.abs(q) + np.abs(force))
-    singular = status is Status.SINGULAR
-    return answer(
-        sheet.shape(q, 1.0),
-        left,
-        size,
-        float((rounding / sheet.scale).sum()),
-        not singular,
-        label=label,
-        settings=settings,
-        status=status,
-        iterations=1,
-        setup_seconds=ready - begin,
-        solve_seconds=done - ready,
-        history=(Iteration(1.0, float(np.linalg.norm(left[sheet.free]) / (size or 1.0)), 1.0),),
-        load_factor=0.0 if singular else 1.0,
-        remarks=notes,
-    )
-
-
-def solved(
-    sheet: DiscretePlate,
-) -> tuple[np.ndarray, csr_matrix, np.ndarray, Status, tuple[str, ...]]:
-    """Return q (N,) under the full load, K (N, N), the forces (N,) of loads and commands in full on the flat
-    sheet, the status and notes."""
-    q, flat = sheet.placed(np.zeros(sheet.size), 1.0), sheet.shape(np.zeros(sheet.size), 1.0)
-    with one_blas_thread():
-        matrix, force = sheet.whole_tangent(sheet.shape(q, 1.0)), sheet.external(flat) - sheet.internal(flat)
-        try:
-            q = solve_free(matrix, force, q, sheet.free)
-        except SingularMatrixError as error:
-            return q, matrix, force, Status.SINGULAR, (str(error),)
-    own = sheet.at_rest(1.0).strains[0]
-    judged = judge(sheet.scene, sheet.elements, sheet.section, q, matrix, sheet.free, own)
-    return q, matrix, force, *judged
+    found = traced(lambda: DiscretePlate(mesh, scene))
+    found.sheet.own = True
+    return answered([found], "plate", {"elements": mesh.nelements})

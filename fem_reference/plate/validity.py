@@ -18,109 +18,46 @@ The answer is linear in the load, so all of them tell the share of the load at w
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from fem_reference.plate.element import UX, UY, PlateElements, W
-from fem_reference.surface.biquadratic import NODES
-from fem_reference.surface.materials import Section
-from sheetbench.answers.solution import Status
-from sheetbench.numerics.direct import DirectSolver
-from sheetbench.numerics.sparsity import Pattern
-from sheetbench.scenes import Scene, outside_model
+from fem_reference.discrete.shape import SheetShape
+from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
 
-TURN_LIMIT = 1.0
 SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
 
 
-def judge(
-    scene: Scene,
-    elements: PlateElements,
-    section: Section,
-    solution: np.ndarray,
-    system: csr_matrix,
-    free: np.ndarray,
-    own: np.ndarray | float = 0.0,
-) -> tuple[Status, tuple[str, ...]]:
-    """Status and notes of the unknowns (5 n,), or with those of rods behind, of a stiffness and its free
-    unknowns; own: strains (m, q, 3) of the membrane without stress."""
-    strain = _nodal(elements, elements.membrane, solution) - own
-    if outside := outside_model(scene, _mean_stretch(elements, strain)):
-        return Status.STRAIN_OUTSIDE_MODEL, (outside,)
-    if (turn := largest_turn(elements, solution)) > TURN_LIMIT:
-        ends = f"linear theory ends at {100.0 * TURN_LIMIT / turn:.3g} % of the load or before"
-        return Status.STRAIN_OUTSIDE_MODEL, (f"slopes or turns of {turn:.3g}, beyond 1: {ends}",)
-    share = buckling_load(
-        scene, elements, (section.membrane @ strain[..., None])[..., 0], section, system, free
-    )
-    if share is not None and share < 1.0:
-        return Status.UNSTABLE, (f"its in-plane forces buckle it at {100.0 * share:.3g} % of the load",)
-    return Status.CONVERGED, ()
+def strained(elements: PlateElements, change: np.ndarray, strain: np.ndarray) -> float:
+    """Return the largest slope, turn, or double the mean strain along x or y of an element, of changes of the
+    vectors (m, 18, 3) and strains (9 m, 8): linear theory ends at 1 of each."""
+    by_xy = elements.gradient @ change[:, None, :9]  # of u, v and w by x and y, (m, 9, 2, 3)
+    inplane = 0.5 * (by_xy[:, :, 0, 1] - by_xy[:, :, 1, 0])
+    tilt, slope = np.linalg.norm(change[:, 9:], axis=2), np.linalg.norm(by_xy[..., 2], axis=2)
+    along = np.einsum("mq,mqi->mi", elements.areas, strain.reshape(-1, 9, 8)[..., :2])
+    mean = along / elements.areas.sum(axis=1, keepdims=True)
+    return float(max(tilt.max(), slope.max(), np.abs(inplane).max(), 2.0 * np.abs(mean).max()))
 
 
-def strained(elements: PlateElements, solution: np.ndarray) -> float:
-    """The largest slope, turn, or double the strain along x or y, of the unknowns (5 n,): linear theory ends
-    at 1 of each."""
-    stretch = _mean_stretch(elements, _nodal(elements, elements.membrane, solution))
-    return max(largest_turn(elements, solution), 2.0 * stretch)
-
-
-def largest_turn(elements: PlateElements, solution: np.ndarray) -> float:
-    """The largest of directors' changes, slopes and turns in the plane."""
-    fields = solution[elements.unknowns].reshape(len(elements.nodes), NODES, 5)
-    gradient = _gradient(elements)
-    inplane = 0.5 * (
-        np.einsum("mqi,mi->mq", gradient[:, :, 0], fields[:, :, UY])
-        - np.einsum("mqi,mi->mq", gradient[:, :, 1], fields[:, :, UX])
-    )
-    tilt = np.linalg.norm(fields[:, :, W + 1 :], axis=2)
-    slope = np.linalg.norm(np.einsum("mqai,mi->mqa", gradient, fields[:, :, W]), axis=2)
-    return float(max(tilt.max(), slope.max(), np.abs(inplane).max()))
-
-
-def buckling_load(
-    scene: Scene,
-    elements: PlateElements,
-    force: np.ndarray,
-    section: Section,
-    system: csr_matrix,
-    free: np.ndarray,
-) -> float | None:
-    """The lowest positive share of the load at which in-plane forces (m, q, 3) [N/m] buckle the plate; None
-    where they cannot, or nearly not."""
-    xx, yy, xy = np.moveaxis(force, 2, 0)
+def buckling_load(shape: SheetShape) -> float | None:
+    """Return the lowest positive share of the load at which the in-plane forces of a shape under all of it
+    buckle the plate; None where they cannot, or nearly not."""
+    sheet, elements = shape.sheet, shape.sheet.element
+    force = shape.elastic[:, MEMBRANE] / elements.areas.reshape(-1, 1)  # [N/m]
+    xx, yy, xy = force.T
     pressing = -(0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy)).min()
-    if scene.chains() or pressing * max(scene.sheet.lengths) ** 2 < SLIGHT * section.bending[..., 0, 0].max():
+    rigidity = (elements.stiffness[:, BENDING.start, BENDING.start] / elements.areas.ravel()).max()
+    if sheet.bodies or pressing * max(sheet.scene.sheet.lengths) ** 2 < SLIGHT * rigidity:
         return None
-    gradient, tensor = _gradient(elements), np.stack([xx, xy, xy, yy], axis=2).reshape(*xx.shape, 2, 2)
-    blocks = np.zeros((len(elements.nodes), NODES, 5, NODES, 5))
-    blocks[:, :, W, :, W] = np.einsum("mq,mqai,mqab,mqbj->mij", elements.areas, gradient, tensor, gradient)
-    pattern = Pattern(elements.unknowns, size=system.shape[0])
-    geometric = pattern.matrix(blocks.reshape(-1, 5 * NODES, 5 * NODES))[free][:, free]
-    stiffness = system[free][:, free]
-    inverse = LinearOperator(stiffness.shape, matvec=DirectSolver().factor(stiffness).solve, dtype=float)
-    start = np.random.default_rng(0).uniform(-1.0, 1.0, len(free))
+    tensor = force[:, [0, 2, 2, 1]].reshape(*elements.areas.shape, 2, 2) * elements.areas[..., None, None]
+    on_w = np.einsum("mqai,mqab,mqbj->mij", elements.gradient, tensor, elements.gradient)
+    blocks = np.zeros((len(on_w), 18, 3, 18, 3))
+    blocks[:, :9, 2, :9, 2] = on_w
+    geometric = sheet.folded(blocks)
+    matrix = sheet.tangent(shape, np.zeros(sheet.size), 0.0, 0.0)
+    inverse = LinearOperator(matrix.shape, matvec=sheet.solver().factor(matrix).solve, dtype=float)
+    start = np.random.default_rng(0).uniform(-1.0, 1.0, sheet.unknowns)
+    options = {"Minv": inverse, "which": "LA", "v0": start, "tol": 1e-6, "return_eigenvectors": False}
     try:
-        largest = eigsh(
-            -geometric, 1, stiffness, Minv=inverse, which="LA", v0=start, tol=1e-6, return_eigenvectors=False
-        )
+        largest = eigsh(-geometric, 1, matrix, **options)
     except ArpackNoConvergence:
         return None
     return 1.0 / float(largest[0]) if largest[0] > 0.0 else None
-
-
-def _gradient(elements: PlateElements) -> np.ndarray:
-    """∇N of the shape functions, (m, q, 2, 9), as the membrane strains have it."""
-    operator = elements.membrane.reshape(*elements.membrane.shape[:3], NODES, 5)
-    return np.stack([operator[:, :, 0, :, UX], operator[:, :, 1, :, UY]], axis=2)
-
-
-def _nodal(elements: PlateElements, operator: np.ndarray, solution: np.ndarray) -> np.ndarray:
-    strain: np.ndarray = np.einsum("mqic,mc->mqi", operator, solution[elements.unknowns])
-    return strain
-
-
-def _mean_stretch(elements: PlateElements, strain: np.ndarray) -> float:
-    """The largest strain along x or y, the mean over an element."""
-    mean = np.einsum("mq,mqi->mi", elements.areas, strain[:, :, :2])
-    return float(np.abs(mean / elements.areas.sum(axis=1, keepdims=True)).max())

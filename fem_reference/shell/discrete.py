@@ -15,14 +15,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.rods import components_of
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
@@ -38,11 +37,13 @@ from fem_reference.surface.biquadratic import cross
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import field_mesh, plan_of
 from fem_reference.surface.rod import block_diagonal
+from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import add_blocks, pattern_of
 from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -66,13 +67,12 @@ class DiscreteShell(DiscreteElements):
     ):
         super().__init__(scene, moving)
         self.plan = plan = plan_of(mesh)
-        self.element = element = elements_of(plan, scene, section, law)
-        self.natural = natural_strains(scene, plan.corners)
-        self.any_strain = element.stands_any_strain
+        self.element, self.natural = self.elements_of(section, law)
+        self.any_strain = self.element.stands_any_strain
         n = self.nodes
 
         bound = self.rods_of(scene)
-        self.supports = supports = rod.hold_bases(surface_supports.of_scene(scene, plan.mesh), bound.rods)
+        self.supports = supports = rod.hold_bases(self.supports_of(plan.mesh), bound.rods)
         free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
         free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
         free_aside = np.repeat(~bound.held[:, None], 2, axis=1)
@@ -87,7 +87,7 @@ class DiscreteShell(DiscreteElements):
             self.number[bound.sites[:, :3], :3].reshape(k, 9),
             self.turns[bound.sites[:, 3:] - n].reshape(k, 12),
         ]
-        sheet, on_sides = element.reference[:, :9, :2], bound.elements.reference[:, :3, :2]
+        sheet, on_sides = self.element.reference[:, :9, :2], bound.elements.reference[:, :3, :2]
         places = np.concatenate([sheet.mean(axis=1), on_sides.mean(axis=1)])
         unknowns = (np.concatenate(each, axis=1) for each in (of_sheet, on_rod))
         self.pattern = pattern_of(places, *unknowns, size=int(every.sum()))
@@ -98,7 +98,16 @@ class DiscreteShell(DiscreteElements):
         self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.own])
         turns = np.concatenate([supports.director, bound.held])
         self._held = np.concatenate([supports.position, np.tile(turns, (3, 1)).T])
-        self.bind(bound, components_of(bound))
+        self.bind(bound)
+
+    def elements_of(self, section: Section | None, law: str) -> tuple[Any, NaturalState | None]:
+        """All elements, and the strains that they have without stress."""
+        natural = natural_strains(self.scene, self.plan.corners)
+        return elements_of(self.plan, self.scene, section, law), natural
+
+    def supports_of(self, mesh: MeshQuad) -> Supports:
+        """What supports and motions hold."""
+        return surface_supports.of_scene(self.scene, mesh)
 
     def solver(self) -> DirectSolver:
         return DirectSolver(self.symmetric, lambda: self.pattern.fronts)
@@ -130,9 +139,15 @@ class DiscreteShell(DiscreteElements):
         return axes
 
     def placed(self, q: np.ndarray, at: float) -> np.ndarray:
-        target = np.zeros(self._held.shape)
-        target[: 2 * self.nodes] = self.supports.change(*self.instant(at)).reshape(-1, 3)
-        return self._of_unit_directors(np.where(self._held, target, q.reshape(target.shape)))
+        return self.of_unit_directors(np.where(self._held, self._target(at), q.reshape(-1, 3)))
+
+    def change(self, at: float) -> np.ndarray:
+        """Prescribed change (2, n, 3) of positions [m] and directors."""
+        return self.supports.change(*self.instant(at))
+
+    def _target(self, at: float) -> np.ndarray:
+        """The same of all vectors (2 n + p, 3), those of rods standing still."""
+        return np.concatenate([self.change(at).reshape(-1, 3), np.zeros((self.rods.bound.held.size, 3))])
 
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         prescribed = np.zeros(self._held.shape)
@@ -143,16 +158,8 @@ class DiscreteShell(DiscreteElements):
         return rate.ravel()
 
     def short(self, shape: SheetShape) -> np.ndarray:
-        n, change = self.nodes, self.supports.change(*self.instant(shape.at))
-        change -= shape.q[: 6 * n].reshape(2, n, 3)
-        step = np.concatenate(
-            [np.where(self.supports.position, change[0], 0.0), to_unit(self.directors(shape.q))]
-        )
-        held = np.flatnonzero(self.supports.director)
-        step[n + held] = change[1][held]
-        if self.bodies:
-            step[2 * n :][self.rods.bound.held] = -shape.q[6 * n :].reshape(-1, 3)[self.rods.bound.held]
-        return step.ravel()
+        free = np.concatenate([np.zeros((self.nodes, 3)), to_unit(self.directors(shape.q))])
+        return np.where(self._held, self._target(shape.at) - shape.q.reshape(-1, 3), free).ravel()
 
     def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
         n, tilt = self.nodes, self.supports.tilt
@@ -162,9 +169,9 @@ class DiscreteShell(DiscreteElements):
         return vectors[on.ravel()]
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        return self._of_unit_directors((q + step).reshape(-1, 3))
+        return self.of_unit_directors((q + step).reshape(-1, 3))
 
-    def _of_unit_directors(self, change: np.ndarray) -> np.ndarray:
+    def of_unit_directors(self, change: np.ndarray) -> np.ndarray:
         """q (N,) of changes (2 n + p, 3) with those directors that are free brought to unit length."""
         turns = change[self.nodes :]
         directors = turns + self._upright
@@ -256,14 +263,18 @@ class DiscreteShell(DiscreteElements):
         on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
         data, slots, on = self.pattern.zeros(on_turns), self.pattern.slots[0], self.plan.elements
         add_tangents(data, slots, self.element, shape.operator, moduli, stress, on, shape.frame)
+        return self.with_mass(data, shape, by_a)
+
+    def with_mass(self, data: np.ndarray, shape: SheetShape, by_a: float) -> np.ndarray:
+        """The data of a matrix with so many times the elements' M."""
         if by_a:
-            (by_place, by_turn), of_elements = self._products, shape.frame[on]
-            blocks = np.zeros(slots.shape)
+            (by_place, by_turn), of_elements = self._products, shape.frame[self.plan.elements]
+            blocks = np.zeros(self.pattern.slots[0].shape)
             blocks[:, :27, :27] = by_a * np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
             weighed = np.einsum("ceij,ejcb->eicjb", by_turn, of_elements)
             turned = by_a * np.einsum("eica,eicjb->eiajb", of_elements, weighed)
             blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
-            add_blocks(data, slots, blocks)
+            add_blocks(data, self.pattern.slots[0], blocks)
         return data
 
     def constraining(
@@ -315,11 +326,15 @@ class DiscreteShell(DiscreteElements):
 
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
-        directors = self.directors(q)[: self.nodes]
+        directors = (q[3 * self.nodes :].reshape(-1, 3) + self._upright)[: self.nodes]
         return field_mesh(self.plan.nodes, self.plan.elements, self.displacement(q), directors, **fields)
 
     def surface(self, q: np.ndarray) -> Surface:
-        return Surface(self.plan, self.flat + self.displacement(q), self.directors(q)[: self.nodes], self.own)
+        return Surface(self.plan, self.position(q), self.directors(q)[: self.nodes], self.own)
+
+    def position(self, q: np.ndarray) -> np.ndarray:
+        """φ of the nodes (n, 3) [m]."""
+        return self.flat + self.displacement(q)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)

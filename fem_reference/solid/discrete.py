@@ -19,7 +19,6 @@ from scipy.sparse import block_diag, bsr_matrix, csc_matrix, csr_matrix, identit
 from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.rods import components_of
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.solid.element import Bricks, at_rest, tangent
 from fem_reference.solid.materials import LAWS
@@ -81,7 +80,7 @@ class DiscreteSolid(DiscreteElements):
         self.scale[self._cut :] = self.lever
         levels = columns.levels
         places = np.concatenate([levels * np.arange(3) + columns.layers, 3 * levels + np.arange(6)])
-        self.bind(bound, components_of(bound), places)
+        self.bind(bound, places)
 
     def rods_of(self, scene: Scene) -> BoundRods:
         return on_columns(rod.of_scene(scene, self.plan), self.columns)

@@ -26,7 +26,7 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import THEORY, Row, absolutely
-from sheetbench.numerics.direct import DirectSolver, solve_free
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import EDGES, Clamped, Material, Scene, Sheet
 
 SOURCE = "Chinosi & Lovadina 1995"
@@ -35,13 +35,14 @@ LARGEST = {"deflection": 5e-4, "tilt": 1.2e-3}  # error on the finest mesh
 ELEMENTS = (4, 8, 16)
 RATIOS = (0.001, 0.1)  # h/L
 MATERIAL = Material(young=1e7, poisson=0.3, density=1000.0)
+MODELS: dict[str, type[DiscreteShell]] = {"plate": DiscretePlate, "shell": DiscreteShell}
 
 
 def rows(case: str) -> Iterator[Row]:
     """Errors on the finest mesh, and the order of the last refinement, of plate and shell."""
-    for model, errors_on in MODELS.items():
+    for model in MODELS:
         for ratio in RATIOS:
-            errors = np.array([errors_on(_square(ratio), n) for n in ELEMENTS])
+            errors = np.array([errors_on(model, _square(ratio), n) for n in ELEMENTS])
             mesh = f"{model} {ELEMENTS[-1]} × {ELEMENTS[-1]}"
             for name, (coarse, fine) in zip(LARGEST, errors[-2:].T, strict=True):
                 what = f"{name} at h/L = {ratio:g}"
@@ -60,19 +61,10 @@ def _square(ratio: float) -> Scene:
     )
 
 
-def _of_plate(scene: Scene, elements: int) -> tuple[float, float]:
-    """Errors of deflection and tilt of the plate on elements × elements."""
-    sheet = DiscretePlate(rectangle(scene.sheet, elements), scene)
-    basis = Basis(sheet.plan.mesh, ElementQuad2())
-    force = sheet.on_coordinates(np.outer(share(basis, pressure(scene)), [0.0, 0.0, 1.0]))
-    fields = solve_free(sheet.stiffness, force, np.zeros(sheet.size), sheet.free)
-    w, tilt = fields.reshape(-1, 5)[:, 2:4].T
-    return _errors(scene, basis, w, tilt)
-
-
-def _of_shell(scene: Scene, elements: int) -> tuple[float, float]:
-    """Errors of deflection and tilt of the shell's first linear step from the flat sheet."""
-    sheet = DiscreteShell(rectangle(scene.sheet, elements), scene)
+def errors_on(model: str, scene: Scene, elements: int) -> tuple[float, float]:
+    """Relative errors in L² of deflection and tilt along x, of the first linear step from the flat sheet on
+    elements × elements."""
+    sheet = MODELS[model](rectangle(scene.sheet, elements), scene)
     basis, static = Basis(sheet.plan.mesh, ElementQuad2()), Static(sheet)
     force = np.outer(share(basis, pressure(scene)), [0.0, 0.0, 1.0])
     sheet.items.append(Dead(sheet.on_coordinates(force), None))
@@ -82,15 +74,7 @@ def _of_shell(scene: Scene, elements: int) -> tuple[float, float]:
     moved, turned = static.advance(rest, forces, 1.0, DirectSolver().factor(matrix).solve(right)).q.reshape(
         2, -1, 3
     )
-    return _errors(scene, basis, moved[:, 2], turned[:, 0])
-
-
-MODELS: dict[str, Callable[[Scene, int], tuple[float, float]]] = {"plate": _of_plate, "shell": _of_shell}
-
-
-def _errors(scene: Scene, basis: Basis, w: np.ndarray, tilt: np.ndarray) -> tuple[float, float]:
-    """Relative errors in L² of nodal deflections and tilts along x (n,)."""
-    return _error(basis, w, deflection(scene)), _error(basis, tilt, tilt_x)
+    return _error(basis, moved[:, 2], deflection(scene)), _error(basis, turned[:, 0], tilt_x)
 
 
 def _error(basis: Basis, nodal: np.ndarray, exact: Callable[..., np.ndarray]) -> float:

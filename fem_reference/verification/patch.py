@@ -8,7 +8,8 @@ are not biquadratic). Solid: a finite deformation gradient.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -34,13 +35,20 @@ SCENE = Scene(
 STRETCH = np.array([[0.10, 0.04], [-0.03, -0.07]])  # displacement gradient in the plane
 CURVATURE = np.array([[1.0, 1.5], [1.5, -1.0]])  # gradient of the director's tilt [1/m]
 SMALL = 1e-8
+TURN = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
 
 
 def rows(case: str) -> Iterator[Row]:
     """The largest force inside over the largest on the rim for every model and state."""
-    states = {
-        "plate": {"constant stretch": _plate_stretch, "constant curvature": _plate_curvature},
-        "shell": {"finite stretch": _shell_stretch, "constant curvature": _shell_curvature},
+    states: dict[str, dict[str, Callable[[MeshQuad], float]]] = {
+        "plate": {
+            "constant stretch": partial(_stretched, DiscretePlate, np.eye(3)),
+            "constant curvature": partial(_curved, DiscretePlate, 1.0),
+        },
+        "shell": {
+            "finite stretch": partial(_stretched, DiscreteShell, TURN),
+            "constant curvature": partial(_curved, DiscreteShell, SMALL),
+        },
         "solid": {"finite deformation": _solid_deformation},
     }
     for name, mesh in (("distorted", distorted()), ("along a line", following())):
@@ -72,45 +80,25 @@ def _inside_over_rim(forces: np.ndarray, plan: np.ndarray) -> float:
     return float(np.abs(forces[inside]).max() / np.abs(forces[~inside]).max())
 
 
-def _plate(fields: np.ndarray, sheet: DiscretePlate) -> np.ndarray:
-    return (sheet.stiffness @ fields.ravel()).reshape(-1, 5)
-
-
-def _plate_stretch(mesh: MeshQuad) -> float:
-    sheet = DiscretePlate(mesh, SCENE)
-    nodes, fields = sheet.plan.nodes, np.zeros((sheet.nodes, 5))
-    fields[:, :2] = nodes @ STRETCH.T
-    return _inside_over_rim(_plate(fields, sheet)[:, :2], nodes)
-
-
-def _plate_curvature(mesh: MeshQuad) -> float:
-    sheet = DiscretePlate(mesh, SCENE)
-    nodes, fields = sheet.plan.nodes, np.zeros((sheet.nodes, 5))
-    fields[:, 2] = -0.5 * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
-    fields[:, 3:] = nodes @ CURVATURE
-    return _inside_over_rim(_plate(fields, sheet)[:, 2:], nodes)
-
-
 def _residual(sheet: DiscreteElements, q: np.ndarray) -> np.ndarray:
     """Forces on the nodes' vectors."""
     return Static(sheet).forces(StaticState(q), 0.0).residual.reshape(-1, 3)
 
 
-def _shell_stretch(mesh: MeshQuad) -> float:
-    sheet = DiscreteShell(mesh, SCENE)
-    turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
-    flat = np.pad(sheet.plan.nodes, ((0, 0), (0, 1)))
+def _stretched(model: type[DiscreteShell], turn: np.ndarray, mesh: MeshQuad) -> float:
+    sheet = model(mesh, SCENE)
+    flat = sheet.flat
     moved = (flat + np.pad(sheet.plan.nodes @ STRETCH.T, ((0, 0), (0, 1)))) @ turn.T - flat
     turned = np.tile(turn[:, 2] - [0.0, 0.0, 1.0], (sheet.nodes, 1))
     residual = _residual(sheet, sheet.of_vectors(moved, turned))
     return _inside_over_rim(residual[: sheet.nodes], sheet.plan.nodes)
 
 
-def _shell_curvature(mesh: MeshQuad) -> float:
-    sheet = DiscreteShell(mesh, SCENE)
+def _curved(model: type[DiscreteShell], size: float, mesh: MeshQuad) -> float:
+    sheet = model(mesh, SCENE)
     nodes, (moved, turned) = sheet.plan.nodes, np.zeros((2, sheet.nodes, 3))
-    moved[:, 2] = -0.5 * SMALL * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
-    turned[:, :2] = SMALL * nodes @ CURVATURE
+    moved[:, 2] = -0.5 * size * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
+    turned[:, :2] = size * nodes @ CURVATURE
     force, couple = _residual(sheet, sheet.of_vectors(moved, turned)).reshape(2, -1, 3)
     return _inside_over_rim(np.column_stack([force[:, 2], couple[:, :2]]), nodes)
 
@@ -120,9 +108,8 @@ def _solid_deformation(mesh: MeshQuad) -> float:
     gradient = np.eye(3)
     gradient[:2, :2] += STRETCH
     gradient[2, 2] = 1.05
-    turn = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
     positions = sheet.columns.positions
-    displacement = positions @ (turn @ gradient).T - positions
+    displacement = positions @ (TURN @ gradient).T - positions
     residual = _residual(sheet, displacement.ravel()).reshape(positions.shape)
     plan = sheet.plan.nodes
     inside = np.all((plan > 1e-9) & (plan < 1.0 - 1e-9), axis=1)

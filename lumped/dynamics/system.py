@@ -23,7 +23,7 @@ from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
-from lumped.items import Since
+from lumped.items import Placed
 from lumped.masses import masses
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
@@ -134,8 +134,8 @@ class System:
         if self.coupling is not None and self.packed:
             energy += self.coupling.add_force(u, self.drive(time), force)
         for item in self.items:
-            energy += item.add_force(u, self.drive(time), force) if self.packed else 0.0
-            power += item.add_resistance(u, v, self.drive(time), force)
+            energy += item.add_force((u, self.drive(time)), force) if self.packed else 0.0
+            power += item.add_resistance((u, self.drive(time)), v, force)
         return energy + stored, power, force
 
     @cached_property
@@ -155,7 +155,7 @@ class System:
         if self.coupling is not None:
             energy += self.coupling.add_force(u, self.drive(time), force)
         for item in self.items:
-            energy += item.add_force(u, self.drive(time), force)
+            energy += item.add_force((u, self.drive(time)), force)
         return energy, force
 
     def damping_force(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, np.ndarray]:
@@ -164,7 +164,7 @@ class System:
         if self.packing.damped:
             _, power = add_forces(u, v, False, True, self.packing, self.scratch, force)
         for item in self.items:
-            power += item.add_resistance(u, v, self.drive(time), force)
+            power += item.add_resistance((u, self.drive(time)), v, force)
         return power + self.damping.add_other_forces(u, v, force), force
 
     def power(self, state: State) -> float:
@@ -201,10 +201,10 @@ class System:
             self.coupling.add_average_force(start.u, end, self.drive(time), force)
         since, drive = self.ends(start, time)
         for item in self.items:
-            item.add_force(end, drive, force, since)
+            item.add_force((end, drive), force, since)
         return force
 
-    def ends(self, start: State, middle: float) -> tuple[Since, Drive]:
+    def ends(self, start: State, middle: float) -> tuple[Placed, Drive]:
         """Where a step begins, and the commands at its end."""
         return (start.u, self.drive(start.time)), self.drive(2.0 * middle - start.time)
 
@@ -243,11 +243,11 @@ class System:
         self.damping.add_velocity_tangent(u, v, damping, blocks)
         for item in self.items:
             if ends is None:
-                item.add_tangent(u, self.drive(time), stiffness, blocks)
+                item.add_tangent((u, self.drive(time)), stiffness, blocks)
             else:
                 since, drive = self.ends(ends[0], time)
-                item.add_tangent(ends[1], drive, 1.0, blocks, since=since)
-            item.add_resistance_tangent(u, v, self.drive(time), damping, blocks)
+                item.add_tangent((ends[1], drive), 1.0, blocks, since=since)
+            item.add_resistance_tangent((u, self.drive(time)), v, damping, blocks)
         return blocks
 
     def within(self, state: State, ahead: float = 0.0) -> System:

@@ -22,7 +22,7 @@ def work(system: System, before: State, after: State) -> float:
         mean = 0.5 * (system.external(before.u, before.time) + system.external(after.u, after.time))
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
     for item in system.items if system.pushed else ():
-        ends = (item.exerted(s.u, system.drive(s.time), s.v).sum(axis=0) for s in (before, after))
+        ends = (item.exerted((s.u, system.drive(s.time)), s.v).sum(axis=0) for s in (before, after))
         done += (
             0.5 * sum(ends, np.zeros(3)) @ (item.displacement(after.time) - item.displacement(before.time))
         )
@@ -54,19 +54,16 @@ def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) 
     rate = (end - start.u) / (last - start.time)
     for item in system.items:
         force = np.zeros_like(end)
-        item.add_force(end, drive, force, since)
-        item.add_resistance(0.5 * (start.u + end), rate, system.drive(middle), force)
+        item.add_force((end, drive), force, since)
+        item.add_resistance((0.5 * (start.u + end), system.drive(middle)), rate, force)
         done -= force.sum(axis=0) @ (item.displacement(last) - item.displacement(start.time))
     return float(done)
 
 
 def obstacle_power(system: System, state: State) -> float:
     """Return the power [W] of what items are fixed to, as it moves."""
-    drive = system.drive(state.time)
-    pushed = (
-        item.exerted(state.u, drive, state.v).sum(0) @ item.velocity(state.time) for item in system.items
-    )
-    return float(sum(pushed))
+    at = state.u, system.drive(state.time)
+    return float(sum(one.exerted(at, state.v).sum(0) @ one.velocity(state.time) for one in system.items))
 
 
 def natural_work(system: System, u: np.ndarray, then: float, now: float) -> float:

@@ -55,9 +55,9 @@ def solution(
     wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
     if coupling is not None:
         reactions |= coupling.reactions(exerted)
-    drive = Drive(state.load_factor)
-    reactions |= {item.name: item.exerted(u, drive).sum(axis=0) for item in problem.items}
-    contacts = {item.name: item.report((u, drive)) for item in problem.items}
+    at = u, Drive(state.load_factor)
+    reactions |= {item.name: item.exerted(at).sum(axis=0) for item in problem.items}
+    contacts = {item.name: item.report(at) for item in problem.items}
     pressures = [pressure for _, pressure in contacts.values()]
     pressed = {"contact_pressure": np.sum(pressures, axis=0)} if pressures else {}
     nx, ny, layers = lattice.grid

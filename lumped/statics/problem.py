@@ -132,7 +132,7 @@ class Problem:
     ) -> np.ndarray:
         self.loads.add_tangent(u, load_factor, blocks)
         for item in self.items:
-            item.add_tangent(u, Drive(load_factor), 1.0, blocks, definite)
+            item.add_tangent((u, Drive(load_factor)), 1.0, blocks, definite)
         if self.assembly.coupling is not None:
             slots = self.assembly.coupling_slots
             self.assembly.coupling.add_tangent(u, Drive(load_factor), slots, blocks)
@@ -157,7 +157,7 @@ class Problem:
 
     def _add_others(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add the internal force of actuators and items; return their energy [J]."""
-        energy = sum(item.add_force(u, drive, force) for item in self.items)
+        energy = sum(item.add_force((u, drive), force) for item in self.items)
         if self.assembly.coupling is not None:
             energy += self.assembly.coupling.add_force(u, drive, force)
         return energy
@@ -167,8 +167,8 @@ class Problem:
         are strained."""
         found = self.assembly.at(load_factor).survey(u)
         if self.items:
-            drive, force = Drive(load_factor), np.zeros_like(u)
-            found.energies["contact"] = sum(item.add_force(u, drive, force) for item in self.items)
+            at, force = (u, Drive(load_factor)), np.zeros_like(u)
+            found.energies["contact"] = sum(item.add_force(at, force) for item in self.items)
         return found
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -55,15 +55,6 @@ class Measured:
             [np.interp(self.time[inside], time, displacement[:, i]) for i in range(3)]
         )
         return float(np.nanmax(np.abs(simulated - truth)) / np.nanmax(np.abs(truth)))
-
-
-@dataclass(frozen=True)
-class ProbeRow:
-    """Displacement of a probe at the end and its largest component on the way; off: the measured history."""
-
-    probe: str
-    moved: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
-    error: Annotated[float | None, PERCENT("z.2f", "difference")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -130,11 +121,12 @@ class History(Answer):
         of, rows = measured or {}, []
         for name, u in self.probes.items() if len(self.time) else ():
             off = of[name].error(self.time, u) if name in of else None
-            moved = dict(zip(COMPONENTS, u[-1], strict=True)) | {"largest": np.abs(u).max()}
-            rows.append(ProbeRow(name, moved, off))
+            rows.append((name, *u[-1], np.abs(u).max(), off))
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and its largest component during the motion"
-        return (Table.of(ProbeRow, rows, caption, "probes", details=() if of else ("error",)),)
+        moved = (MILLIMETRES("z.3f", name) for name in (*COMPONENTS, "largest"))
+        columns = ("probe", *moved, PERCENT("z.2f", "difference", detail=not of))
+        return (Table.listed(caption, columns, rows, "probes"),)
 
     def figures(self) -> tuple[Picture, ...]:
         """Probes and energies over time."""

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from rich.console import Console
 
 import sheetbench
-from comparisons.cli import characters, console
+from comparisons.cli import app, console
 from comparisons.cli.app import verb_group
 from comparisons.cli.output import Output, OutputOptions
 from comparisons.codes import coefficients, setup
@@ -139,8 +139,7 @@ class Kept:
     def shown(self, columns: int, encoding: str = "utf-8") -> str:
         """What a terminal of so many columns shows of the answer."""
         assert self.answer is not None
-        stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
-        characters.adapt(stream)
+        stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding, errors=app.PLAIN)
         with pytest.MonkeyPatch.context() as patch:
             screen = Console(file=stream, force_terminal=True, width=columns, color_system=None)
             patch.setattr(console, "out", screen)

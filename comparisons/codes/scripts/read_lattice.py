@@ -56,12 +56,13 @@ def gradient(lattice, along, u):
 def contact(lattice, along, x, g):
     """Energy [J] of points that touch obstacles; its gradient is added to g."""
     which = lattice["contact_obstacle"]
-    normal, curved = lattice["obstacle_direction"][which], lattice["obstacle_kind"][which, None] > 0
+    normal, radius = lattice["obstacle_direction"][which], lattice["obstacle_radius"][which, None]
+    curved = radius > 0
     y = along["contact"] @ x - lattice["obstacle_position"][which]
     y = y - curved * dot(y, normal) * normal
     length = np.where(curved, np.sqrt(dot(y, y)), dot(y, normal))
     normal = np.where(curved, y / length, normal)
-    depth = np.maximum(lattice["contact_offset"] - length[:, 0] + lattice["obstacle_radius"][which], 0)
+    depth = np.maximum(lattice["contact_offset"] - (length - radius)[:, 0], 0)
     pull = lattice["contact_stiffness"] * lattice["contact_area"] * depth
     g -= along["contact"].T @ (pull[:, None] * normal)
     return 0.5 * np.sum(pull * depth)

@@ -136,7 +136,7 @@ class LatticeObserver:
         reactions, _ = system.problem.constraints.reactions(exerted)
         parts = [self._probes.of(u), *(reactions[edge] for edge in self._supports)]
         state = samples.state(i)
-        parts.extend(item.exerted(u, system.drive(state.time), state.v).sum(axis=0) for item in system.items)
+        parts.extend(one.exerted((u, system.drive(state.time)), state.v).sum(axis=0) for one in system.items)
         if system.coupling is not None:
             parts.extend(system.coupling.reactions(exerted).values())
             parts.extend(system.coupling.wrenches(u, exerted).values())

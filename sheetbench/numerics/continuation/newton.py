@@ -80,12 +80,11 @@ def newton(
     path: Path[State, Forces], first: Start[State] | Predictor[State, Forces], close: float = 0.0
 ) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those at hand are,
-    which next to nothing has changed since. close: a residual that is good enough once a
-    correction has left the same points touching obstacles. Raises StepFailed."""
+    which next to nothing has changed since. close: a residual that is good enough. Raises
+    StepFailed."""
     structure, limits = path.structure, path.limits
     state, target, before = first.state, first.target, np.inf
-    touching: list[np.ndarray] = []
-    factor: Factor | None = None
+    factor = first.factor if structure.linear and isinstance(first, Predictor) else None
     off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
     works, lengths = [first.work], [first.length]
     for _ in range(limits.corrections):
@@ -96,14 +95,11 @@ def newton(
         if not isfinite(relative):
             raise LoadStepFailed(Status.NON_FINITE, "a number overflowed", first.length)
         rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
-        alike = factor is not None and max(off, blurred) <= path.alike
+        alike = factor is not None and (structure.linear or max(off, blurred) <= path.alike)
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
             settled = imbalance <= structure.imbalance_floor(state, forces)
-        touched, contacts = touching, structure.contacts if close > 0.0 else ()
-        touching = [one.report(structure.placed(state, target))[1] > 0.0 for one in contacts]
-        loose = relative <= close and np.array_equal(touched, touching)
-        if loose or (settled and structure.gap(state, target) <= limits.tolerance):
+        if relative <= close or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None
         last, back = lengths[-1], limits.back
         if len(lengths) > back and last >= max(lengths[-1 - back], limits.shrinking * lengths[-2]):
@@ -125,7 +121,10 @@ def newton(
             else:
                 matrix, rows = structure.system(state, forces, target)
                 near, factor = factor if not refined else None, None
-                found = None if near is None else path.solver.iterated(matrix, near, rows)
+                found = None
+                if near is not None:
+                    iterated = path.solver.iterated
+                    found = near.solve(rows, SOLVED) if structure.linear else iterated(matrix, near, rows)
                 if found is None or near is None:
                     near = None  # its memory is needed
                     factor = path.factored(matrix)

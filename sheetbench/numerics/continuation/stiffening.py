@@ -3,10 +3,10 @@
 Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
 method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. So soft
 ones are raised at the full load in stages of equal factors, each Newton's method from the last shape with the
-stresses that it extrapolated; all but the last end at a small residual of a correction that has left the same
-points in contact. One that fails takes the square root of its factor. What is said of the end is that of the
-last stage. Where soft penalties lead nowhere, or through an obstacle, `settle` begins again from rest with
-stiff ones, in so many load steps that no obstacle moves by more than a quarter of its radius in one.
+stresses that it extrapolated; all but the last end at a small residual. One that fails takes the square root
+of its factor. What is said of the end is that of the last stage. Where soft penalties lead nowhere or through
+an obstacle, `settle` begins again from rest with stiff ones, in so many load steps that no obstacle moves by
+more than a quarter of its radius in one.
 
 A penalty has the `obstacle`, the `share` of its stiffness that acts, and of its points the whole, `full` (…)
 [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; it says `step_share` and `report` of what is `placed`.
@@ -27,7 +27,7 @@ from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
 LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
-LOOSE = 0.1  # residual at which soft load steps end, and stages but the last
+LOOSE = 0.05  # residual at which soft load steps end, and stages but the last
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 

@@ -38,6 +38,7 @@ class Structure(Protocol[State, Forces]):
     """What `trace_path` needs. A structure that inherits this leaves out what has a default here."""
 
     prestrained: bool = False  # whether a natural strain loads it, which may stress it where it does not move
+    linear: bool = False  # whether its tangent is the same everywhere, and so the first correction exact
     contacts: Sequence[Any] = ()  # penalties (`stiffening`), with which the rest here is of interest
     size: float = 1.0  # [m]
 

@@ -50,17 +50,17 @@ class Near(NamedTuple):
         """Return forces (…, 3) [N] of dashpot and friction on points that a load p (…) [N] presses and that
         move at a speed v (…, 3) [m/s] past the obstacle, and their derivatives (…, 3, 3) by it: −p τ v_n, but
         nothing pulls, and −μ p v_t/√(v_t² + v₀²)."""
-        tau, across = self.obstacle.contact_damping, dyad(self.normal)
-        leaving = (speed * self.normal).sum(axis=-1)
-        sliding = speed - leaving[..., None] * self.normal
+        tau, n = self.obstacle.contact_damping, self.normal
+        leaving = (speed * n).sum(axis=-1)
+        sliding = speed - leaving[..., None] * n
         slip = np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)[..., None]
         damped, rubbed = (
             load * np.minimum(tau * leaving, 1.0),
-            (self.obstacle.friction * load)[..., None] / slip,
+            self.obstacle.friction * load[..., None] / slip,
         )
-        normal = (tau * load * (tau * leaving < 1.0))[..., None, None] * across
-        tangential = rubbed[..., None] * (np.eye(3) - across - dyad(sliding / slip))
-        return -damped[..., None] * self.normal - rubbed * sliding, -normal - tangential
+        normal = (tau * load * (tau * leaving < 1.0))[..., None, None] * dyad(n)
+        tangential = rubbed[..., None] * (np.eye(3) - dyad(n) - dyad(sliding / slip))
+        return -damped[..., None] * n - rubbed * sliding, -normal - tangential
 
     def share_of_way(self, start: Near, offset: np.ndarray) -> float:
         """Return up to which share straight ways of points from a start, which touch at a distance
@@ -143,10 +143,7 @@ def require_no_obstacles(scene: SceneFields, who: str) -> None:
 
 def require_frictionless(scene: SceneFields) -> None:
     """Raise SceneError where an obstacle has friction, for a sheet at rest."""
-    for name, obstacle in scene.named_obstacles().items():
-        if obstacle.friction > 0.0:
-            raise SceneError(
-                f"scene '{scene.name}': {name}.friction = {obstacle.friction:g}: at rest the answer would "
-                "depend on the path that the sheet came by; let it settle in motion (--duration), or take "
-                "friction = 0"
-            )
+    why = "at rest the answer depends on the path; let it settle in motion (--duration), or take friction = 0"
+    for name, one in scene.named_obstacles().items():
+        if one.friction > 0.0:
+            raise SceneError(f"scene '{scene.name}': {name}.friction = {one.friction:g}: {why}")

@@ -181,9 +181,8 @@ WAYS = {"50": (50, "utf-8"), "160": (160, "utf-8"), "80, ASCII": (80, "ascii")}
 
 
 def numbers(text):
-    """The numbers of a text as they are printed, but for powers and halves, which are one sign elsewhere."""
-    plain = text.replace("−", "-").replace("1/2", "½")
-    return re.findall(r"(?<!\^)-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", plain)
+    """The numbers of a text as they are printed."""
+    return re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text.replace("−", "-"))
 
 
 @pytest.mark.sweep(2)

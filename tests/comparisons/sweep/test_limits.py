@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from comparisons.models.spec import Lattice
-from comparisons.sweep.limits import Limit, pair
+from comparisons.models.spec import Elements, Lattice
+from comparisons.sweep.limits import Limit, in_all, motion_bar, pair
 from comparisons.sweep.solved import Ask, Solved
 from sheetbench.scenes import load
 
@@ -46,6 +46,20 @@ def test_a_limit_has_the_bar_of_its_three_finest_meshes(meshes, shown, bar):
         np.testing.assert_allclose(one.uncertainty.bar, bar * 0.002 / 64, rtol=1e-6)
     else:
         assert pair(one, standing("two", -0.01, 0.002)) is None
+
+
+def test_the_bar_of_a_motion_is_what_twice_the_mesh_and_twice_the_step_change():
+    """Of second order, with a caution of 3: 3 |Δ|/(2² − 1), over the largest displacement."""
+
+    def moved(count, u, status="converged"):
+        ask = Ask(SEED, Elements("shell", count), duration=1.0)
+        return Solved(ask, status, row={"probes": {"P1": np.array([[0.0, 0.0, 0.0], [0.0, 0.0, u]])}})
+
+    fine, longer = moved(8, 0.2), moved(8, 0.198)
+    bars = motion_bar([fine, moved(4, 0.19)], longer)
+    assert bars == pytest.approx({"mesh": 0.05, "step": 0.01}) and in_all(bars) == pytest.approx(0.06)
+    assert motion_bar([fine, moved(4, 0.19, "diverged")], longer) == {"mesh": None, "step": bars["step"]}
+    assert in_all({"mesh": None, "step": 0.01}) is None and in_all({}) is None
 
 
 @pytest.mark.parametrize("share", [0.9, 1.1])

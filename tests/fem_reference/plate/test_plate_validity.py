@@ -68,4 +68,4 @@ def test_a_turn_in_the_plane_counts_too():
     force = 1.5 * 5e6 * 0.001 * 0.05**3 / (6.0 * 0.2**2)  # N
     found = solve(EdgeLoad(edge="x1", force_per_length=(0.0, force / 0.05, 0.0)))
     assert found.status is Status.STRAIN_OUTSIDE_MODEL
-    assert "slopes or turns" in found.message, found.message
+    assert "slopes, turns" in found.message, found.message

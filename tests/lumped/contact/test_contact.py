@@ -78,13 +78,13 @@ def test_force_and_tangent_are_derivatives_of_the_energy(item):
 
     def at(u):
         force = np.zeros_like(u)
-        return contact.add_force(u, drive, force), force
+        return contact.add_force((u, drive), force), force
 
     assert contact.report((u, drive))[0].points > 0
     (high, up), (low, down), (_, force) = at(u + h * step), at(u - h * step), at(u)
     assert (high - low) / (2 * h) == pytest.approx(float((force * step).sum()), rel=1e-7)
     blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
-    contact.add_tangent(u, drive, 1.0, blocks)
+    contact.add_tangent((u, drive), 1.0, blocks)
     differences = (up - down).ravel() / (2 * h)
     assert np.linalg.norm(applied(problem, blocks, step) - differences) < 1e-7 * np.linalg.norm(differences)
 
@@ -93,17 +93,17 @@ def test_mean_force_does_the_energys_work_and_resistance_takes_power(item):
     problem, contact, u, rng = item
     still = Drive(1.0, 0.0)
     end, mean = u + 0.01 * rng.normal(size=u.shape), np.zeros_like(u)
-    contact.add_force(end, still, mean, (u, still))
-    stored = [contact.add_force(at, still, np.zeros_like(u)) for at in (u, end)]
+    contact.add_force((end, still), mean, (u, still))
+    stored = [contact.add_force((at, still), np.zeros_like(u)) for at in (u, end)]
     assert float((mean * (end - u)).sum()) == pytest.approx(stored[1] - stored[0], rel=1e-12)
 
     blocks = np.zeros((problem.assembly.pattern.blocks, 3, 3))
-    contact.add_tangent(end, still, 1.0, blocks, since=(u, still))
+    contact.add_tangent((end, still), 1.0, blocks, since=(u, still))
     h, step = 1e-7, rng.normal(size=u.shape)
 
     def secant(end):
         force = np.zeros_like(u)
-        contact.add_force(end, still, force, (u, still))
+        contact.add_force((end, still), force, (u, still))
         return force
 
     along = (secant(end + h * step) - secant(end - h * step)).ravel() / (2 * h)
@@ -112,14 +112,14 @@ def test_mean_force_does_the_energys_work_and_resistance_takes_power(item):
     )  # its main part
 
     v, force = 0.1 * rng.normal(size=u.shape), np.zeros_like(u)
-    power = contact.add_resistance(u, v, still, force)
+    power = contact.add_resistance((u, still), v, force)
     assert power == pytest.approx(float((force * v).sum()), rel=1e-12)
     assert power > 0.0 if contact.resists else not force.any()
     blocks[:] = 0.0
-    contact.add_resistance_tangent(u, v, still, 1.0, blocks)
+    contact.add_resistance_tangent((u, still), v, 1.0, blocks)
     ends = [np.zeros_like(u), np.zeros_like(u)]
     for sign, out in zip((1.0, -1.0), ends, strict=True):
-        contact.add_resistance(u, v + sign * h * step, still, out)
+        contact.add_resistance((u, still), v + sign * h * step, out)
     along = (ends[0] - ends[1]).ravel() / (2 * h)
     assert np.linalg.norm(applied(problem, blocks, step) - along) <= 1e-6 * np.linalg.norm(along)
 

@@ -156,9 +156,7 @@ def test_a_folder_of_another_scene_is_refused_with_what_differs(tmp_path):
     before = files(tmp_path)
     other = about(name="other", sheet={"length_x": 0.188, "length_y": 0.188, "thickness": 0.004})
     for verb in ("modes", "compare"):
-        with pytest.raises(
-            BadInput, match=r"scene.name is one-edge-clamped there, other here; .*thickness is 0.003"
-        ):
+        with pytest.raises(BadInput, match=r"holds files of another 'modes' \(of another scene, sheet\)"):
             Folder(tmp_path, verb, ["m"], about=other)
     assert files(tmp_path) == before
 
@@ -167,7 +165,7 @@ def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path):
     Folder(tmp_path, "modes", ["m"], about=about()).report(report())
     same = {"sheet": about()["scene"]["sheet"]}
     Folder(tmp_path, "calibrate", ["c"], about=same)
-    with pytest.raises(BadInput, match=r"thickness is 0\.003 there, 0\.004 here"):
+    with pytest.raises(BadInput, match="of another sheet"):
         Folder(tmp_path, "calibrate", ["c"], about={"sheet": {**same["sheet"], "thickness": 0.004}})
 
 
@@ -175,7 +173,7 @@ def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_pa
     Folder(tmp_path, "compare", ["c"], about=about(), variant={"--reference": "shell"}).report(
         report("shell.vtu")
     )
-    with pytest.raises(BadInput, match="--reference is shell there, plate here"):
+    with pytest.raises(BadInput, match="of another --reference"):
         Folder(tmp_path, "compare", ["c"], about=about(), variant={"--reference": "plate"})
     Folder(tmp_path, "modes", ["m"], about=about(), variant={"--reference": "plate"})
 
@@ -184,7 +182,7 @@ def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_el
     Folder(tmp_path, "stability", ["s"]).report(report("map.csv"))
     before = files(tmp_path)
     for verb, of in (("compare", about()), ("verify", {})):
-        with pytest.raises(BadInput, match=r"holds files of another 'stability' \(about something else\)"):
+        with pytest.raises(BadInput, match=r"holds files of another 'stability' \(of another question\)"):
             Folder(tmp_path, verb, ["c"], about=of)
     assert files(tmp_path) == before
     Folder(tmp_path, "compare", ["c"], about=about(), overwrite=True).report(report("a.txt"))

@@ -107,7 +107,6 @@ OF_VERB = {
     ("crosscheck", "--lumped"): "3,5",
     ("modes", "--reference"): "plate",
     ("verify", "--case"): "strain-laws",
-    ("simulate", "--measured"): "motion.csv",
     ("identify", "--model"): "solid",
 }
 SHELL = f"{SEED} --measured measured.csv --model shell --elements 2"

@@ -14,7 +14,7 @@ from sheetbench.choices import REFERENCE
 FRAMES = 100  # of a motion
 
 
-@no_effect(with_duration="branch export", without_duration="every animate")
+@no_effect(with_duration="branch", without_duration="every animate")
 def command(
     scene: str,
     lattice: LatticeOptions,
@@ -28,7 +28,6 @@ def command(
     duration: Seconds = None,
     every: Seconds = None,
     animate: bool = False,
-    export: str | None = None,
     large: bool = False,
     output: PictureOptions,
 ) -> Any:
@@ -53,7 +52,6 @@ def command(
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.context import running
     from comparisons.models.grids import parse_elements
-    from comparisons.models.resolve import resolve
     from comparisons.pictures.array_files import write_mesh
     from sheetbench import scenes
 
@@ -89,6 +87,4 @@ def command(
 
         with running(solved=keep):
             comparison = compare(loaded, spec, uncertainty=uncertainty, **shared)
-        if export is not None:
-            out.export(export, loaded, resolve(loaded, lattice.spec).springs)
         return out.show(comparison)

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
@@ -32,7 +32,7 @@ from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Plan
+from fem_reference.surface.mesh import Elements, Plan, divisions
 from fem_reference.surface.rod import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
@@ -76,6 +76,16 @@ class Discrete(ABC):
         self.items: list[SheetItem] = []
         self.contacts: list[Touching] = []
         self._weights: list[tuple[np.ndarray, Factor]] = []
+
+    def named(self, elements: Elements, through: str = "", **settings: Any) -> Self:
+        """The sheet with its label, and with the settings it was made by, but for those that are nothing."""
+        counts, sheet = divisions(self.scene.sheet, elements), self.scene.sheet
+        if sheet.mesh is not None and "graded" in settings:
+            settings["graded"] = False
+        self.label = f"{self.model} {counts[0]} × {counts[1]}{through}"
+        own = {name: value for name, value in settings.items() if value is not None}
+        self.settings = {"elements": list(counts), **own}
+        return self
 
     def rods_of(self, scene: Scene) -> BoundRods:
         """The rods of a scene on the sheet."""

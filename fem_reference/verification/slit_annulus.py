@@ -13,7 +13,8 @@ from collections.abc import Iterator
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.shell import statics as shell
+from fem_reference.discrete.answer import solve_on
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.verification.rows import Row, mesh_change, relatively
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet
@@ -55,7 +56,7 @@ def rise(share: float, radial: int, around: int) -> np.ndarray:
         loads=(EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, FORCE * share)),),
     )
     mesh = annulus(radial, around)
-    solution = shell.solve_on(mesh, scene)
+    solution = solve_on(DiscreteShell, mesh, scene)
     if solution.status is not Status.CONVERGED:
         return np.full(2, np.nan)
     lifted = np.unique(mesh.facets[:, mesh.boundaries["y0"]])

@@ -89,7 +89,8 @@ class Discrete(ABC):
 
     def rods_of(self, scene: Scene) -> BoundRods:
         """The rods of a scene on the sheet."""
-        return rod.on_surface(rod.of_scene(scene, self.plan), self.nodes)
+        rods, n = rod.of_scene(scene, self.plan), self.nodes
+        return rod.bound(rods, 9, 2 * n, lambda one: (one.elements, np.hstack([one.nodes, n + one.nodes])))
 
     def bind(self, bound: BoundRods, places: np.ndarray | None = None) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""

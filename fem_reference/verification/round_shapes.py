@@ -65,20 +65,20 @@ def disc(thick: float = THICK) -> Scene:
     )
 
 
-def bending(case: str) -> Iterator[Row]:
+def bending() -> Iterator[Row]:
     """The deflection of the rim, and the order in which plate and shell come to it."""
     thin, thicker = disc(), disc(THICKER)
     for model, kind in (("plate", DiscretePlate), ("shell", DiscreteShell)):
         quantity, source = "deflection of the rim [m]", "Timoshenko 1959, art. 17"
         computed, expected = _at_rim(solve(thin, model, elements=ELEMENTS)), deflection_at_rim()
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
-        yield relatively(case, quantity, mesh, expected, source, computed, TOLERANCE)
+        yield relatively(quantity, mesh, expected, source, computed, TOLERANCE)
         coarse = cut(mesh_of(thicker, UNCUT))
         at_rim = [_at_rim(solve_on(kind, mesh, thicker)) for mesh in (coarse, cut(coarse))]
         errors = np.array(at_rim) - deflection_at_rim(THICKER)
         order = float(np.log2(abs(errors[0] / errors[1])))
         quantity, mesh = f"order, h/a = {THICKER / RADIUS:g}", f"{model} {UNCUT} × {UNCUT}, cut in 4 and 16"
-        yield absolutely(case, quantity, mesh, 4.0, THEORY, order, OF_ORDER)
+        yield absolutely(quantity, mesh, 4.0, THEORY, order, OF_ORDER)
 
 
 def cut(mesh: MeshQuad) -> MeshQuad2:
@@ -100,7 +100,7 @@ def _at_rim(solution: Solution) -> float:
     return float(solution.displacement(np.array([[2.0 * RADIUS, RADIUS]]))[0, 2])
 
 
-def frequencies(case: str) -> Iterator[Row]:
+def frequencies() -> Iterator[Row]:
     """The lowest of every number of nodal diameters up to 2."""
     scene, scale = disc(), np.sqrt(_rigidity() / (STEEL.density * THICK)) / (2.0 * np.pi * RADIUS**2)
     for model in ("plate", "shell"):
@@ -110,14 +110,14 @@ def frequencies(case: str) -> Iterator[Row]:
         ):
             quantity = f"λ² with {diameters} nodal diameters"
             mesh, expected = f"{model} {ELEMENTS} × {ELEMENTS}", frequency(diameters)
-            yield relatively(case, quantity, mesh, expected, "Leissa 1969, ch. 2", computed, OF_FREQUENCY)
+            yield relatively(quantity, mesh, expected, "Leissa 1969, ch. 2", computed, OF_FREQUENCY)
 
 
-def strip_with_hole(case: str) -> Iterator[Row]:
+def strip_with_hole() -> Iterator[Row]:
     """The largest stress at the hole over the mean one far away."""
     for share, published in HOWLAND.items():
         quantity, mesh = f"stress at a hole of {share:g} of the width", f"plate {ACROSS} across"
-        yield relatively(case, quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
+        yield relatively(quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
 
 
 def _rigidity() -> float:

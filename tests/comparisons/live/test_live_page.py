@@ -62,26 +62,6 @@ def test_dragging_moves_the_lattice_and_the_shell_follows(page, address):
     assert watch.troubles == []
 
 
-def test_what_is_beyond_the_bounds_is_refused_in_a_line(page):
-    page, _ = page
-    box = page.locator(".slider:has(#slider-poisson) input[type=text]")
-    start = box.input_value()
-    box.fill("0.7")
-    box.press("Enter")
-    assert "Poisson's ratio ν: 0.7 is beyond this page, which goes from 0 to 0.495" in page.inner_text(
-        "#refused"
-    )
-    assert box.input_value() == start  # the value that the picture is of
-    box.press("Enter")
-    box.fill("0.4")
-    box.press("Enter")
-    until(page, ANSWERED)
-    assert page.inner_text("#refused") == ""
-    box.fill(start)
-    box.press("Enter")
-    until(page, ANSWERED)
-
-
 def test_values_are_typed_in_the_units_of_the_box_or_in_others(page):
     page, _ = page
     box = page.locator(".slider:has(#slider-young) input[type=text]")

@@ -97,8 +97,10 @@ def text(table: Table, most: int | None = None) -> str:
     return "\n".join([terminal(table.caption), *lines[: -1 if more else None], *more])
 
 
-def _fits(strips: list[_Strip], width: int | None) -> bool:
-    return width is None or sum(strip.narrow + GAP for strip in strips) - GAP <= width
+def _fits(strips: list[_Strip], width: int | None, whole: bool = False) -> bool:
+    """Whether the columns go side by side; whole: with their names in a line."""
+    widths = (strip.wide if whole else strip.narrow for strip in strips)
+    return width is None or sum(widths) + GAP * (len(strips) - 1) <= width
 
 
 def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
@@ -116,24 +118,6 @@ def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[
     return parts or [keys]
 
 
-def _heads(strips: list[_Strip], width: int | None) -> list[list[str]]:
-    """Return the headings in lines: what room there is goes to the tallest first."""
-    if width is None:
-        return [strip.head(strip.wide) for strip in strips]
-    widths = [strip.narrow for strip in strips]
-    spare, tall = width - sum(widths) - GAP * (len(strips) - 1), set(range(len(strips)))
-    while tall:
-        i = max(tall, key=lambda i: len(strips[i].head(widths[i])))
-        lower = len(strips[i].head(widths[i])) - 1
-        wider = (w for w in range(widths[i] + 1, strips[i].wide + 1) if len(strips[i].head(w)) <= lower)
-        needed = next(wider, UNBOUNDED) - widths[i]
-        if needed > spare:
-            tall.discard(i)
-        else:
-            widths[i], spare = widths[i] + needed, spare - needed
-    return [strip.head(w) for strip, w in zip(strips, widths, strict=True)]
-
-
 def _under_names(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block:
     """Return a table without its first column, every group of rows under a line with its name."""
     block = _block(strips[1:], width, starts)
@@ -147,9 +131,10 @@ def _under_names(strips: list[_Strip], width: int | None, starts: list[bool]) ->
 
 def _block(strips: list[_Strip], width: int | None, starts: Iterable[bool] = repeat(False)) -> Block:
     """starts: whether a group begins after a row."""
-    fits = _fits(strips, width)
+    fits, whole_names = _fits(strips, width), _fits(strips, width, whole=True)
     layout = Layout(box=BOX, show_edge=False, pad_edge=False, padding=(0, GAP - 1, 0, 0))
-    for strip, head in zip(strips, _heads(strips, width), strict=True):
+    for strip in strips:
+        head = strip.head(strip.wide if whole_names else strip.narrow)
         whole = strip.column.numeric or (fits and not strip.column.prose)
         layout.add_column(
             Text("\n".join(head)), overflow="fold", no_wrap=whole,

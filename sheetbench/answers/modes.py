@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,14 +17,6 @@ from sheetbench.scenes.objects.loads import EdgeLoad, Pressure
 from sheetbench.scenes.scene import Scene
 
 STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move
-
-
-@dataclass(frozen=True)
-class ModeRow:
-    """A mode and its natural frequency."""
-
-    mode: Annotated[int, NUMBER("d")]
-    frequency: Annotated[float, HERTZ(".5g")]
 
 
 class NaturalModes(Answer):
@@ -43,8 +35,8 @@ class NaturalModes(Answer):
         return {"frequencies_hz": self.frequencies, "rigid_modes": self.left_out, "unknowns": self.unknowns}
 
     def tables(self) -> tuple[Table, ...]:
-        rows = (ModeRow(n, f) for n, f in enumerate(self.frequencies, start=1))
-        return (Table.of(ModeRow, rows, "Natural frequencies", "modes"),)
+        columns, rows = (NUMBER("d", "mode"), HERTZ(".5g", "frequency")), enumerate(self.frequencies, start=1)
+        return (Table.listed("Natural frequencies", columns, rows, "modes"),)
 
     def notes(self) -> list[str]:
         return [f"{self.left_out} rigid motions are left out"] if self.left_out else []

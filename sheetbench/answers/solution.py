@@ -5,11 +5,11 @@ Part of the question's language: it holds no mechanics, so both solvers and any 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
@@ -124,33 +124,12 @@ class FieldMesh:
         return f"FieldMesh of {len(self.points)} points and {cells} with {fields}"
 
 
-@dataclass(frozen=True)
-class CostRow:
-    """What an answer cost, and how far the sheet moves."""
-
-    unknowns: Annotated[int, NUMBER("d")]
-    iterations: Annotated[int, NUMBER("d", "factorisations")]
-    setup_seconds: Annotated[float, MILLISECONDS(".3g", "set-up")]
-    solve_seconds: Annotated[float, MILLISECONDS(".3g", "solve")]
-    largest: Annotated[float, MILLIMETRES(".4g", "largest displacement")]
-
-
-@dataclass(frozen=True)
-class VectorRow:
-    """A probe's displacement by component."""
-
-    probe: str
-    displacement: Annotated[Mapping[str, float], MILLIMETRES("z.3f")]
-
-
-@dataclass(frozen=True)
-class ForceRow:
-    """A support's force by component."""
-
-    edge: str
-    force: Annotated[Mapping[str, float], NEWTONS("z.4f")]
-
-
+COST = (
+    *(NUMBER("d", "unknowns"), NUMBER("d", "factorisations"), MILLISECONDS(".3g", "set-up")),
+    *(MILLISECONDS(".3g", "solve"), MILLIMETRES(".4g", "largest displacement")),
+)
+MOVED = ("probe", *(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz"))
+HELD = ("edge", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 DOCUMENTED = (  # as they are, in the JSON document
     "model", "label", "settings", "message", "stretch", "load_factor", "unknowns", "iterations",
     "solve_seconds", "setup_seconds", "reactions", "energies",
@@ -270,15 +249,13 @@ class Solution(Answer):
         """What it cost and how far it goes, displacement at the scene's probes, forces of the supports."""
         u = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
         largest = float(np.max(np.linalg.norm(u, axis=1)))
-        cost = CostRow(self.unknowns, self.iterations, self.setup_seconds, self.solve_seconds, largest)
-        moved = self.probes.items()
-        probes = [VectorRow(at, dict(zip(("ux", "uy", "uz"), u, strict=True))) for at, u in moved]
-        forces = summary.without_rounding(self.reactions)
-        held = [ForceRow(at, dict(zip(("Fx", "Fy", "Fz"), f, strict=True))) for at, f in forces.items()]
+        cost = (self.unknowns, self.iterations, self.setup_seconds, self.solve_seconds, largest)
+        moved = [(name, *u) for name, u in self.probes.items()]
+        held = [(name, *f) for name, f in summary.without_rounding(self.reactions).items()]
         return (
-            Table.of(CostRow, [cost], "Cost and largest displacement", "solution"),
-            *([Table.of(VectorRow, probes, "Displacement of the mid-surface", "probes")] if probes else []),
-            *([Table.of(ForceRow, held, "Force of each support on the sheet", "reactions")] if held else []),
+            Table.listed("Cost and largest displacement", COST, [cost], "solution"),
+            *([Table.listed("Displacement of the mid-surface", MOVED, moved, "probes")] if moved else []),
+            *([Table.listed("Force of each support on the sheet", HELD, held, "reactions")] if held else []),
         )
 
     def figures(self) -> tuple[Picture, ...]:

@@ -8,54 +8,50 @@ number the compiler finds out as ever. Source: "noalias and alias.scope Metadata
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numba.core import cgutils, config, types
-from numba.core.errors import RequireLiteralValue, TypingError
+from numba.core.errors import TypingError
 from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
 
 KINDS = 6  # of memory, 0 to 5: what an access of one kind reaches no access of another does
 
 
-def _reached(kind: Any, context: Any, builder: Any, signature: Any, args: Any) -> tuple[Any, dict[str, Any]]:
-    """Pointer to an element, and the scopes of an access to it."""
+def _access(kind: Any, context: Any, builder: Any, signature: Any, args: Any) -> tuple[Any, Any]:
+    """A function from places to pointers, and one that marks an instruction with the scopes of an access."""
     array = make_array(signature.args[1])(context, builder, args[1])
     module = builder.module
     domain = module.add_metadata(["sheetbench.numerics.memory"])
     scopes = [module.add_metadata([f"memory {other}", domain]) for other in range(KINDS)]
     own = scopes.pop(kind.literal_value)
-    marks = {"alias.scope": module.add_metadata([own]), "noalias": module.add_metadata(scopes)}
-    return cgutils.gep_inbounds(builder, array.data, args[2]), marks
 
+    def marked(instruction: Any) -> Any:
+        instruction.set_metadata("alias.scope", module.add_metadata([own]))
+        instruction.set_metadata("noalias", module.add_metadata(scopes))
+        return instruction
 
-def _marked(instruction: Any, marks: dict[str, Any]) -> Any:
-    for name, mark in marks.items():
-        instruction.set_metadata(name, mark)
-    return instruction
+    return partial(cgutils.gep_inbounds, builder, array.data), marked
 
 
 def _load(_: Any, kind: Any, array: Any, i: Any) -> Any:
     """array[i] of memory of this kind."""
-    if not isinstance(kind, types.IntegerLiteral):
-        raise RequireLiteralValue("the kind of memory is a constant")
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer, marks = _reached(kind, context, builder, signature, args)
-        return _marked(builder.load(pointer), marks)
+        pointer, marked = _access(kind, context, builder, signature, args)
+        return marked(builder.load(pointer(args[2])))
 
     return array.dtype(kind, array, types.uint64), generate
 
 
 def _store(_: Any, kind: Any, array: Any, i: Any, value: Any) -> Any:
     """array[i] = value in memory of this kind."""
-    if not isinstance(kind, types.IntegerLiteral):
-        raise RequireLiteralValue("the kind of memory is a constant")
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer, marks = _reached(kind, context, builder, signature, args)
-        _marked(builder.store(args[3], pointer), marks)
+        pointer, marked = _access(kind, context, builder, signature, args)
+        marked(builder.store(args[3], pointer(args[2])))
         return context.get_dummy_value()
 
     return types.none(kind, array, types.uint64, array.dtype), generate
@@ -63,17 +59,14 @@ def _store(_: Any, kind: Any, array: Any, i: Any, value: Any) -> Any:
 
 def _load_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, count: Any) -> Any:
     """array[i], array[i + apart], …, so many, flat, as a tuple, of memory of this kind."""
-    if not (isinstance(kind, types.IntegerLiteral) and isinstance(count, types.IntegerLiteral)):
-        raise RequireLiteralValue("the kind of memory and the count are constants")
     if array.layout != "C":
         raise TypingError("the array has gaps")
     found = types.UniTuple(array.dtype, count.literal_value)
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        place, values = args[2], []
+        (pointer, marked), place, values = _access(kind, context, builder, signature, args), args[2], []
         for _ in range(found.count):
-            pointer, marks = _reached(kind, context, builder, signature, [*args[:2], place])
-            values.append(_marked(builder.load(pointer), marks))
+            values.append(marked(builder.load(pointer(place))))
             place = builder.add(place, args[3])
         return context.make_tuple(builder, found, values)
 
@@ -82,25 +75,23 @@ def _load_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, count: Any) ->
 
 def _store_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, values: Any) -> Any:
     """array[i], array[i + apart], … = the values of a tuple, in memory of this kind."""
-    if not isinstance(kind, types.IntegerLiteral):
-        raise RequireLiteralValue("the kind of memory is a constant")
     given = types.UniTuple(array.dtype, len(values))
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        place = args[2]
+        (pointer, marked), place = _access(kind, context, builder, signature, args), args[2]
         for n in range(given.count):
-            pointer, marks = _reached(kind, context, builder, signature, [*args[:2], place])
-            _marked(builder.store(builder.extract_value(args[4], n), pointer), marks)
+            marked(builder.store(builder.extract_value(args[4], n), pointer(place)))
             place = builder.add(place, args[3])
         return context.get_dummy_value()
 
     return types.none(kind, array, types.uint64, types.uint64, given), generate
 
 
-load: Any = intrinsic(prefer_literal=True)(_load)
-load_each: Any = intrinsic(prefer_literal=True)(_load_each)
-store: Any = intrinsic(prefer_literal=True)(_store)
-store_each: Any = intrinsic(prefer_literal=True)(_store_each)
+constant: Any = intrinsic(prefer_literal=True)  # kinds and counts: types of literals are tried first
+load: Any = constant(_load)
+load_each: Any = constant(_load_each)
+store: Any = constant(_store)
+store_each: Any = constant(_store_each)
 
 if getattr(config, "DISABLE_JIT", False):  # the same in Python, where kernels are not compiled
 

@@ -60,7 +60,8 @@ def reduction(pattern: BlockPattern, transform: sp.csr_array) -> Reduction:
     across = (transform.indptr, transform.indices, transform.data)
     down = (columns.indptr, columns.indices, columns.data)
     arrays = (block_pointers, by_column, block_rows, *across, *down)
-    count = _count(block_pointers, block_rows, transform.indptr, columns.indptr, columns.indices)
+    of_node = np.diff(transform.indptr[::3]).astype(np.int64)
+    count = int(of_node[pattern.rows] @ of_node[pattern.indices])
     pointers, rows, starts, source, weight, nonzeros = _reduction(*arrays, count)
     starts = starts[: nonzeros + 1].copy()
     if (transform.data == 1.0).all():
@@ -68,25 +69,6 @@ def reduction(pattern: BlockPattern, transform: sp.csr_array) -> Reduction:
         if nonzeros == count:
             starts = np.empty(0, np.int32)
     return Reduction(pointers, rows[:nonzeros].copy(), starts, source, weight)
-
-
-@njit(cache=True)
-def _count(
-    block_pointers: np.ndarray,
-    block_rows: np.ndarray,
-    t_pointers: np.ndarray,
-    c_pointers: np.ndarray,
-    c_rows: np.ndarray,
-) -> int:
-    """Entries of the map."""
-    total = 0
-    for column in range(len(c_pointers) - 1):
-        for at in range(c_pointers[column], c_pointers[column + 1]):
-            block = c_rows[at] // 3
-            for b in range(block_pointers[block], block_pointers[block + 1]):
-                first = 3 * block_rows[b]
-                total += t_pointers[first + 3] - t_pointers[first]
-    return total
 
 
 @njit(cache=True)

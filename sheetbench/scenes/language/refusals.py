@@ -65,7 +65,7 @@ def _follows(fault: Any) -> bool:
 
 def _sentence(fault: Any, schema: dict[str, Any]) -> str:
     where, nodes = _place(fault["loc"], schema)
-    key = _path(where)
+    key = in_keys(where)
     value = fault["input"]
     facts = fault.get("ctx", {})
     match fault["type"]:
@@ -199,7 +199,8 @@ def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> li
     return [branch for below in items if isinstance(below, dict) for branch in branches(schema, below)]
 
 
-def _path(where: list[int | str]) -> str:
+def in_keys(where: Iterable[int | str]) -> str:
+    """The keys and list numbers of a place, as 'load 2.pressure'."""
     text = ""
     for part in where:
         if isinstance(part, int):

@@ -33,8 +33,6 @@ def json_schema(model: type[BaseModel]) -> dict[str, Any]:
     schema = model.model_json_schema(by_alias=True, schema_generator=_AsWritten)
     for table in (schema, *schema.get("$defs", {}).values()):
         keys = table.get("properties", {})
-        for name in [name for name, key in keys.items() if key.get("type") == "null"]:
-            del keys[name]
         for key in keys.values():
             if key.get("default", 0) is None:
                 del key["default"]

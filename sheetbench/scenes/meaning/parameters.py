@@ -24,6 +24,7 @@ from math import inf, pi
 from typing import Any
 
 from sheetbench.errors import BadInput, SceneError
+from sheetbench.scenes.language.refusals import in_keys
 from sheetbench.scenes.objects.actuators import Chain
 from sheetbench.scenes.objects.fields import AScene, SceneFields
 from sheetbench.scenes.objects.natural import LARGEST_STRAIN
@@ -95,44 +96,35 @@ def put(scene: AScene, name: str, value: float) -> AScene:
 
 def _paths(scene: SceneFields, name: str) -> list[Path]:
     """Return the places in a scene that a parameter's value is at. Raises BadInput where there are none."""
-    material = scene.material
-    fibres = [key for key in FIBRES if getattr(material, key) is not None]
-    if material.kind == "orthotropic":
-        fibres.append("angle")  # 0 unless given
-    if (name in FIBRES or (name == "poisson" and fibres)) and name not in fibres:
-        raise BadInput(
-            f"'{name}': the scene's material has none; of fibres it has {', '.join(fibres) or 'none'}"
-        )
-    if name in (*MATERIAL, *FIBRES):
-        if getattr(material, name) is None and name != "angle":
-            raise BadInput(
-                f"'{name}': the scene's material has none; give a first guess, with frequency or band"
-            )
-        return [("material", name)]
-    if name == "thickness":
-        return [("sheet", name)]
-    if name == "drag":
-        if scene.air is None:
-            raise BadInput("'drag': the scene has no [air]; give a first guess there")
-        return [("air", name)]
+    paths = _places(scene, name)
+    for path in paths:
+        of: Any = scene
+        for n, part in enumerate(path):
+            if isinstance(part, int) and not 0 <= part < len(of):
+                raise BadInput(f"'{name}': the scene has {len(of)} {path[n - 1]}")
+            of = of[part] if isinstance(part, int) else getattr(of, part, None)
+            fibres = scene.material.kind == "orthotropic"  # of which the angle is 0 unless given
+            if (of is None and not (part == "angle" and fibres)) or (name == "poisson" and fibres):
+                where = in_keys(path[: n + 1])
+                raise BadInput(f"'{name}': the scene has no {where}; give a first guess there")
+    return paths
+
+
+def _places(scene: SceneFields, name: str) -> list[Path]:
+    """Return the places that a name may stand for. Raises BadInput where it stands for none."""
+    for table, names in (("material", (*MATERIAL, *FIBRES)), ("sheet", ("thickness",)), ("air", ("drag",))):
+        if name in names:
+            return [(table, name)]
     if (at := re.fullmatch(r"([a-z]+)(\d+)\.?(\w*)", name)) and at[3] in NUMBERED.get(at[1], ((), ""))[0]:
-        (_, tables), number, key = NUMBERED[at[1]], int(at[2]), at[3] or at[1]
-        if not 1 <= number <= len(listed := getattr(scene, tables)):
-            raise BadInput(f"'{name}': the scene has {len(listed)} {tables}")
+        key = at[3] or at[1]
         place: Path = ("position", "xyz".index(key)) if key in "xyz" else (key,)
-        if getattr(listed[number - 1], str(place[0]), None) is None:
-            raise BadInput(f"'{name}': {at[1]} {number} has no {key} of its own; give a first guess there")
-        return [(tables, number - 1, *place)]
+        return [(NUMBERED[at[1]][1], int(at[2]) - 1, *place)]
     if natural := re.fullmatch(r"(?:patch(\d+)\.)?natural\.([ek])(xx|yy|xy)", name):
-        if (whose := name.rpartition(".")[0]) not in scene.natural_states:
-            raise BadInput(f"'{name}': the scene has no {whose}; give a first guess there")
         own: Path = ("patches", int(natural[1]) - 1) if natural[1] else ()
         part = "strain" if natural[2] == "e" else "curvature"
         return [(*own, "natural", part, ("xx", "yy", "xy").index(natural[3]))]
     key, _, of = name.partition("_")
     if key in BRANCH and of.isdecimal():
-        if not 1 <= int(of) <= len(material.relaxation):
-            raise BadInput(f"'{name}': the material has {len(material.relaxation)} branches")
         return [("material", "relaxation", int(of) - 1, key)]
     if key == "tilt":
         if clamps := _holders(scene, Clamped, of):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import degrees, hypot
+from typing import Any
 
 from sheetbench.scenes.meaning.composition import carried, mass_of
 from sheetbench.scenes.meaning.distances import nearest
@@ -13,12 +14,11 @@ from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions
 from sheetbench.scenes.objects.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.objects.air import Air
 from sheetbench.scenes.objects.fields import SceneFields
-from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, PointLoad, Pressure
 from sheetbench.scenes.objects.masses import Mass
-from sheetbench.scenes.objects.material import CONSTANTS, Material
+from sheetbench.scenes.objects.material import CONSTANTS, STRESSES, Material
 from sheetbench.scenes.objects.obstacles import AnyObstacle, Plane
-from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.orthotropy import MODULI
 from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.shapes import Shape
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
@@ -28,65 +28,55 @@ from sheetbench.scenes.objects.tables import FactorTable
 
 def in_words(scene: SceneFields) -> list[tuple[str, str]]:
     """What each part of the scene means: pairs of a part's name and a sentence."""
-    sheet, material = scene.sheet, scene.material
-    shorter = min(sheet.lengths)
-    mass = mass_of(scene)
-    sentences = [
-        (
-            "sheet",
-            f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}, "
-            f"{_mm(sheet.thickness)} mm thick (1/{shorter / sheet.thickness:.3g} of the shorter side)"
-            f"{_tapers(sheet)}, {1e3 * mass:.3g} g",
-        ),
-        (
-            "material",
-            f"{_elasticity(material)}, ρ = {material.density:g} kg/m³"
-            + (
-                f" at small strains, rubber by the law {material.law}{_constants(material)}"
-                if material.law
-                else ""
-            )
-            + _relaxation(material)
-            + (f", dampers of {1e3 * material.dashpot_time:.4g} ms · k" if material.dashpot_time else "")
-            + (f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""),
-        ),
-        *((f"layer {n}", _layer(layer)) for n, layer in enumerate(scene.layers, start=1)),
-        *((f"patch {n}", _patch(patch)) for n, patch in enumerate(scene.patches, start=1)),
-        *((f"cutout {n}", cutout.shape.in_words()) for n, cutout in enumerate(scene.cutouts, start=1)),
-        *((f"mass {n}", _payload(payload, sheet)) for n, payload in enumerate(scene.masses, start=1)),
-        *natural_in_words(scene),
-        ("weight", _weight(scene, mass + carried(scene))),
-    ]
+    return [*_parts(scene)]
+
+
+def _parts(scene: SceneFields) -> Iterator[tuple[str, str]]:
+    sheet, material, mass = scene.sheet, scene.material, mass_of(scene)
+    yield (
+        "sheet",
+        f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}, {_mm(sheet.thickness)} mm thick "
+        f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){_tapers(sheet)}, "
+        f"{1e3 * mass:.3g} g",
+    )
+    rubber = f" at small strains, rubber by the law {material.law}" if material.law else ""
+    rubber += f" ({own})" if (own := _own({key: getattr(material, key) for key in CONSTANTS})) else ""
+    dampers = f", dampers of {1e3 * time:.4g} ms · k" if (time := material.dashpot_time) else ""
+    drag = f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""
+    elasticity = f"{_elasticity(material)}, {_own({'density': material.density})}"
+    yield "material", f"{elasticity}{rubber}{_relaxation(material)}{dampers}{drag}"
+    for n, layer in enumerate(scene.layers, start=1):
+        yield f"layer {n}", _own({"thickness": layer.thickness, **layer.own})
+    for n, patch in enumerate(scene.patches, start=1):
+        yield f"patch {n}", f"{patch.shape.in_words()}: {_own(patch.own) or 'not flat at rest'}"
+    for n, cutout in enumerate(scene.cutouts, start=1):
+        yield f"cutout {n}", cutout.shape.in_words()
+    for n, payload in enumerate(scene.masses, start=1):
+        yield f"mass {n}", _payload(payload, sheet)
+    yield from natural_in_words(scene)
+    yield "weight", _weight(scene, mass + carried(scene))
     if scene.air is not None:
-        sentences.append(("air", _air(scene.air, scene.sheet, mass)))
+        yield "air", _air(scene.air, sheet, mass)
     for name, support in named(scene.supports).items():
         shape = place(support)
         inside = f", everywhere in the {shape.in_words()}" if shape is not None else ""
         inside = f" at {_point(support.at)} mm" if isinstance(support, Point) else inside
-        where = name if shape is not None else f"edge {name}"
-        sentences.append((where, f"{_support(support, sheet)}{inside}"))
-    sentences += [(f"load {n}", _load(load, scene)) for n, load in enumerate(scene.loads, start=1)]
+        yield name if shape is not None else f"edge {name}", f"{_support(support, sheet)}{inside}"
+    for n, load in enumerate(scene.loads, start=1):
+        yield f"load {n}", _load(load, scene)
     for name, one in scene.named_obstacles().items():
-        sentences.append((name, _obstacle(one, nearest(scene, one)[0])))
-    sentences += [(f"actuator {n}", _actuator(one, sheet)) for n, one in enumerate(scene.actuators, start=1)]
+        yield name, _obstacle(one, nearest(scene, one)[0])
+    for n, actuator in enumerate(scene.actuators, start=1):
+        yield f"actuator {n}", _actuator(actuator, sheet)
     if scene.initial is not None:
         gone = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
         then = f"; load {gone} is let go then" if gone else ""
-        sentences.append(("start", f"motion starts from the equilibrium under all loads at t = 0{then}"))
+        yield "start", f"motion starts from the equilibrium under all loads at t = 0{then}"
     if scene.springs is not None:
-        sentences.append(
-            ("springs", "the lattice takes the scene's own constants instead of calibrated ones")
-        )
-    points = ", ".join(f"{name} {_point(point)}" for name, point in scene.probes.items())
-    sentences.append(("probes", f"{points} mm"))
-    free = free_rigid_motions(scene)
-    sentences.append(
-        (
-            "at rest",
-            f"not solved: nothing stops {', '.join(free)}" if free else "held: no rigid-body motion is free",
-        )
-    )
-    return sentences
+        yield "springs", "the lattice takes the scene's own constants instead of calibrated ones"
+    yield "probes", f"{', '.join(f'{name} {_point(point)}' for name, point in scene.probes.items())} mm"
+    free = ", ".join(free_rigid_motions(scene))
+    yield "at rest", f"not solved: nothing stops {free}" if free else "held: no rigid-body motion is free"
 
 
 def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
@@ -119,47 +109,34 @@ def _tapers(sheet: Sheet) -> str:
     )
 
 
+IN_PASCALS = {"young", *MODULI, *STRESSES}
+SYMBOLS = {
+    "young": "E", "young_1": "E₁", "young_2": "E₂", "shear_12": "G₁₂", "poisson": "ν", "poisson_12": "ν₁₂",
+    "density": "ρ",
+}  # fmt: skip
+
+
+def _own(constants: Mapping[str, Any]) -> str:
+    """Return constants by their keys, those that are not None, with commas between."""
+    return ", ".join(_constant(key, value) for key, value in constants.items() if value is not None)
+
+
+def _constant(key: str, value: Any) -> str:
+    if key == "thickness":
+        return f"{_mm(value)} mm thick"
+    if key == "angle":
+        return f"fibres at {degrees(value):.4g}°"
+    shown = str([*value]) if isinstance(value, tuple) else f"{value:g}{' kg/m³' * (key == 'density')}"
+    return f"{SYMBOLS.get(key, key)} = {_pascals(value) if key in IN_PASCALS else shown}"
+
+
 def _elasticity(material: Material) -> str:
     """Return E and ν, or the constants of fibres."""
     if material.kind == "isotropic":
-        return f"E = {_pascals(material.young)}, ν = {material.poisson:g}"
-    ply = material.ply
-    moduli = ", ".join(
-        f"{name} = {_pascals(value)}"
-        for name, value in (("E₁", ply.young_1), ("E₂", ply.young_2), ("G₁₂", ply.shear_12))
-    )
-    return f"fibres at {degrees(ply.angle):.4g}° from x, {moduli}, ν₁₂ = {ply.poisson_12:g}"
-
-
-def _layer(layer: Layer) -> str:
-    """Return a layer's thickness, angle and other constants of its own."""
-    own = ", ".join(
-        f"{name} = {[*map(float, value)] if isinstance(value, tuple) else f'{value:g}'}"
-        for name, value in layer.own.items()
-        if name != "angle"
-    )
-    at = "" if layer.angle is None else f", fibres at {degrees(layer.angle):.4g}°"
-    return f"{_mm(layer.thickness)} mm thick{at}{f', {own}' if own else ''}"
-
-
-def _patch(patch: Patch) -> str:
-    """Return a patch's place and its own constants."""
-    words = {
-        "thickness": lambda value: f"{_mm(value)} mm thick",
-        "young": lambda value: f"E = {_pascals(value)}",
-        "poisson": lambda value: f"ν = {value:g}",
-        "density": lambda value: f"ρ = {value:g} kg/m³",
-        "angle": lambda value: f"fibres at {degrees(value):.4g}°",
-    }
-    own = [words[name](value) for name, value in patch.own.items()]
-    return f"{patch.shape.in_words()}: {', '.join(own) or 'not flat at rest'}"
-
-
-def _constants(material: Material) -> str:
-    """Return the constants of a rubber's law."""
-    given = {key: value for key in CONSTANTS if (value := getattr(material, key)) is not None}
-    texts = [f"{key} = {v:g}" if key == "limit" else f"{key} = {_pascals(v)}" for key, v in given.items()]
-    return f" ({', '.join(texts)})" if texts else ""
+        return _own({"young": material.young, "poisson": material.poisson})
+    keys = ("young_1", "young_2", "shear_12", "poisson_12")
+    constants = _own({key: getattr(material, key) for key in keys})
+    return f"fibres at {degrees(material.ply.angle):.4g}° from x, {constants}"
 
 
 def _relaxation(material: Material) -> str:
@@ -174,12 +151,8 @@ def _relaxation(material: Material) -> str:
 def sheet_in_words(sheet: Sheet, material: Material) -> str:
     """The sheet and its material in a line."""
     sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
-    if material.kind == "isotropic":
-        young = f"{material.young / 1e6:g} MPa" + (" (long-time)" if material.branches.times else "")
-        elasticity = f"E = {young}, ν = {material.poisson:g}"
-    else:
-        elasticity = _elasticity(material)
-    return f"{sides} mm, {elasticity}, ρ = {material.density:g} kg/m³"
+    at_rest = " at rest" if material.branches.times else ""
+    return f"{sides} mm, {_elasticity(material)}{at_rest}, {_own({'density': material.density})}"
 
 
 def _payload(payload: Mass, sheet: Sheet) -> str:

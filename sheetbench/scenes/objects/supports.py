@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import pi
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, ConfigDict, Field, field_validator, model_validator
 
@@ -112,7 +112,7 @@ class Held(_Support):
     """Which of "x", "y" and "z" are held, for instance ["z"] for an edge that slides on a rail."""
 
 
-class Point(_EdgeSupport):
+class Point(Frozen):
     """Some components of the mid-surface's displacement held at one point, free to turn: a pin, a tack, one
     of the three points that a free sheet rests on."""
 
@@ -121,17 +121,8 @@ class Point(_EdgeSupport):
     """Plan point [x, y] of the undeformed sheet that is held."""
     components: Components = ("x", "y", "z")
     """Which of "x", "y" and "z" are held there; all unless given."""
-    edge: Annotated[EdgeName, Field(default=None, kw_only=True)]
-    """Of no edge: left out."""
-    motion: Motion | None = Field(default=None, kw_only=True)
-    """A point that is held does not move: left out."""
-
-    @model_validator(mode="after")
-    def _stays(self) -> Self:
-        for key in ("edge", "motion"):
-            if getattr(self, key) is not None:
-                raise ValueError(f"{key}: a point that is held has none; leave it out")
-        return self
+    edge: ClassVar[Any] = None
+    motion: ClassVar[None] = None
 
     @property
     def where(self) -> Shape:
@@ -154,8 +145,7 @@ class Symmetric(Frozen):
     kind: Literal["symmetric"] = Field(default="symmetric", kw_only=True)
     edge: EdgeName
     """The edge where the sheet is cut."""
-    motion: None = Field(default=None, kw_only=True)
-    """A plane of symmetry does not move."""
+    motion: ClassVar[None] = None
 
 
 AnySupport = Clamped | Hinged | Held | Point | Curved | Symmetric

@@ -16,7 +16,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
-from comparisons.models.spec import Lattice, Spec, spec_of
+from comparisons.models.spec import Lattice, Spec
 from comparisons.sweep import here as table
 from comparisons.sweep.front import cheapest
 from comparisons.tradeoff.advisor import advise
@@ -110,31 +110,6 @@ def test_the_choice_meets_the_tolerance(name, tolerance):
     assert actual_error(advice) <= tolerance
 
 
-def test_lattices_are_tried_with_what_auto_chooses():
-    """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
-    nearer than the usual ones on the same grid, and the advice says why, or why not."""
-    curved = advise(scenes.load("curved-edge"), 0.01, lattice=Lattice(grading="auto"))
-    errors = {
-        (tuple(row.spec.settings["grid"]), row.spec.settings.get("grading", 0.0)): row.error
-        for row in curved.tried
-        if row.spec.model == "lumped" and row.spec.settings["calibration"] == "consistent-membrane"
-    }
-    usual = {
-        tuple(row.spec.settings["grid"]): row.error
-        for row in curved.tried
-        if row.spec.settings.get("calibration") == "consistent"
-    }
-    both = [grid for grid, grading in errors if grid in usual and not grading]
-    assert any(grid[0] > 3 for grid in both) and any(grading for _, grading in errors)
-    assert all(errors[grid, 0.0] < usual[grid] for grid in both if grid[0] > 3)
-    assert curved.calibration.endswith("ν = 0.48 is above 0.4")
-    assert curved.calibration.startswith("calibration consistent-membrane")
-    assert "bent by 4 1/m" in curved.grading and curved.document()["grading"] == curved.grading
-    taken = spec_of("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
-    line = replace(curved, choice=taken).report().document["command"]
-    assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"
-
-
 def test_the_advice_says_why_nothing_is_graded():
     even = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.05, lattice=Lattice(grading="auto"))
     assert even.grading.startswith("no grading") and "no narrow layer" in even.grading
@@ -145,14 +120,13 @@ def test_what_the_scene_does_not_need_is_left_out():
     light = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.02)
     assert light.choice is not None
     assert light.choice.settings.get("linear") or light.choice.model == "plate"
-    assert light.choice.settings["symmetry"] is True
     assert "large displacements" not in light.needs
     said = " ".join(light.left_out)
-    assert "dynamics" in said and "nonlinearity" in said and "half" in said
+    assert "dynamics" in said and "nonlinearity" in said
     assert actual_error(light) <= 0.02
 
     heavy = advise(scenes.load("two-edges-clamped"), 0.01)
-    assert heavy.choice is not None and "symmetry" not in heavy.choice.settings
+    assert heavy.choice is not None
     assert {"bending", "membrane stiffening", "large displacements"} <= set(heavy.needs)
 
 

@@ -47,7 +47,7 @@ def test_a_pair_of_one_curvature_changes_together_and_one_of_two_is_refused():
         ("tilt_y1", "edge 'y1' has no clamp"),
         ("curvature_x0", "edge 'x0' has no support or actuator of one curvature"),
         ("patch2.young", "'patch2.young': the scene has 1 patch"),
-        ("patch1.poisson", "patch 1 has no poisson of its own; give a first guess there"),
+        ("patch1.poisson", "the scene has no patches 1.poisson; give a first guess there"),
         ("patch1.angel", "not a parameter of a scene"),
     ],
 )

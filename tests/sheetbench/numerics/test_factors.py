@@ -16,7 +16,7 @@ from sheetbench.numerics import banded, direct, multifrontal, pardiso, reduced
 from sheetbench.numerics.direct import CHOLESKY, DirectSolver, SingularMatrixError
 from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.multifrontal import NoFactorsError
-from sheetbench.numerics.reduction import reduction
+from sheetbench.numerics.reduced import reduction
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import load
 from sheetbench.scenes.objects.supports import Hinged

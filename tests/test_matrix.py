@@ -36,7 +36,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ),
         OUTPUTS,
         GRIDS,
-        ((), ("--symmetry",), ("--uncertainty",), ("--no-uncertainty",)),
+        ((), ("--uncertainty",), ("--no-uncertainty",)),
     ],
     "modes": [
         SPRINGS[::3],

@@ -107,7 +107,6 @@ OF_VERB = {
     ("crosscheck", "--lumped"): "3,5",
     ("modes", "--reference"): "plate",
     ("verify", "--case"): "strain-laws",
-    ("simulate", "--measured"): "motion.csv",
     ("identify", "--model"): "solid",
 }
 SHELL = f"{SEED} --measured measured.csv --model shell --elements 2"
@@ -143,7 +142,6 @@ SAME = {  # no number of the answer is another with them, and why
     **dict.fromkeys(("--toml", "--animate"), PLACES),
     "--large": "lets a model be larger than memory",
     **dict.fromkeys(("--workers", "--scheduler", "--retry"), "how runs are carried out"),
-    "--symmetry": "the same answer, from a part of the mesh",
     "--repeats": "times alone",
 }
 SAME_OF = {

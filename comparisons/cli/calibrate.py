@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from comparisons.cli.options import Kind, LatticeOptions, Metres, SheetOptions
-from comparisons.cli.output import OutputOptions
+from comparisons.cli.output import OutputOptions, command_line
 from comparisons.cli.verb import no_effect
 from sheetbench.choices import CALIBRATIONS
 
@@ -77,9 +77,9 @@ def command(
 
     from comparisons.calibration import damping
     from comparisons.calibration.calibrate import SheetCalibration, calibrate, expected, subject, to_toml
+    from comparisons.codes import lattice as exchange
     from comparisons.codes.cell_moduli import given_coefficients, homogenise
     from comparisons.codes.files import WRITERS
-    from comparisons.codes.lattice import CODES, lattice_files
     from comparisons.codes.setup import require_damper, setup, squares_of
     from comparisons.models.sizes import require_room
     from lumped import Calibration
@@ -102,7 +102,7 @@ def command(
             known = given_coefficients(coefficient or ())
             return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
     if for_ is not None:
-        require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *CODES])))
+        require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *exchange.CODES])))
     if for_ is not None and for_ in WRITERS:
         springs_only = {name: value for name, value in wanted.settings.items() if name != "grid"}
         require_effect(
@@ -126,9 +126,11 @@ def command(
         springs = calibrate(of, wanted, named)
         foretold = named and wanted.k is None and wanted.layer_distance is None
         off = expected(of, springs) if foretold else None
-        out.export(export, of, springs)
+        if export is not None:
+            line = command_line(output.verb, output.terminal)
+            out.notes.append(exchange.export(export, of, springs, line, output.overwrite))
         modes = damping.ratios(of, springs)
         own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
-        files = ({}, []) if for_ is None else lattice_files(of, springs, for_)
+        files = ({}, []) if for_ is None else exchange.lattice_files(of, springs, for_)
         answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -22,7 +22,6 @@ from sheetbench import clock
 
 if TYPE_CHECKING:
     from comparisons.sweep.folder import Folder
-    from lumped import Calibration
     from sheetbench.answers.answer import Answer
     from sheetbench.answers.figure_style import FigureStyle
     from sheetbench.answers.report import Report, Write
@@ -67,14 +66,6 @@ class Output:
         """Write a file of the answer at once, if there is a folder."""
         if self.folder is not None:
             self.folder.write(name, write)
-
-    def export(self, folder: str | Path | None, scene: Scene, springs: Calibration) -> None:
-        """Write the lattice for other simulators if there is a folder, and note it."""
-        if folder is not None:
-            from comparisons.codes.lattice import export
-
-            line = command_line(self.options.verb, self.options.terminal)
-            self.notes.append(export(folder, scene, springs, line, self.options.overwrite))
 
     def reserve(self, name: str) -> Path | None:
         """Return the path of a file, or of a folder if the name ends in "/", that a run fills by itself."""

@@ -42,15 +42,13 @@ class MotionComparison(Answer):
     """Histories by model, the lattice's first, the reference's last.
 
     uncertainty: how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are
-    measured, None where a run of it did not end; left_out: why models refused the scene; animate: draw the
-    sheets moving, side by side.
+    measured, None where a run of it did not end; animate: draw the sheets moving, side by side.
     """
 
     file_name = "motion"
     scene: Scene
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
-    left_out: dict[str, str] = field(default_factory=dict)
     animate: bool = False
 
     @property
@@ -114,7 +112,6 @@ class MotionComparison(Answer):
                 "differences": self.differences,
                 "uncertainty": self.uncertainty,
                 "bar": self.bar,
-                "left_out": self.left_out,
             },
             "solutions": [
                 {"model": name, **{key: getattr(history, key) for key in OF_A_RUN}}
@@ -148,11 +145,9 @@ class MotionComparison(Answer):
         for name, history in self.histories.items():
             for note in history.notes():
                 models.setdefault(note, []).append(name)
-        left_out = (f"{name} is left out: {why}" for name, why in self.left_out.items())
         return [
             *self._driven(),
             *self._bars(),
-            *left_out,
             *(f"{', '.join(names)}: {note}" for note, names in models.items()),
         ]
 

@@ -19,7 +19,6 @@ from comparisons.models.pair import extrapolated
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice, LatticePair
-from comparisons.models.symmetry import by_parts, cut_axes
 from comparisons.pictures.work import Pace, Work, silent
 from sheetbench.answers.history import History
 from sheetbench.answers.size import Size
@@ -29,7 +28,6 @@ from sheetbench.clock import now
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
-from sheetbench.scenes.objects.grading import mirrored
 
 Watch = Callable[[Iteration], None]  # called once an iteration
 STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
@@ -88,7 +86,10 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
         rough = _lattice(model.coarse, model.coarse.spec, watch)
         return extrapolated(rough, _lattice(model, spec.lattice(spec.grid), watch))
     if isinstance(spec, Elements):
-        return _elements(scene, spec, watch)
+        import fem_reference
+
+        elements = tuple(spec.counts(scene)[:2])
+        return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
     outside = plugins.plugin(spec.model)
     return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
 
@@ -98,32 +99,8 @@ def _lattice(model: Resolved[Any], spec: Lattice, watch: Watch | None) -> Soluti
 
     springs, scene = model.springs, model.scene
     branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
-    cut = spec.symmetry and spec.branch == "path"
-    axes = cut_axes(scene, springs.grid, masses=True) if cut else []
-    axes = [axis for axis in axes if mirrored(springs.grading, axis)]
-    for axis in axes:
-        springs = springs.halved(axis)
-
-    def answer(part: Scene) -> Solution:
-        return lumped.solve(part, springs, linear=spec.linear, branch=branch, progress=watch)
-
-    solution = by_parts(scene, axes, answer)
+    solution = lumped.solve(scene, springs, linear=spec.linear, branch=branch, progress=watch)
     return replace(solution, settings={**solution.settings, **model.reasons})
-
-
-def _elements(scene: Scene, spec: Elements, watch: Watch | None) -> Solution:
-    import fem_reference
-
-    counts = spec.counts(scene)
-    axes = cut_axes(scene, counts, masses=False) if spec.symmetry else []
-    for axis in axes:
-        counts[axis] //= 2
-
-    def answer(part: Scene) -> Solution:
-        elements = (counts[0], counts[1])
-        return fem_reference.solve(part, spec.kind, elements=elements, progress=watch, **spec.options)
-
-    return by_parts(scene, axes, answer)
 
 
 def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings: Any) -> History:

@@ -162,17 +162,15 @@ class Advice(Answer):
         if spec is None:
             return None
         options = ["--model", str(spec)]
-        symmetry = ["--symmetry"] if spec.settings.get("symmetry") else []
         if isinstance(spec, Lattice) and not spec.linear:
             options = ["--lumped", counted(spec.grid).replace("×", "x")]
             options += [] if spec.calibration == CALIBRATION else ["--calibration", str(spec.calibration)]
             for name in ("k", "layer_distance"):
                 if name in spec.settings:
                     options += [f"--{name.replace('_', '-')}", f"{spec.settings[name]:g}"]
-            options += symmetry
             options += ["--grading", f"{parse_grading(spec.grading):g}"] if spec.grading else []
         elif isinstance(spec, Elements):
-            options = ["--reference", spec.kind, "--elements", spec.size.replace("×", "x"), *symmetry]
+            options = ["--reference", spec.kind, "--elements", spec.size.replace("×", "x")]
         return join(["sheetbench", "compare", self.called or self.scene.name, *options])
 
 

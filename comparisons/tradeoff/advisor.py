@@ -269,7 +269,4 @@ def _effects(
         left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
     if trials.scene.actuators:
         needs.append("actuators")
-    if chosen is not None and trials.planes:
-        part = "a quarter" if len(trials.planes) == 2 else "half"
-        left_out.append(f"all but {part} of the sheet: the scene is symmetric")
     return tuple(needs), tuple(left_out)

@@ -38,14 +38,10 @@ def moving_lattices(lattice: Lattice, grid: str | None, calibration: str | None)
     return [lattice.but(grid=size, calibration=name) for name in methods for size in grids]
 
 
-def of_references(
-    meshes: Mapping[str, str | None], usual: Mapping[str, str], symmetry: bool = False
-) -> list[Spec]:
-    """Return references on meshes by name, the usual ones where nothing is listed; symmetry: of all but
-    solids."""
+def of_references(meshes: Mapping[str, str | None], usual: Mapping[str, str]) -> list[Spec]:
+    """Return references on meshes by name, the usual ones where nothing is listed."""
     sizes = {name: items(usual[name] if listed is None else listed) for name, listed in meshes.items()}
-    every = [one for name, listed in sizes.items() for one in references(name, listed)]
-    return [one.but(symmetry=True) if symmetry and one.model != "solid" else one for one in every]
+    return [one for name, listed in sizes.items() for one in references(name, listed)]
 
 
 def finest(elements: Count | str | None) -> Elements | None:

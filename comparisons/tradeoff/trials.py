@@ -19,7 +19,6 @@ from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.spec import Elements, Lattice, Spec, counted
-from comparisons.models.symmetry import planes
 from comparisons.sweep.differences import error
 from comparisons.sweep.here import SolvedHere, here
 from comparisons.sweep.limits import limit
@@ -61,7 +60,6 @@ class TrialSolves:
         own = {"calibration": self.method, "k": lattice.k, "layer_distance": lattice.layer_distance}
         self.springs = {name: value for name, value in own.items() if value not in (None, CALIBRATION)}
         self.because = resolved.reasons.get("calibration_reason", "")
-        self.planes = planes(scene)
         self.scales = scales(scene)
         self.rows: dict[Spec, SolvedHere] = {}
         self.refused: dict[Spec, str] = {}  # and why
@@ -70,19 +68,13 @@ class TrialSolves:
         require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
-        """Return a lattice of that many cells along the shorter side, cut where the scene is symmetric."""
-        nx, ny = self._along(cells)
-        return Lattice((nx + 1, ny + 1, 2), CALIBRATION, linear=linear, symmetry=bool(self.planes))
+        """Return a lattice of that many cells along the shorter side."""
+        nx, ny = near_square(self.scene.sheet, cells)
+        return Lattice((nx + 1, ny + 1, 2), CALIBRATION, linear=linear)
 
     def elements(self, kind: str, cells: int) -> Elements:
-        """Return a reference of that many elements along the shorter side, cut likewise."""
-        return Elements(kind, self._along(cells), symmetry=bool(self.planes))
-
-    def _along(self, cells: int) -> tuple[int, int]:
-        along = list(near_square(self.scene.sheet, cells))
-        for axis in self.planes:
-            along[axis] += along[axis] % 2
-        return along[0], along[1]
+        """Return a reference of that many elements along the shorter side."""
+        return Elements(kind, near_square(self.scene.sheet, cells))
 
     def candidates(self, linear: bool) -> list[Spec]:
         """Return what may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""

@@ -10,7 +10,7 @@ end none either: the run that came to them says so, and from when on.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from math import isfinite, isnan, nan
 from typing import Self
 
@@ -69,7 +69,7 @@ class Watch:
 
     def memory(self) -> np.ndarray:
         """What a resumed run needs."""
-        return np.array(astuple(self))
+        return np.array(list(vars(self).values()))
 
     @classmethod
     def recall(cls, memory: np.ndarray) -> Self:

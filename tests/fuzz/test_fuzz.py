@@ -8,7 +8,7 @@ import signal
 
 import pytest
 from fuzz import trials
-from fuzz.grammar import command_lines, measured, shaped, sound, texts
+from fuzz.grammar import command_lines, measured_files, shaped, sound, texts
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
 pytestmark = pytest.mark.smoke
@@ -22,7 +22,7 @@ TRIALS = {  # how many examples of what by day, what is done with each, and how 
     "a scene of shapes is refused or solved in balance": (20, shaped(), trials.solves_shapes, 100),
     "a scene of shapes is compared": (0, shaped(), trials.compares_shapes, 6),
     "a command line is obeyed or refused": (10, command_lines(), trials.obeys, 20),
-    "a measured file is read or refused": (10, measured(), trials.measures, 40),
+    "a measured file is read or refused": (10, measured_files(), trials.measures, 40),
 }
 
 

@@ -190,3 +190,26 @@ def correct(
         total += step
         length = max(length, abs(step))
     return length if np.isfinite(total) else np.nan
+
+
+@njit(cache=True)
+def excess(
+    u: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
+    by: tuple[float, float],
+    external: np.ndarray,
+    arrays: Arrays,
+    factors: np.ndarray,
+    workspace: NewtonWorkspace,
+) -> float:
+    """Return half the work [J] of what a state (n, 3) leaves of the equation along the correction of that."""
+    corrected, base_u, base_v, work = u.copy(), workspace.base_u, workspace.base_v, 0.0
+    for i in range(len(u)):
+        for q in range(3):
+            base_u[i, q], base_v[i, q] = u[i, q] - a[i, q] / by[0], v[i, q] - a[i, q] / by[1]
+    correct(corrected, base_u, base_v, by, external, arrays, factors, workspace)
+    for i in range(len(u)):
+        for q in range(3):
+            work += 0.5 * workspace.force[i, q] * (u[i, q] - corrected[i, q])
+    return work

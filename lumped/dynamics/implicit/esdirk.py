@@ -77,8 +77,9 @@ class Esdirk(Integrator):
         return SAMPLES_PER_CHECKPOINT if self.adapts else 1
 
     def forget(self) -> None:
-        """Drop the factors."""
+        """Drop the factors, and the power of the last state."""
         self._newton.forget()
+        self._end = None, np.zeros(2)
 
     def memory(self) -> dict[str, Any]:
         """Return the step's control."""
@@ -231,7 +232,9 @@ class Esdirk(Integrator):
 
     def _advance(self, start: State, step: EsdirkStep) -> Advance[State]:
         system, motion, power = self.system, self.system.prescribed, step.stages.power
-        power[0] = self._end[1] if self._end[0] is start else self._power(start)
+        last = self._end[0]
+        same = last is start or (self.adapts and last is not None and last.a is start.a)  # but for its time
+        power[0] = self._end[1] if same else self._power(start)
         self._step, end = step, step.state(-1)
         if motion.moving or system.working or system.pushed:
             for i in range(1, len(power)):

@@ -76,7 +76,7 @@ class EsdirkStep:
         stages, h = self.stages, self.h
         theta = (times - stages.time[0]) / h
         u, v, a = self._within(theta)
-        weights = h * (np.vander(theta, len(CUMULATIVE), increasing=True) @ CUMULATIVE)
+        weights = h * (theta[:, None] ** np.arange(len(CUMULATIVE)) @ CUMULATIVE)
         taken, put_in = (weights @ stages.power).T
         system, motion, start = self.system, self.system.prescribed, self.memories[0]
         memories: list[np.ndarray | None] = [None] * len(times)
@@ -89,8 +89,9 @@ class EsdirkStep:
             base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
             return StepEquation(inside[i], float(times[i]), *base, c1**2, c1)
 
-        middle = int(np.abs(theta - 0.5).argmin())
-        if newton.excess(equation(middle), u[middle]) > enough:
+        i = int(np.abs(theta - 0.5).argmin())
+        middle = State(float(times[i]), u[i], v[i], a[i])
+        if newton.excess(inside[i], middle, (c1**2, c1)) > enough:
             for i in range(within):
                 try:
                     found = newton.solve_equation(equation(i), u[i], tolerance)

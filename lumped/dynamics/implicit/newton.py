@@ -19,11 +19,11 @@ from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
     CompiledNewton,
     NewtonLimits,
-    correct,
+    excess,
     iterate,
 )
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
-from lumped.dynamics.system import System
+from lumped.dynamics.system import State, System
 from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.time.method import StepFailed
 
@@ -125,16 +125,16 @@ class Newton:
             tolerance=small,
         )
 
-    def excess(self, equation: StepEquation, u: np.ndarray) -> float:
-        """Return the energy [J] that u (n, 3) has too much by the equation, along stiff directions most: half
-        the work of what it leaves along the correction of that; infinite where no factors kept serve."""
-        by, compiled = (equation.mass_coefficient, equation.damping_coefficient), self._compiled
+    def excess(self, system: System, state: State, by: tuple[float, float]) -> float:
+        """Return the energy [J] that a state has too much by the equation with c₂ and c₁ of a system with its
+        branches there, along stiff directions most: half the work of what it leaves along the correction of
+        that; infinite where no factors kept serve."""
+        compiled = self._compiled
         if compiled is not None and self.near(by[0]):
-            given = equation.base_u, equation.base_v, by, self._system.loads([equation.time])[0]
-            corrected, workspace = u.copy(), compiled.workspace
-            correct(corrected, *given, compiled.arrays, compiled.factors, workspace)
-            return 0.5 * float(np.vdot(workspace.force, u - corrected))
-        left = self._system.problem.reduce(self._residual(equation, u))
+            given = compiled.arrays, compiled.factors, compiled.workspace
+            return excess(state.u, state.v, state.a, by, system.loads([state.time])[0], *given)
+        unbalanced = system.momentum(state.a) - system.unbalanced(state.u, state.v, state.time)
+        left = system.problem.reduce(unbalanced)
         return 0.5 * float(left @ self._factor.solve(left)) if self._factor and self._key == by else np.inf
 
     def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:

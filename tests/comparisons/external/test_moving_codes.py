@@ -4,12 +4,10 @@ import json
 
 import pytest
 from commands import run
-from sheetbench_felupe import MODEL as FELUPE
 
 from comparisons.comparison.motion import compare_motion
 from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.kratos.model import MODEL as KRATOS
-from comparisons.models.spec import Lattice
 from sheetbench.scenes import Air, BadInput, EdgeMotion, FactorTable, Gravity, Relaxation, load
 
 SWING = load("one-edge-clamped")
@@ -34,34 +32,14 @@ def test_another_code_swings_as_the_shell(code, elements, tmp_path):
     assert "kinetic" not in rows[0] and len(rows) == len(found["motion"]["time"]) + 1
 
 
-def test_crosscheck_moves_the_finest_of_each_model_and_leaves_out_what_refuses(tmp_path, capsys):
-    file = tmp_path / "driven.toml"
-    SWING.replace(supports=(), actuators=(DRIVEN,)).save(file)
-    arguments = ["--duration", "0.004", "--lumped", "3,4", "--shell", "1,2", "--plate=", "--solid="]
-    names = [code.name for code in (CALCULIX, KRATOS, FELUPE) if code.version() is not None]
-    out = tmp_path / "out"
-    arguments += ["--judges", ",".join(names), "--out", str(out), "--no-pictures"]
-    assert run("crosscheck", str(file), *arguments) == 0
-    found = json.loads((out / "motion.json").read_text())
-    assert [one["label"] for one in found["solutions"]] == ["lumped 4×4×2 consistent", "shell 2 × 2"]
-    said = (out / "motion.md").read_text()
-    assert all(f"{name} is left out: " in said for name in names)
-    assert list(found["motion"]["left_out"]) == names
-
-
-def test_a_model_that_refuses_is_left_out_before_anything_moves(tmp_path):
+def test_a_model_that_refuses_is_said_before_anything_moves(tmp_path):
     file = tmp_path / "still.py"
     file.write_text(
         "class Still:\n    name, settings, solve, simulate = 'still', {}, print, print\n"
         "    def refusal_of_motion(self, scene, settings): return 'nothing moves'\n"
     )
-    model = f"{file}:Still"
-    found = compare_motion(
-        SWING, 0.002, Lattice(2), elements=1, models=[model], leave_out=True, uncertainty=False
-    )
-    assert found.document()["motion"]["left_out"] == {model: "still: nothing moves"}
     with pytest.raises(BadInput, match="still: nothing moves"):
-        compare_motion(SWING, 0.002, models=[model])
+        compare_motion(SWING, 0.002, models=[f"{file}:Still"])
 
 
 @pytest.mark.parametrize("code", [CALCULIX, KRATOS])

@@ -75,7 +75,7 @@ def composed(scene, comparison):
     swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
-        "history": partial(moving.compose, history(time, moved), scene.title, {}),
+        "history": partial(moving.compose, history(time, moved), scene.title),
         "tradeoff": partial(trading.compose, trade),
         "locking": partial(locking.compose, locked),
         "responses": partial(responding.responses, linear),

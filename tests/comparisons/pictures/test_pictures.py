@@ -51,7 +51,7 @@ def test_names_of_near_points_stand_apart():
 def test_many_probes_have_a_dozen_panels_of_those_that_move_most():
     time = np.linspace(0.0, 1.0, 5)
     moved = {f"p{i} $": np.outer(time, [0.0, 0.0, 1e-3 * i]) for i in range(250)}
-    figure = motion.compose(history(time, moved), HOSTILE, {})
+    figure = motion.compose(history(time, moved), HOSTILE)
     titles = [axis.get_title(loc="left") for axis in figure.axes]
     assert len(figure.axes) == MOST + 1
     assert titles[0] == plain("p238 $") and titles[MOST - 1] == plain("p249 $")

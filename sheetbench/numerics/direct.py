@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, partial
+from math import isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -97,7 +98,7 @@ class Factor:
         """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises
         SingularMatrixError if the residual stays large."""
         x = self.solve_unrefined(b)
-        if self._backward_error <= enough and np.isfinite(x).all():
+        if self._backward_error <= enough and isfinite(x @ x):
             return x
         left, error = self._backward(x, b)
         if not error <= enough:  # also catches nan

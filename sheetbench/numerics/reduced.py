@@ -10,8 +10,8 @@ go to `direct`. Constraints' multipliers among the unknowns: see `saddle_point`.
 
 from __future__ import annotations
 
-from functools import cached_property
-from math import isfinite
+from collections.abc import Callable
+from functools import cached_property, partial
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -26,7 +26,6 @@ from sheetbench.numerics.direct import (
     Inertia,
     NearFactor,
     SingularMatrixError,
-    checked,
 )
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
@@ -72,35 +71,22 @@ class Reduction(NamedTuple):
 
 
 class BandedFactor(Factor):
-    """Cholesky factors in a band: of a positive definite matrix."""
+    """Cholesky factors in a band: of a positive definite matrix, which is made where it is needed."""
 
-    def __init__(self, band: banded.Band, blocks: np.ndarray, factors: np.ndarray):
-        """blocks (b, 3, 3): of the matrix, not to be written to any more."""
-        self._band, self._blocks, self.factors = band, blocks, factors
+    def __init__(self, band: banded.Band, factors: np.ndarray, matrix: Callable[[], sp.csc_array]):
+        self._band, self._matrix, self.factors = band, matrix, factors
         self._backward_error = CHOLESKY
         self.inertia = Inertia(len(band.order), 0, 0)
 
     @cached_property
-    def _stored(self) -> np.ndarray:
-        stored: np.ndarray = banded.stored(self._blocks, self._band)
-        return stored
-
-    @cached_property
     def matrix(self) -> sp.csc_array:  # type: ignore[override]
         """The matrix, both triangles."""
-        return banded.sparse(self._stored, self._band)
+        return self._matrix()
 
     def solve_unrefined(self, b: np.ndarray) -> np.ndarray:
         """x with A x = b as the factors have it, neither refined nor checked."""
         found: np.ndarray = banded.solve_unrefined(self.factors, self._band.width, self._band.order, b)
         return found
-
-    def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """x with A x = b, refined once where its backward error may exceed `enough`. Raises
-        SingularMatrixError when the residual stays large."""
-        if enough >= self._backward_error and isfinite((x := self.solve_unrefined(b)) @ x):
-            return x
-        return checked(*banded.solve(self._stored, self.factors, self._band.width, self._band.order, b))
 
 
 class ReducedSystem:
@@ -182,7 +168,7 @@ class ReducedSystem:
         if self.band is not None:
             factors, definite = banded.factored(blocks, self.band)
             if definite:
-                return BandedFactor(self.band, blocks, factors)
+                return BandedFactor(self.band, factors, partial(self.matrix, blocks))
         matrix = self.matrix(blocks)
         if self._saddle is None:
             return self._solver.factor(matrix, more)

@@ -71,7 +71,7 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     flat = np.zeros_like(problem.loads.dead)
     factor = problem.system.factor(problem.tangent(flat, 0.0))
     structure = LatticeStructure(scene, problem)
-    monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
+    monkeypatch.setattr(factor, "solve", lambda b, enough, of=factor.solve: -of(b))
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
     with pytest.raises(LoadStepFailed, match="not positive definite"):
         energy_descent.settle(Path(structure, structure, structure.rest()), 1.0)

@@ -8,8 +8,7 @@ import fem_reference
 import lumped
 from fem_reference.discrete.static import Static
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.solid import statics as solid
-from fem_reference.solid.discrete import DiscreteSolid
+from fem_reference.solid.statics import solid
 from fem_reference.surface.mesh import mesh_of
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.direct import NearFactor
@@ -138,7 +137,7 @@ def test_a_solid_knows_that_a_closed_pressure_has_a_potential():
             name="pressed", sheet=Sheet(0.1, 0.1, 0.005), material=Material(1e6, 0.45, 1000.0),
             supports=supports, loads=(Pressure(value=500.0),),
         )  # fmt: skip
-        structure = Static(DiscreteSolid(solid.plan_mesh(scene, (2, 2), "edges"), scene))
+        structure = Static(solid(scene, (2, 2)))
         assert structure.symmetric is closed
         rest = structure.rest()
         shape = 1e-4 * np.random.default_rng(2).standard_normal(structure.unknowns)

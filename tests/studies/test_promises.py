@@ -78,21 +78,6 @@ def test_each_promise_is_kept_by_its_own_rule_and_complained_of_where_it_is_not(
     assert Promises((kept[0],), {}).succeeded and not share([one("expected error", 1.0, 3.0)]).met
 
 
-def test_the_chance_of_a_share_is_that_of_its_scenes():
-    """Scenes of one component: a binomial's, with n − 1. Scenes all alike within: the same, however many."""
-
-    def chance(kept, each):
-        rows = [
-            Promise("bar", "8", str(n), "", 1.0, 2.0 - k) for n, k in enumerate(kept) for _ in range(each)
-        ]
-        return share(rows).chance
-
-    outcomes = [1, 0, 1, 1, 1, 0, 1, 1]
-    assert chance(outcomes, 1) == pytest.approx(np.sqrt(0.75 * 0.25 / 7), rel=1e-12)
-    assert chance(outcomes, 6) == pytest.approx(chance(outcomes, 1), rel=1e-12)
-    assert np.isnan(chance([1], 3))
-
-
 def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store, monkeypatch):
     """Of a seed that the rule was set on."""
     monkeypatch.setattr("studies.promises.answer.GOALS", GOALS | NOT_ITS_GOAL)

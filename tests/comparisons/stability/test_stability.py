@@ -81,17 +81,6 @@ def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
     assert [row["status"] for row in implicit] == ["converged"] * 2
 
 
-@pytest.mark.nightly
-def test_steps_beyond_the_limit_are_refused_and_coarse_ones_err(store, monkeypatch):
-    monkeypatch.setattr(extremes, "DIVISIONS", (60, 15))
-    found = varied(store, "time-step", scene=SETTLING, grid=3)
-    of = {name: [r for r in found.rows if r["cell"]["integrator"] == name] for name in lumped.INTEGRATORS}
-    assert [row["status"] for row in of["verlet"]] == ["converged", "converged", "refused"]
-    fine, coarse = (row["error"] for row in of["midpoint"])
-    assert fine < 0.1 * coarse  # of second order: a sixteenth
-    assert found.period == pytest.approx(60 * of["midpoint"][0]["cell"]["step"])
-
-
 def test_limits_are_measured_where_the_flat_sheet_is_at_rest():
     assert rests_flat(SEED)
     assert not rests_flat(load("curved-edge")) and not rests_flat(load("actuated-edge"))

@@ -16,7 +16,7 @@ from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
-from comparisons.models.spec import Lattice, Spec, spec_of
+from comparisons.models.spec import Lattice, Spec
 from comparisons.sweep import here as table
 from comparisons.sweep.front import cheapest
 from comparisons.tradeoff.advisor import advise
@@ -108,31 +108,6 @@ def test_the_choice_meets_the_tolerance(name, tolerance):
     assert advice.model is not None
     assert advice.succeeded == (advice.model.value < tolerance) == ("own model error" not in advice.reason)
     assert actual_error(advice) <= tolerance
-
-
-def test_lattices_are_tried_with_what_auto_chooses():
-    """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
-    nearer than the usual ones on the same grid, and the advice says why, or why not."""
-    curved = advise(scenes.load("curved-edge"), 0.01, lattice=Lattice(grading="auto"))
-    errors = {
-        (tuple(row.spec.settings["grid"]), row.spec.settings.get("grading", 0.0)): row.error
-        for row in curved.tried
-        if row.spec.model == "lumped" and row.spec.settings["calibration"] == "consistent-membrane"
-    }
-    usual = {
-        tuple(row.spec.settings["grid"]): row.error
-        for row in curved.tried
-        if row.spec.settings.get("calibration") == "consistent"
-    }
-    both = [grid for grid, grading in errors if grid in usual and not grading]
-    assert any(grid[0] > 3 for grid in both) and any(grading for _, grading in errors)
-    assert all(errors[grid, 0.0] < usual[grid] for grid in both if grid[0] > 3)
-    assert curved.calibration.endswith("ν = 0.48 is above 0.4")
-    assert curved.calibration.startswith("calibration consistent-membrane")
-    assert "bent by 4 1/m" in curved.grading and curved.document()["grading"] == curved.grading
-    taken = spec_of("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
-    line = replace(curved, choice=taken).report().document["command"]
-    assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"
 
 
 def test_the_advice_says_why_nothing_is_graded():

@@ -4,7 +4,7 @@ Each takes a folder of its own, in which it may write, and what its strategy of 
 """
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -53,18 +53,18 @@ def checks(folder: Path, text: bytes) -> str:
     return WORDS[found.status]
 
 
-def compares(folder: Path, data: dict[str, Any], masses: int = 3, summed: bool = True) -> str:
-    """A sound scene is solved, and what converges is in balance; summed: as its document sums up."""
+def compares(folder: Path, data: dict[str, Any], masses: int = 3) -> str:
+    """A sound scene is solved, and what converges is in balance."""
     (folder / "scene.toml").write_text(tomlkit.dumps(data), encoding="utf-8")
     small = ("--lumped", str(masses), "--elements", "2", "--no-uncertainty", "--json")
     found = outcome(["compare", "scene.toml", *small], folder)
     held(found, data)
     if found.status != BAD_INPUT:
-        in_balance(document(found), summed)
+        in_balance(document(found))
     return WORDS[found.status]
 
 
-compares_shapes = partial(compares, masses=5, summed=False)
+compares_shapes = partial(compares, masses=5)
 
 
 def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
@@ -106,6 +106,3 @@ def measures(folder: Path, text: bytes) -> str:
     if found.status != BAD_INPUT:
         document(found)
     return WORDS[found.status]
-
-
-Trial = Callable[[Path, Any], str]

@@ -10,11 +10,11 @@ import lumped  # noqa: F401  (rslab is to be imported by the thread that lives l
 from comparisons.sweep.campaign import campaign
 from lumped.calibration.central_table import ROWS
 from sheetbench.errors import NoEquilibrium
-from sheetbench.scenes import Clamped, EdgeLoad, Held
+from sheetbench.scenes import EdgeLoad, Held
 from studies.transfer.drawn import Drawn
 from studies.transfer.drawn_scenes import CATALOGUE, OBLIQUE, drawn_sheets
 from studies.transfer.scenes import TRAINING, transfer_scenes
-from studies.transfer.study import _Study, transfer
+from studies.transfer.study import transfer
 from studies.transfer.training import HELD, _displacement, _scene, trained_to_bend
 
 SCENES = transfer_scenes()
@@ -72,19 +72,6 @@ def test_command(tmp_path, in_process, capsys):
     document = json.loads(capsys.readouterr().out)
     assert document["static"][0]["method"] == "uniform" and len(document["static"][0]["errors"]) == 2
     assert "two-edges-clamped" in (tmp_path / "transfer.md").read_text(encoding="utf-8")
-
-
-def test_springs_and_grading_are_those_of_auto_where_that_is_a_method():
-    """Only the methods that take a grading have one."""
-    soft = transfer_scenes()["tenth-of-young"]
-    one = soft.replace(supports=(Clamped("x0"),))
-    study = _Study({"b": one}, ("auto", "consistent"), (9,), 8, "auto")
-    rows = {(row["scene"], row["method"]): row for row in study.static()}
-    assert rows["b", "auto"]["calibration"] == "consistent-membrane"
-    assert "calibration" not in rows["b", "consistent"]
-    chosen, reasons = _Study({"soft": soft}, ("consistent", "uniform"), (9, 513), 8, "auto").gradings("soft")
-    assert chosen == {"consistent": [0.3, 0.0], "uniform": [0.0, 0.0]}
-    assert len(reasons) == 2 and "bends the sheet within 68.6 mm" in reasons[0]
 
 
 def test_drawn_sheets_have_the_orders_of_their_errors():

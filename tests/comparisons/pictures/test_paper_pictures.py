@@ -1,7 +1,6 @@
 """Pictures for papers: a column's width, no title, embedded fonts, the same bytes again, error bars."""
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -10,9 +9,7 @@ import numpy as np
 import pytest
 from commands import run
 from fake_solutions import history, solution
-from matplotlib.figure import Figure
 
-from comparisons.comparison import figure as comparing
 from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
@@ -33,8 +30,6 @@ from sheetbench.answers import history_figure as moving
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
 from sheetbench.answers.style import STYLE, save
 from sheetbench.errors import BadInput
-
-Compose = Callable[[FigureStyle], Figure]
 
 
 @pytest.fixture(scope="module")
@@ -143,16 +138,6 @@ def test_the_references_bar_is_a_band_at_every_probe(comparison):
         comparison.scene, (solution(comparison.scene), solution(comparison.scene, "shell", 0.0))
     )
     assert probes_figure.shown(still) == []
-
-
-@pytest.mark.parametrize("aspect", [0.3, 0.7, 1.4])
-def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect):
-    figure, panels, bars = comparing._stacked(WIDTHS["single"], aspect, head=0.0)
-    boxes = [axis.get_position() for axis in (*panels, *bars)]
-    assert all(0.0 <= box.x0 < box.x1 <= 1.0 and 0.0 <= box.y0 < box.y1 <= 1.0 for box in boxes)
-    assert not any(one.overlaps(other) for one in boxes[2:3] for other in boxes[3:])
-    label = 0.3 / figure.get_figheight()
-    assert all(box.y0 >= label for box in boxes[3:]) and boxes[3].y0 - boxes[4].y1 > label
 
 
 def test_the_option(tmp_path, capsys):

@@ -246,11 +246,3 @@ def test_noise_is_no_stiffness(write):
     assert found.document()["stiffer"] is None and not found.faults
     slipped = score(write(change=lambda case, u: 1e3 * u))
     assert "1000 times" in slipped.report().lead
-
-
-@pytest.mark.nightly
-def test_the_sheet_and_the_picture(write, tmp_path):
-    out = tmp_path / "out"
-    assert run("score", str(write(seconds=0.02)), "--case", "thick", "--out", str(out)) == 0
-    assert (out / "score.png").stat().st_size > 10_000
-    assert "Beside our own models and other programs" in (out / "score.md").read_text()

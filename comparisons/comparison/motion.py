@@ -94,4 +94,4 @@ def require_motion(scene: Scene, spec: Spec) -> None:
     if isinstance(spec, Elements):
         fem_reference.require_moving(scene, spec.kind)
     elif isinstance(spec, External):
-        plugins.require_moving(spec.model, scene, spec.settings)
+        plugins.moving(spec.model)

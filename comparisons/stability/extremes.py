@@ -42,7 +42,6 @@ from sheetbench.scenes.meaning.parameters import put
 from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.orthotropy import MODULI
 from sheetbench.scenes.objects.patches import Patch
-from sheetbench.scenes.objects.tables import FactorTable, Loading
 
 Cell = tuple[Ask, Ask | str | None]  # a run, and what its error is against, or why it is refused
 FACTORS = {
@@ -179,20 +178,14 @@ def scaled(scene: Scene, name: str, factor: float) -> Scene:
             return put(scene, "thickness", factor * scene.sheet.thickness).replace(patches=tuple(patches))
         if name == "obstacle":
             return scene.replace(obstacles=tuple(farther(scene, one, factor) for one in scene.obstacles))
-        acting = {"loads": tuple(_times(load, factor) for load in scene.loads)}
-        return scene.replace(gravity=scene.gravity and _times(scene.gravity, factor), **acting)
+        acting = {"loads": tuple(load.times(factor) for load in scene.loads)}
+        return scene.replace(gravity=scene.gravity and scene.gravity.times(factor), **acting)
 
 
 def _stiffer(part: Patch | Layer, factor: float) -> Patch | Layer:
     """Return a patch or a layer, its own moduli times a factor."""
     own = {key: factor * part.own[key] for key in ("young", *MODULI) if key in part.own}
     return part.replace(**own) if own else part
-
-
-def _times(acting: Loading, factor: float) -> Any:
-    """Return a load or gravity, times a factor."""
-    table = acting.history or FactorTable(time=(0.0,), factor=(1.0,))
-    return acting.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))
 
 
 def _row(found: Solved, truth: Solved | None) -> Row:

@@ -33,14 +33,14 @@ WAVES = {0.3: WAVE, 0.4999: WAVE - np.diag(np.diag(WAVE))}  # by Poisson's ratio
 PHASE = np.array([0.3, 1.1, -0.4])
 
 
-def rows(case: str) -> Iterator[Row]:
+def rows() -> Iterator[Row]:
     """Error on the finest mesh, and the order of the last refinement."""
     for poisson in WAVES:
         coarse, fine = (error(poisson, n) for n in ELEMENTS[-2:])
         mesh = f"solid {ELEMENTS[-1]} × {ELEMENTS[-1]} × {ELEMENTS[-1] // 2}"
-        yield absolutely(case, f"error in L² at ν = {poisson:g}", mesh, 0.0, EXACT, fine, LARGEST)
+        yield absolutely(f"error in L² at ν = {poisson:g}", mesh, 0.0, EXACT, fine, LARGEST)
         yield absolutely(
-            case, f"order in L² at ν = {poisson:g}", mesh, ORDER, THEORY, np.log2(coarse / fine), SLACK
+            f"order in L² at ν = {poisson:g}", mesh, ORDER, THEORY, np.log2(coarse / fine), SLACK
         )
 
 

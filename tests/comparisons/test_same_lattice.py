@@ -64,7 +64,7 @@ def caught(monkeypatch, tmp_path):
     monkeypatch.setattr(lumped, "explicit_limit", lambda *_: 1.0)
     for module in (solvers, task):
         monkeypatch.setattr(module, "warm", lambda _: None)
-    monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, of_panel(panel)))
+    monkeypatch.setattr(server, "Server", lambda panel, *_: used(panel.scene, of_panel(panel)))
     monkeypatch.chdir(tmp_path)
     Path("measured.csv").write_text(FILE, encoding="utf-8")
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -124,6 +124,9 @@ class FactorTable(OverTime):
     """What the load is multiplied by at each time, linear between them; statics take the last one."""
 
 
+STEADY = FactorTable(time=(0.0,), factor=(1.0,))
+
+
 class Loading(Frozen):
     """Base of loads and gravity, whose `history` scales them over time."""
 
@@ -138,5 +141,10 @@ class Loading(Frozen):
     @property
     def course(self) -> PiecewiseLinear:
         """The factor over time."""
-        table = self.history or FactorTable(time=(0.0,), factor=(1.0,))
+        table = self.history or STEADY
         return PiecewiseLinear(table.time, table.factor)
+
+    def times(self, factor: float) -> Self:
+        """Return the load times a factor."""
+        table = self.history or STEADY
+        return self.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))

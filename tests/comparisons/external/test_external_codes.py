@@ -60,10 +60,10 @@ DAT = """
 """
 
 
-def test_every_increment_is_read():
-    times, displacements = results.displacements(DAT, 3)
-    assert times.tolist() == [0.5, 1.0] and np.isnan(displacements[:, 2]).all()
-    np.testing.assert_array_equal(displacements[1, :2], [[3e-3, 0.1, 0.0], [4e-3, 0.0, -2.0]])
+def test_the_last_increment_is_read():
+    factor, displacements = results.displacements(DAT, 3)
+    assert factor == 1.0 and np.isnan(displacements[2]).all()
+    np.testing.assert_array_equal(displacements[:2], [[3e-3, 0.1, 0.0], [4e-3, 0.0, -2.0]])
     sta = " SUMMARY OF JOB INFORMATION\n  STEP  INC  ATT  ITRS  TOT TIME  STEP TIME  INC TIME\n"
     assert results.iterations(sta + "  1  1  1  12  0.5E+00  0.5E+00  0.5E+00\n 1 2 1 5 1.0 1.0 0.5\n") == 17
     assert results.iterations("") == 1

@@ -62,7 +62,10 @@ def composed(scene, comparison):
     ]  # fmt: skip
     trade = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
     locked = [
-        relatively(f"locking-{model}", "w", "8 × 8", 1.0, "", 1.001, 0.02, at={"h/a": ratio, "ν": 0.3})
+        replace(
+            relatively("w", "8 × 8", 1.0, "", 1.001, 0.02, at={"h/a": ratio, "ν": 0.3}),
+            case=f"locking-{model}",
+        )
         for model in ("plate", "solid")
         for ratio in (1e-5, 0.1)
     ]

@@ -1,5 +1,7 @@
 """Neither thin nor nearly incompressible sheets lock: fixed 8 × 8 meshes beside converged ones; the plot."""
 
+from dataclasses import replace
+
 import pytest
 from cases import with_material
 
@@ -77,7 +79,8 @@ def test_a_thin_sheet_far_from_flat_does_not_lock(elements, within):
 def test_picture(tmp_path):
     def made(model, ratio, poisson):
         at = {"h/a": ratio, "ν": poisson}
-        return relatively(f"locking-{model}", "w", "8 × 8", 1.0, "finer", 1.001, 0.02, at=at)
+        row = relatively("w", "8 × 8", 1.0, "finer", 1.001, 0.02, at=at)
+        return replace(row, case=f"locking-{model}")
 
     rows = [made(model, ratio, 0.3) for model in ("plate", "solid") for ratio in (1e-5, 0.1)]
     compose(rows).savefig(tmp_path / "locking.png")

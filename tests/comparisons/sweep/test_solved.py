@@ -7,7 +7,6 @@ from campaigns import Here
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.crosscheck import crosscheck
 from comparisons.models.spec import Elements, Lattice
-from comparisons.sweep import columns
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import Limit, limit, pairs
 from comparisons.sweep.solved import Ask, sweep
@@ -37,13 +36,6 @@ def test_questions_are_readings_of_the_same_rows(store):
     assert trials.uncertainty == pytest.approx(bar.error, rel=1e-12)  # of (8, 8) elements, not 8
     checked = crosscheck([SEED], store, models={"lumped": lattices, "shell": MESHES}, pool=Here)
     assert checked.pairs == pairs([Limit.of("lumped", own), Limit.of("shell", shells)])
-
-
-def test_a_column_is_a_function_of_scene_and_answer(store, monkeypatch):
-    monkeypatch.setitem(columns.COLUMNS, "strain energy", lambda scene, answer: answer.energies)
-    (row,) = sweep([Ask(SEED, Elements("plate", 2), columns=("strain energy", "field"))], store, pool=Here)
-    assert row.row["columns"]["strain energy"] == row.document["energies"]
-    assert row.values("field").shape == (len(columns.field_points(SEED)[0]), 3)
 
 
 def test_tags_and_labels_make_no_other_row(store, monkeypatch):

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from math import ceil
 from typing import Any, Literal
 
 from comparisons.external import plugins
@@ -19,9 +18,8 @@ from comparisons.models.pair import extrapolated
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice, LatticePair
-from comparisons.pictures.work import Pace, Work, silent
+from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
-from sheetbench.answers.size import Size
 from sheetbench.answers.solution import FieldMesh, Iteration, Solution
 from sheetbench.choices import REFERENCES
 from sheetbench.clock import now
@@ -30,8 +28,6 @@ from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
 
 Watch = Callable[[Iteration], None]  # called once an iteration
-STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
-SOLVES = 0.08  # of a static solve's time that a step takes
 EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
 COARSE = (Lattice((3, 3, 2)), LatticePair((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
@@ -111,7 +107,7 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
     """
     spec, scene, progress = model.spec, model.scene, context().progress
     doing, pace = doing or f"simulating {plugins.shown_name(spec.model)}", Pace(duration)
-    progress(Work(doing, None if progress is silent else _size_of_motion(model, duration)))
+    progress(Work(doing))
 
     def reached(time: float) -> None:
         soon = pace.remaining(time) if time >= EVEN * duration else ""
@@ -129,18 +125,6 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
         return replace(history, settings={**history.settings, **model.reasons})
     outside = plugins.moving(spec.model)
     return outside.simulate(scene, plugins.settings_of(outside, spec.settings), duration, **settings)
-
-
-def _size_of_motion(model: Resolved[Any], duration: float) -> Size | None:
-    """Return what the motion of a reference takes, its steps by the period of its lowest mode."""
-    scene, size = model.scene, model.size
-    if size is None or not isinstance(model.spec, Elements):
-        return None
-    import fem_reference
-
-    lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
-    steps = STEPS_PER_PERIOD[scene.material.dashpot_time == 0.0] * max(duration * lowest, 0.5)
-    return replace(size, seconds=ceil(steps) * SOLVES * size.seconds)
 
 
 @cache

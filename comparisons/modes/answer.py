@@ -29,8 +29,7 @@ FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a 
 @dataclass(frozen=True)
 class Spectrum:
     """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out; shapes: plan points
-    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale; expected: the
-    relative error to expect of each, where that is estimated."""
+    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale."""
 
     model: str
     label: str
@@ -40,7 +39,6 @@ class Spectrum:
     unknowns: int
     seconds: float
     shapes: Callable[[np.ndarray], np.ndarray]
-    expected: tuple[float | None, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -52,7 +50,6 @@ class Spectrum:
             "rigid_modes": self.rigid,
             "unknowns": self.unknowns,
             "solve_seconds": self.seconds,
-            **({"expected_errors": list(self.expected)} if self.expected else {}),
         }
 
 
@@ -184,8 +181,6 @@ class Spectra(Answer):
         for _, pairs in references[:1]:
             columns.append((PERCENT("+.2f", "difference"), [pair.relative for pair in pairs]))
             columns.append((NUMBER(".3f", "MAC"), [pair.mac for pair in pairs]))
-        if self[0].expected:
-            columns.append((PERCENT("+.2f", "expected"), self[0].expected))
         heads, values = zip(*columns, strict=True)
         caption = f"Natural frequencies about the {self.about} sheet"
         listed = Table.listed(caption, heads, zip(*values, strict=True), "modes")
@@ -239,13 +234,6 @@ class Spectra(Answer):
     def notes(self) -> list[str]:
         """Return what the table does not say: labels, rigid motions left out, actuators left out."""
         notes = [" · ".join(spectrum.label for spectrum in self.found), *choice_notes(self[0].settings)]
-        known = [100.0 * error for error in self[0].expected if error is not None]
-        if known:
-            of, low, high = self[0].model, number(min(known), "+.2g"), number(max(known), "+.2g")
-            notes.append(
-                f"{of}: expected grid error of the frequencies {low} to {high} %, from a second solve "
-                "on a finer grid"
-            )
         for spectrum in self.found[1:]:
             notes += _pairing_notes(self.against(spectrum.model))
         if len(self) > 1:

@@ -140,7 +140,7 @@ class DiscreteElements(Discrete):
             sides, onto = body.tangent(shape, own, by_a, by_v), self.onto_rods(shape)
             add_blocks(data, slots[1], onto.swapaxes(1, 2) @ sides @ onto)
             if move is not None:
-                product += body.scatter(body.elements.product(sides, body.gather(move)))
+                product += body.scatter(sides @ move[body.rows][:, :, None])
         return self.pattern.with_data(data), product
 
     def constraining(

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
@@ -32,7 +32,7 @@ from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Plan
+from fem_reference.surface.mesh import Elements, Plan, divisions
 from fem_reference.surface.rod import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
@@ -77,9 +77,20 @@ class Discrete(ABC):
         self.contacts: list[Touching] = []
         self._weights: list[tuple[np.ndarray, Factor]] = []
 
+    def named(self, elements: Elements, through: str = "", **settings: Any) -> Self:
+        """The sheet with its label, and with the settings it was made by, but for those that are nothing."""
+        counts, sheet = divisions(self.scene.sheet, elements), self.scene.sheet
+        if sheet.mesh is not None and "graded" in settings:
+            settings["graded"] = False
+        self.label = f"{self.model} {counts[0]} × {counts[1]}{through}"
+        own = {name: value for name, value in settings.items() if value is not None}
+        self.settings = {"elements": list(counts), **own}
+        return self
+
     def rods_of(self, scene: Scene) -> BoundRods:
         """The rods of a scene on the sheet."""
-        return rod.on_surface(rod.of_scene(scene, self.plan), self.nodes)
+        rods, n = rod.of_scene(scene, self.plan), self.nodes
+        return rod.bound(rods, 9, 2 * n, lambda one: (one.elements, np.hstack([one.nodes, n + one.nodes])))
 
     def bind(self, bound: BoundRods, places: np.ndarray | None = None) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""

@@ -19,17 +19,32 @@ Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 
 from __future__ import annotations
 
-from typing import Any
-
-from skfem import MeshQuad
-
 from fem_reference.discrete.answer import answered, traced
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from fem_reference.surface.mesh import Elements, mesh_of
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.rigid_motions import require_static
+
+
+def plate(
+    scene: Scene,
+    elements: Elements = 16,
+    section: Section | None = None,
+    graded: bool | None = None,
+    hard_edges: tuple[str, ...] = (),
+    *,
+    moving: bool = False,
+    reach: float = 1.0,
+) -> DiscretePlate:
+    """Return the discrete plate; options: as of `solve`; reach: of the grading (`mesh.mesh_of`)."""
+    if graded is None:
+        graded = not scene.twisting_edges() <= set(hard_edges)
+    made = DiscretePlate(mesh_of(scene, elements, graded, reach), scene, section, hard_edges, moving)
+    return made.named(
+        elements, graded=graded, hard_edges=list(hard_edges) or None, section=section and section._asdict()
+    )
 
 
 def solve(
@@ -47,21 +62,4 @@ def solve(
     thickness unless given. Raises SceneError if the supports leave a rigid motion free.
     """
     require_static(scene, "the plate, which is linear,")
-    along_x, along_y = divisions(scene.sheet, elements)
-    if graded is None:
-        graded = not scene.twisting_edges() <= set(hard_edges)
-    settings: dict[str, Any] = {"elements": [along_x, along_y], "graded": graded}
-    if hard_edges:
-        settings["hard_edges"] = list(hard_edges)
-    if section is not None:
-        settings["section"] = section._asdict()
-    mesh = mesh_of(scene, (along_x, along_y), graded)
-    found = traced(lambda: DiscretePlate(mesh, scene, section, hard_edges))
-    return answered([found], f"plate {along_x} × {along_y}", settings)
-
-
-def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
-    """Return the linear answer on any flat mesh of straight-sided quadrilaterals [m], its edges named."""
-    found = traced(lambda: DiscretePlate(mesh, scene))
-    found.sheet.own = True
-    return answered([found], "plate", {"elements": mesh.nelements})
+    return answered(traced(lambda: plate(scene, elements, section, graded, hard_edges)))

@@ -24,11 +24,12 @@ from fem_reference.solid.element import Bricks, at_rest, tangent
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import columns_of
 from fem_reference.solid.rods import DIRECTORS, on_columns
-from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
-from fem_reference.surface import carried, rod
+from fem_reference.solid.supports import applied, of_scene
+from fem_reference.surface import rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
+from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
@@ -88,9 +89,10 @@ class DiscreteSolid(DiscreteElements):
     @cached_property
     def _inertia(self) -> np.ndarray:
         """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
-        payloads = carried.of_scene(self.scene, self.plan)
         blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
-        blocks[payloads.elements] += self._of_columns(payloads.on_surface())
+        if self.scene.masses:
+            add_carried(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))
+            blocks += self._of_columns(payloads)
         return blocks
 
     @cached_property
@@ -122,13 +124,13 @@ class DiscreteSolid(DiscreteElements):
 
     def _to_supports(self, bases: np.ndarray, q: np.ndarray, target: np.ndarray) -> np.ndarray:
         """The step (N,) of q (N,) to the held components of a target (n, levels, 3)."""
-        gap = components(bases, target - self._on_columns(q))
-        step = vectors(bases, np.where(self.free, 0.0, gap))
+        gap = applied(np.linalg.inv(bases), target - self._on_columns(q))
+        step = applied(bases, np.where(self.free, 0.0, gap))
         return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
 
     def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        bases, shape = self.frame(vectors, at), self.columns.positions.shape
-        own = [components(bases, vector[: self._cut].reshape(shape))[~self.free] for vector in vectors.T]
+        inverse = np.linalg.inv(self.frame(vectors, at))
+        own = [applied(inverse, self._on_columns(vector))[~self.free] for vector in vectors.T]
         return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
@@ -145,14 +147,14 @@ class DiscreteSolid(DiscreteElements):
         return block_diag([of_columns, aside], format="csc")[:, self._free]
 
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
-        on_components = into_forces(shape.frame, self._on_columns(force))
+        on_components = applied(shape.frame.swapaxes(1, 2), self._on_columns(force))
         found: np.ndarray = np.append(on_components, force[self._cut :])[self._free]
         return found
 
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         every = np.zeros(self.size)
         every[self._free] = step
-        return np.append(vectors(shape.frame, self._on_columns(every)), every[self._cut :])
+        return np.append(applied(shape.frame, self._on_columns(every)), every[self._cut :])
 
     def _on_columns(self, q: np.ndarray) -> np.ndarray:
         """The columns' part (n, levels, 3)."""
@@ -306,10 +308,10 @@ class DiscreteSolid(DiscreteElements):
         return found
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
-        bases, on_columns = self.frame(q, at), self._on_columns(exerted)
-        held = np.where(self.free, 0.0, into_forces(bases, on_columns))
+        turned = self.frame(q, at).swapaxes(1, 2)
+        held = np.where(self.free, 0.0, applied(turned, self._on_columns(exerted)))
         aside = np.where(self._held_aside, exerted[self._cut :], 0.0).reshape(-1, 3)
         return [
-            (self.columns.positions + self._on_columns(q), from_forces(bases, held)),
+            (self.columns.positions + self._on_columns(q), applied(np.linalg.inv(turned), held)),
             (q[self._cut :].reshape(-1, 3) + self.rods.bound.own, aside),
         ]

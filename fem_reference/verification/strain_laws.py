@@ -49,7 +49,7 @@ RUBBERS = [
 ]
 
 
-def rows(case: str) -> Iterator[Row]:
+def rows() -> Iterator[Row]:
     """The stretch of each model under each law, at the force of the closed form."""
     for model in MODELS:
         for law in STRAIN_LAWS:
@@ -57,10 +57,10 @@ def rows(case: str) -> Iterator[Row]:
                 for strain in STRAINS:
                     quantity = f"{law}, {way}: stretch at P/E = {stress(law, way, strain):.6f}"
                     found = _stretch(model, law, way, strain)
-                    yield relatively(case, quantity, f"{model} 2", strain, EXACT, found, TOLERANCE)
+                    yield relatively(quantity, f"{model} 2", strain, EXACT, found, TOLERANCE)
 
 
-def rubbers(case: str) -> Iterator[Row]:
+def rubbers() -> Iterator[Row]:
     """The force that holds each model of each rubber, stretched one way, sheared and both ways to λ = 2."""
     for material in RUBBERS:
         law = str(material.law)
@@ -70,7 +70,7 @@ def rubbers(case: str) -> Iterator[Row]:
                 for model, force in FORCES.items():
                     quantity = f"{law}, {way}: P/E at a stretch of {100.0 * strain:g} %"
                     found = force(material, stretches(law, way, strain, material)) / material.young
-                    yield relatively(case, quantity, f"{model} 1", expected, EXACT, found, TO_ROUNDING)
+                    yield relatively(quantity, f"{model} 1", expected, EXACT, found, TO_ROUNDING)
 
 
 def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> float:

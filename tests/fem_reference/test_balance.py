@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
+from fem_reference.discrete.answer import solve_on
 from fem_reference.surface.mesh import rectangle
 from sheetbench import face as models
 from sheetbench.answers.balance import dead_force
@@ -156,8 +157,8 @@ def test_a_mesh_of_any_outline_is_in_balance(model):
     leaning = type(flat)(np.array([x * (1.0 - 2.0 * y), y + 0.2 * x]), flat.t).with_boundaries(
         flat.boundaries
     )
-    solve_on = resolve_name(f"fem_reference.{model}.statics").solve_on
-    found = solve_on(leaning, scene)
+    kind = resolve_name(f"fem_reference.{model}.discrete:Discrete{model.title()}")
+    found = solve_on(kind, leaning, scene)
     assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
 
 

@@ -48,9 +48,9 @@ NONE = 1e30  # compliance to higher powers of J − 1: none of them
 BELOW, ABOVE = "P1", "P2"  # faces of a brick
 
 
-def deck(scene: Scene, bricks: Bricks, linear: bool) -> str:
-    """Return the text of the deck; linear: without NLGEOM."""
-    supports = held(scene, bricks, linear)
+def deck(scene: Scene, bricks: Bricks) -> str:
+    """Return the text of the deck."""
+    supports = held(scene, bricks)
     pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
     lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
     lines += ["*ELEMENT, TYPE=C3D20R, ELSET=EALL", *_elements(bricks.elements)]
@@ -69,11 +69,9 @@ def deck(scene: Scene, bricks: Bricks, linear: bool) -> str:
         terms = zip(tie.nodes + 1, tie.weights, strict=True)
         lines += ["*EQUATION", f"{len(tie.nodes)}"]
         lines += [f"{node}, {tie.axis + 1}, {weight:.12e}" for node, weight in terms]
-    lines += ["*STEP" if linear else "*STEP, NLGEOM, INC=1000", "*STATIC"]
-    if not linear:
-        lines += [f"{FIRST}, 1.0, {LEAST}, {LARGEST}"]
-        lines += ["*CONTROLS, PARAMETERS=FIELD", f"{RESIDUAL}, {CORRECTION}, , , {RESIDUAL}, 1e-9, 1e-9"]
-        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", "8, 12, 9, 40, 20, 8"]
+    lines += ["*STEP, NLGEOM, INC=1000", "*STATIC", f"{FIRST}, 1.0, {LEAST}, {LARGEST}"]
+    lines += ["*CONTROLS, PARAMETERS=FIELD", f"{RESIDUAL}, {CORRECTION}, , , {RESIDUAL}, 1e-9, 1e-9"]
+    lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", "8, 12, 9, 40, 20, 8"]
     lines += ["*BOUNDARY"]
     for node, axis in zip(*np.nonzero(supports.fixed), strict=True):
         lines.append(f"{node + 1}, {axis + 1}, {axis + 1}, {supports.value[node, axis]:.12e}")
@@ -150,7 +148,7 @@ class CalculiX(Code):
     """The plug-in.
 
     settings: elements along the shorter side, near-square; layers of bricks, an even number; grading "edges"
-    or "uniform"; linear: without NLGEOM; time_limit [s].
+    or "uniform"; time_limit [s].
     """
 
     name, called = "calculix", "CalculiX"
@@ -160,7 +158,6 @@ class CalculiX(Code):
         "elements": 8,
         "layers": 2,
         "grading": "edges",
-        "linear": False,
         "time_limit": 600.0,
     }
 
@@ -172,7 +169,7 @@ class CalculiX(Code):
         return shutil.which(PROGRAM) is not None
 
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
-        text, found = deck(scene, mesh, settings["linear"]), Reached(np.zeros_like(mesh.positions))
+        text, found = deck(scene, mesh), Reached(np.zeros_like(mesh.positions))
         began = perf_counter()
         with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
             folder = Path(kept)
@@ -189,7 +186,7 @@ class CalculiX(Code):
     def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
         if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
             return note
-        material, linear = scene.material, settings["linear"]
+        material = scene.material
         for number, patch in enumerate(scene.patches, start=1):
             if patch.thickness not in (None, scene.sheet.thickness):
                 thickness = f"patch {number}.thickness = {patch.thickness:g} m"
@@ -198,10 +195,8 @@ class CalculiX(Code):
             return f"{scene.varied_by}: it is given rubbers that are the same all over"
         if material.kind == "orthotropic":
             return impossible_in_space(material.ply)
-        if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
+        if material.law is None or material.poisson >= INCOMPRESSIBLE:
             return ""
-        if linear:
-            return f"linear = true: the law '{material.law}' is not linear"
         return (
             f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near "
             f"ν = ½ only; from {INCOMPRESSIBLE:g} on it is given them"
@@ -244,7 +239,7 @@ def displacements(dat: str, nodes: int) -> tuple[float, np.ndarray]:
 
 
 def iterations(sta: str) -> int:
-    """Equilibrium iterations, each one factorisation; a linear step has one."""
+    """Equilibrium iterations, each one factorisation."""
     rows = [line.split() for line in sta.splitlines()]
     counts = [int(row[3]) for row in rows if len(row) >= 7 and all(part.isdigit() for part in row[:4])]
     return max(sum(counts), 1)

@@ -107,7 +107,7 @@ def test_bricks_of_a_drawn_sheet_fill_it(drawn):
 
 
 def test_a_deck_of_a_drawn_sheet_has_its_parts(drawn):
-    text = deck(DRAWN, drawn, linear=False)
+    text = deck(DRAWN, drawn)
     found = {name: text.count(f"*{name}") for name in ("ELSET,", "MATERIAL", "ORIENTATION", "SOLID SECTION")}
     assert found == {"ELSET,": 3, "MATERIAL": 3, "ORIENTATION": 2, "SOLID SECTION": 3}
     assert text.count("ORIENTATION=FIBRES") == 2

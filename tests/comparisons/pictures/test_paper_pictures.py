@@ -23,8 +23,6 @@ from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from fem_reference.uncertainty import Uncertainty
-from fem_reference.verification import locking_figure as locking
-from fem_reference.verification.rows import relatively
 from sheetbench import scenes
 from sheetbench.answers import history_figure as moving
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
@@ -61,21 +59,12 @@ def composed(scene, comparison):
         for n in (3, 5, 9)
     ]  # fmt: skip
     trade = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
-    locked = [
-        replace(
-            relatively("w", "8 × 8", 1.0, "", 1.001, 0.02, at={"h/a": ratio, "ν": 0.3}),
-            case=f"locking-{model}",
-        )
-        for model in ("plate", "solid")
-        for ratio in (1e-5, 0.1)
-    ]
     linear = linearise(scene, Lattice(3))
     swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
         "history": partial(moving.compose, history(time, moved), scene.title),
         "tradeoff": partial(trading.compose, trade),
-        "locking": partial(locking.compose, locked),
         "responses": partial(responding.responses, linear),
         "modes": partial(swinging.compose, swings),
     }
@@ -94,7 +83,7 @@ def test_what_a_figure_may_be():
             parse_figure(wrong)
 
 
-NAMES = ("probes", "history", "tradeoff", "locking", "responses", "modes")
+NAMES = ("probes", "history", "tradeoff", "responses", "modes")
 
 
 @pytest.mark.sweep(2)
@@ -105,10 +94,9 @@ def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name)
     assert paper.get_figwidth() == pytest.approx(WIDTHS["single"])
     said = [text.get_text() for text in paper.findobj(matplotlib.text.Text)]
     assert not any(scene.title in text for text in said)
-    if name != "locking":
-        assert any(scene.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
+    assert any(scene.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
     for axis in paper.axes:
-        if axis.axison and name != "locking":
+        if axis.axison:
             assert axis.get_xlabel() == "probe" or "[" in axis.get_xlabel() + axis.get_ylabel()
     paper.draw_without_rendering()
     box = paper.get_tightbbox()

@@ -7,6 +7,7 @@ from campaigns import Here
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.crosscheck import crosscheck
 from comparisons.models.spec import Elements, Lattice
+from comparisons.sweep import columns
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import Limit, limit, pairs
 from comparisons.sweep.solved import Ask, sweep

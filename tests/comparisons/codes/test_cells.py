@@ -72,8 +72,7 @@ def test_a_lattice_is_a_cell_of_springs():
 
 
 def test_a_brick_locks_in_bending_as_its_closed_form_has_it():
-    """Trilinear corners cannot curve: D11 has G h (l²/12) of parasitic shear beside plane strain through and
-    across the thickness, (λ + 2μ) h³/12."""
+    """Corners cannot curve: D11 = (λ + 2μ) h³/12 + G h (l²/12), plane strain and parasitic shear."""
     spacing, thickness = 0.02, 0.003
     found = moduli_of(cell_of("bricks", spacing, thickness), {"lambda": 5.0, "mu": 2.0})
     plane = 5.0 * 2.0 / (5.0 + 4.0) * 2.0  # λ of plane stress

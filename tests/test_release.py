@@ -1,5 +1,4 @@
-"""What a release carries beside the code: versions that agree, licences of others' work, packages that
-editors and type checkers find, as plain folders on the path."""
+"""What a release carries beside the code: versions that agree, licences of others' work."""
 
 import re
 import tomllib

@@ -1,5 +1,4 @@
-"""Models that are programs: their input and answer, and that one that crashes, hangs, floods, lies or
-answers nothing that can be read costs its own row and no other."""
+"""Models that are programs: their input and answer; one that ends badly costs its own row and no other."""
 
 import json
 import os

@@ -182,8 +182,8 @@ class Element:
 
 
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
-    """D e (m, 54) of moduli (m, 54, 54) and strains (m, 54)."""
-    return (moduli @ strain[:, :, None])[:, :, 0]
+    """D e (…, k) of moduli (…, k, l) and strains (…, l)."""
+    return np.asarray((moduli @ strain[..., None])[..., 0])
 
 
 def strain_of(vectors: np.ndarray, step: np.ndarray) -> np.ndarray:

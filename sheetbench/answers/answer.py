@@ -116,6 +116,3 @@ class Answer(ABC):
 
     def __repr__(self) -> str:
         return self.report().text(ROWS)
-
-    def _repr_html_(self) -> str:
-        return self.report()._repr_html_()

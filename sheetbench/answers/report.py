@@ -161,11 +161,6 @@ class Report:
         tables = (text(table, most) for table in self.shown)
         return "\n".join([title, "", *tables, *map(terminal, self.complaints)]).rstrip()
 
-    def _repr_html_(self) -> str:
-        heading = " ".join(filter(None, [self.title, self.subtitle]))
-        notes = "".join(f"<p>{html(line)}</p>" for line in (*self.notes, *self.complaints))
-        return f"<h3>{html(heading)}</h3>{''.join(table._repr_html_() for table in self.shown)}{notes}"
-
     def files(self, made_with: str = "") -> dict[str, Write]:
         """Return every file but the pictures, by name, with what writes it. made_with: a line under the
         page."""

@@ -17,7 +17,6 @@ from comparisons.models.spec import Lattice
 from comparisons.pages.stage import stage
 from comparisons.pages.studies import read
 from sheetbench.scenes import load
-from sheetbench.scenes.objects.supports import Motion
 
 SMALL = {"grid": 5, "elements": 2}
 
@@ -75,15 +74,6 @@ def test_the_references_row_is_of_the_extrema_that_the_other_row_is_of():
     rows = both.document()["motion"]["measures"]
     assert rows == {"lumped": mine.as_dict(), "shell": truth.as_dict()}
     assert truth.last < extrema(other.time, other.probes["P"][:, 2])[-1, 0]
-
-
-def test_a_driven_motion_says_that_its_decrement_is_not_a_dampers():
-    free, motions = load("two-edges-settling"), {"lumped": swing(5.0, 0.05), "shell": swing(5.0, 0.05)}
-    for until, said in ((0.05, False), (0.5, True)):  # the first peak is at 0.1 s
-        motion = Motion(time=(0.0, until), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-3)))
-        scene = free.replace(supports=tuple(one.replace(motion=motion) for one in free.supports))
-        notes = " ".join(MotionComparison(scene, motions).notes())
-        assert ("those of the driven motion" in notes) == said
 
 
 def test_what_does_not_swing_has_no_period():

@@ -15,7 +15,7 @@ from sheetbench.scenes import (
     Sheet,
     Symmetric,
 )
-from sheetbench.scenes.meaning.kinematics import UP, BentEdge, MovedEdge, TiltedEdge, bent_or_tilted
+from sheetbench.scenes.meaning.kinematics import UP, MovedEdge, TurnedEdge, bent_or_tilted
 from sheetbench.scenes.objects.tables import PiecewiseLinear, SmoothCurve
 
 SHEET = Sheet(length_x=0.3, length_y=0.2, thickness=0.003)
@@ -52,7 +52,7 @@ def test_slopes_are_those_from_a_moment_on_and_rounding_misses_none():
 def test_a_bent_edge_lies_on_an_arc_about_the_middle_of_its_own(curvature):
     """κ → 0 from numbers whose 1 − cos has no digits left: the parabola κ s²/2."""
     support = Curved(edge="x0", curvature=curvature)
-    points, placed = on_edge("x0"), BentEdge(support, (support,), SHEET).placed(on_edge("x0"))
+    points, placed = on_edge("x0"), TurnedEdge(support, (support,), SHEET).placed(on_edge("x0"))
     s = points[:, 1] - 0.1
     if abs(curvature) > 1e-6:
         arc = np.column_stack(
@@ -74,10 +74,10 @@ def test_on_a_plane_of_symmetry_a_rod_has_its_middle():
 
 @pytest.mark.parametrize("edge", ["x0", "x1", "y0", "y1"])
 def test_beyond_a_tilted_clamp_the_sheet_would_go_up(edge):
-    placed = TiltedEdge(Clamped(edge=edge, tilt=0.3)).placed(on_edge(edge), 0.5)
+    placed = TurnedEdge(Clamped(edge=edge, tilt=0.3), (), SHEET).placed(on_edge(edge), 0.5)
     outward = {"x0": (-1, 0), "x1": (1, 0), "y0": (0, -1), "y1": (0, 1)}[edge]
     director = [-np.sin(0.15) * outward[0], -np.sin(0.15) * outward[1], np.cos(0.15)]
-    assert_allclose(UP + placed.director, director, atol=1e-15)
+    assert_allclose(UP + placed.director, np.tile(director, (len(HEIGHT), 1)), atol=1e-15)
     assert_allclose(placed.lifted(HEIGHT), HEIGHT[:, None] * (np.array(director) - UP), atol=1e-17)
 
 
@@ -107,8 +107,8 @@ def test_the_velocity_of_a_moved_edge_is_its_derivative(time):
 @pytest.mark.parametrize(
     "edge",
     [
-        BentEdge(Curved(edge="x1", curvature=5.0), (), SHEET),
-        TiltedEdge(Clamped(edge="x1", tilt=-0.8)),
+        TurnedEdge(Curved(edge="x1", curvature=5.0), (), SHEET),
+        TurnedEdge(Clamped(edge="x1", tilt=-0.8), (), SHEET),
         MovedEdge(MOTION, SHEET),
     ],
 )

@@ -14,10 +14,8 @@ from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.spec import Lattice
-from comparisons.modes import figure as responding
 from comparisons.modes import figure as swinging
 from comparisons.modes.spectra import spectra
-from comparisons.modes.state_space import linearise
 from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
@@ -59,13 +57,11 @@ def composed(scene, comparison):
         for n in (3, 5, 9)
     ]  # fmt: skip
     trade = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
-    linear = linearise(scene, Lattice(3))
     swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
         "history": partial(moving.compose, history(time, moved), scene.title),
         "tradeoff": partial(trading.compose, trade),
-        "responses": partial(responding.responses, linear),
         "modes": partial(swinging.compose, swings),
     }
 
@@ -83,7 +79,7 @@ def test_what_a_figure_may_be():
             parse_figure(wrong)
 
 
-NAMES = ("probes", "history", "tradeoff", "responses", "modes")
+NAMES = ("probes", "history", "tradeoff", "modes")
 
 
 @pytest.mark.sweep(2)

@@ -71,10 +71,6 @@ class DiscreteElements(Discrete):
     def of_held_positions(self, force: np.ndarray) -> np.ndarray:
         """Those of forces (N,) on what is held of positions, (N,) or fewer."""
 
-    @abstractmethod
-    def short(self, shape: SheetShape) -> np.ndarray:
-        """The step (N,) to what is prescribed and onto the constraints, linear in both."""
-
     def fault(self, shape: SheetShape) -> Fault | None:
         """Why an equilibrium is given up: an element that has turned inside out."""
         found = self.inside_out(shape.q)

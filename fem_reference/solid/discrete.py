@@ -111,9 +111,6 @@ class DiscreteSolid(DiscreteElements):
     def _turned_fully(self) -> np.ndarray:
         return self.column_supports.bases(1.0)
 
-    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
-        return q + self._to_supports(self.frame(q, at), q, self.column_supports.target(*self.instant(at)))
-
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         rate = self.column_supports.spread(self.supports.rate(time))
         return v + self._to_supports(self.frame(q, time), v, rate)
@@ -242,15 +239,12 @@ class DiscreteSolid(DiscreteElements):
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         return self._padded(self.column_supports.spread(np.array([displacement, turn])))
 
-    def on_surface(self, q: np.ndarray) -> np.ndarray:
-        return self._averages(self.columns.positions + self._on_columns(q))
-
     def surface_change(self, change: np.ndarray) -> np.ndarray:
-        return self._averages(self._on_columns(change))
+        return np.concatenate([*self._averages(self._on_columns(change))[:, self.plan.elements]], axis=1)
 
     def _averages(self, positions: np.ndarray) -> np.ndarray:
-        averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.plan.elements]
-        return np.concatenate([averages[0], averages[1]], axis=1)
+        """Means and directors (2, n, 3) of columns at positions (n, levels, 3)."""
+        return np.einsum("pl,nlc->pnc", self.columns.averages, positions)
 
     def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
         out = np.zeros_like(self.columns.positions)
@@ -285,8 +279,7 @@ class DiscreteSolid(DiscreteElements):
         return self.columns.field_mesh(self._on_columns(q))
 
     def surface(self, q: np.ndarray) -> Surface:
-        position = self.columns.positions + self._on_columns(q)
-        mean, director = np.einsum("pl,nlc->pnc", self.columns.averages, position)
+        mean, director = self._averages(self.columns.positions + self._on_columns(q))
         return Surface(self.plan, mean, director, self.own)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:

@@ -44,9 +44,7 @@ def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
     if not moving:
         yield scene, float  # the load factor itself
         return
-    still = [
-        a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators
-    ]
+    still = [a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators]
     # one commanded, the others straight
     for number, chain in enumerate(scene.actuators):
         if isinstance(chain, Chain):

@@ -59,13 +59,13 @@ class DiscreteElements(Discrete):
     def onto_rods(self, shape: SheetShape) -> np.ndarray:
         """∂Q/∂(unknowns) of the rods' sides (k, 3 a, b)."""
 
-    @abstractmethod
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         """Zᵀ f (unknowns,) of forces (N,)."""
+        return np.asarray(self.basis(shape.q, shape.at).T @ force)
 
-    @abstractmethod
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         """Z x (N,) of a step (unknowns,)."""
+        return np.asarray(self.basis(shape.q, shape.at) @ step)
 
     @abstractmethod
     def of_held_positions(self, force: np.ndarray) -> np.ndarray:

@@ -131,7 +131,8 @@ class DiscreteSolid(DiscreteElements):
         return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
-        return self._constant_basis if self.moving else self._basis(self.frame(q, at))
+        bases = self.frame(q, at)
+        return self._constant_basis if bases is self._turned_fully else self._basis(bases)
 
     @cached_property
     def _constant_basis(self) -> csc_matrix:
@@ -142,16 +143,6 @@ class DiscreteSolid(DiscreteElements):
         of_columns = bsr_matrix((bases, blocks[:-1], blocks)).tocsc()
         aside = identity(len(self._held_aside), format="csc")
         return block_diag([of_columns, aside], format="csc")[:, self._free]
-
-    def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
-        on_components = applied(shape.frame.swapaxes(1, 2), self._on_columns(force))
-        found: np.ndarray = np.append(on_components, force[self._cut :])[self._free]
-        return found
-
-    def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
-        every = np.zeros(self.size)
-        every[self._free] = step
-        return np.append(applied(shape.frame, self._on_columns(every)), every[self._cut :])
 
     def _on_columns(self, q: np.ndarray) -> np.ndarray:
         """The columns' part (n, levels, 3)."""

@@ -109,10 +109,6 @@ class Solved:
         probes = [np.array(values, dtype=float) for values in self.row["probes"].values()]
         return np.array(probes) if self.ask.duration is None else np.concatenate(probes)
 
-    def values(self, column: str) -> np.ndarray:
-        """Return `u`, or what a column of `comparisons.sweep.columns` holds."""
-        return self.u if column == "probes" else np.array(self.row["columns"][column], dtype=float)
-
     @property
     def counts(self) -> list[int]:
         """Cells along x and y; nothing where the settings do not tell."""

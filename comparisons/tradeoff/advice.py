@@ -46,10 +46,10 @@ class Advice(Answer):
     """What to solve, and why. error, seconds: predicted for the choice; bar: of the reference, by its mesh;
     model: what the reference leaves out on every mesh.
 
-    choice is None, with `message` saying why, where no model converges or none in `budget` is known. grading,
-    calibration: what was made of graded lattices and of other springs, where they were requested. limit: from
-    which stretch on lattices are no rubber, where the sheet is stretched farther. warnings: of times that
-    are doubtful, taken on a busy machine. called: how the scene was requested, its name unless given.
+    choice is None, with `message` saying why, where no model converges or none in `budget` is known. reasons:
+    why the lattices have their springs and grading, where that was chosen. limit: from which stretch on
+    lattices are no rubber, where the sheet is stretched farther. warnings: of times that are doubtful, taken
+    on a busy machine. called: how the scene was requested, its name unless given.
     """
 
     file_name = "advice"
@@ -66,8 +66,7 @@ class Advice(Answer):
     probing_seconds: float
     tried: tuple[TrialRow, ...] = field(repr=False)
     message: str = ""
-    grading: str = ""
-    calibration: str = ""
+    reasons: tuple[str, ...] = ()
     limit: str = ""
     model: ModelError | None = None
     warnings: tuple[str, ...] = ()
@@ -114,7 +113,8 @@ class Advice(Answer):
             "probing_seconds": self.probing_seconds,
             "tried": [one.as_dict() for one in self.tried],
             "message": self.message,
-            **{name: text for name in ("grading", "calibration", "limit") if (text := getattr(self, name))},
+            **({"reasons": self.reasons} if self.reasons else {}),
+            **({"limit": self.limit} if self.limit else {}),
             "warnings": list(self.warnings),
             "command": self.command,
         }
@@ -141,7 +141,8 @@ class Advice(Answer):
             *([] if command is None else [f"Solve it with:\n{command}"]),
             f"the scene needs {', '.join(self.needs)}",
             *self.warnings,
-            *(choice for choice in (self.grading, self.calibration, self.limit) if choice),
+            *self.reasons,
+            *([self.limit] if self.limit else []),
             *(f"left out: {left}" for left in self.left_out),
             f"load number q L³/D = {number(scales.span_load_number, '.3g')}, "
             f"L = {quantity(scales.span, 'm', '.4g')} from the held edges; "

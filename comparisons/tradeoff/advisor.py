@@ -14,13 +14,11 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import isfinite
-from typing import Any
 
 from comparisons.comparison import strain_law
 from comparisons.comparison.comparison import load_static
-from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice, Spec, items
 from comparisons.sweep import load
 from comparisons.sweep.here import SolvedHere
@@ -52,11 +50,10 @@ def advise(
 
     models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
     tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
-    lattice, calibration: springs of lattices that may be chosen beside the usual ones, "auto" as in
-    `comparisons.models.method`; its grading: of further lattices, which with "auto" makes the calibration
-    "auto" too. Models that take more memory than there is are left out. Raises SceneError for a scene without
-    a static answer; BadInput where not even the coarsest reference fits into memory, for a grid, and for
-    springs and grading that contradict each other.
+    lattice, calibration: springs and grading of the lattices that may be chosen. Models that take more memory
+    than there is are left out. Raises SceneError for a scene without a static answer; BadInput where not even
+    the coarsest reference fits into memory, for a grid, and for springs and grading that contradict each
+    other.
     """
     scene = load_static(scene)
     tolerance, budget = _limits(tolerance, budget)
@@ -173,6 +170,9 @@ def _advice(
     message: str,
 ) -> Advice:
     needs, left_out = _effects(trials, chosen, tolerance or 0.01)
+    spec = None if chosen is None else chosen.ask.spec
+    grid = (spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1)).grid
+    lattice = trials.resolved(trials.springs.but(grid=grid))
     rows = list(trials.rows.values())
     added = trials.uncertainty + (trials.model_error.value if trials.model_error else 0.0)
     tried = tuple(
@@ -200,49 +200,14 @@ def _advice(
         probing_seconds=trials.seconds,
         tried=tried,
         message=message,
-        grading=_grading(trials, chosen),
-        calibration=_calibration(trials, chosen),
-        limit=_limit(trials, chosen),
+        reasons=tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in lattice.reasons.items()),
+        limit=strain_law.limit(lattice, trials.reference.answer.stretch or 0.0),
         model=trials.model_error,
         warnings=(
             *load.warnings([row.load_average for row in rows], [row.samples for row in rows]),
             *(f"{one.model} {one.size} left out: {reason}" for one, reason in trials.refused.items()),
         ),
     )
-
-
-def _lattice(trials: TrialSolves, chosen: SolvedHere | None, springs: Mapping[str, Any]) -> Lattice:
-    """Return the choice, or the usual grid with some springs where that is no lattice."""
-    spec = None if chosen is None else chosen.ask.spec
-    return spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1).but(**springs)
-
-
-def _grading(trials: TrialSolves, chosen: SolvedHere | None) -> str:
-    """Return what was made of graded lattices: of the choice, or of the usual grid where that is no
-    lattice."""
-    if trials.grading is None:
-        return ""
-    lattice = _lattice(trials, chosen, {})
-    value, why = trials.grading_of(lattice)
-    masses = " × ".join(lattice.size.split("×")[:2])
-    text = f"grading {value:g} {'taken' if lattice.grading else 'not taken'}" if value else "no grading"
-    return f"{text}, {masses} masses" + (f": {why}" if why else "")
-
-
-def _calibration(trials: TrialSolves, chosen: SolvedHere | None) -> str:
-    """Return what was made of the springs that were requested."""
-    if not (trials.springs or trials.because):
-        return ""
-    settings = {} if chosen is None else chosen.ask.spec.settings
-    taken = settings.items() >= {"calibration": trials.method, **trials.springs}.items()
-    text = f"calibration {trials.method} {'taken' if taken else 'not taken'}"
-    return f"{text}: {trials.because}" if trials.because else text
-
-
-def _limit(trials: TrialSolves, chosen: SolvedHere | None) -> str:
-    """From which stretch on the lattice chosen, or else the usual one, is no rubber, if this sheet is."""
-    lattice = _lattice(trials, chosen, trials.springs)
-    return strain_law.limit(resolve(trials.scene, lattice, "springs"), trials.reference.answer.stretch or 0.0)
 
 
 def _effects(

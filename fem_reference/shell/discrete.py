@@ -28,11 +28,12 @@ from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.hyperelastic import elements_of
 from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import inverted, membrane_strain
-from fem_reference.surface import carried, rod
+from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from fem_reference.surface.carried import add_carried
 from fem_reference.surface.materials import Section, constants_of
 from fem_reference.surface.mesh import field_mesh, plan_of
 from fem_reference.surface.rod import block_diagonal
@@ -118,8 +119,7 @@ class DiscreteShell(DiscreteElements):
         parts = np.array([self.element.areas * part for part in (of.per_area, of.rotary_per_area)])
         masses = np.einsum("peg,gi,gj->peij", parts, value, value)
         out = np.einsum("peij,pr,cd->epicrjd", masses, np.eye(2), np.eye(3)).reshape(-1, 18, 3, 18, 3)
-        payloads = carried.of_scene(self.scene, self.plan)
-        out[payloads.elements] += payloads.on_surface()
+        add_carried(self.scene, self.plan, out)
         return out
 
     @cached_property

@@ -25,10 +25,11 @@ from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import columns_of
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import applied, of_scene
-from fem_reference.surface import carried, rod
+from fem_reference.surface import rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
+from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
@@ -88,9 +89,10 @@ class DiscreteSolid(DiscreteElements):
     @cached_property
     def _inertia(self) -> np.ndarray:
         """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
-        payloads = carried.of_scene(self.scene, self.plan)
         blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
-        blocks[payloads.elements] += self._of_columns(payloads.on_surface())
+        if self.scene.masses:
+            add_carried(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))
+            blocks += self._of_columns(payloads)
         return blocks
 
     @cached_property

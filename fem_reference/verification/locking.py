@@ -15,7 +15,6 @@ from collections.abc import Iterator
 from fem_reference.verification.mindlin_plates import deflection
 from fem_reference.verification.rows import OURS, Row, relatively
 
-MODELS = {"locking-plate": "plate", "locking-shell": "shell", "locking-solid": "solid"}  # by case
 ELEMENTS = 8
 FINER = {"plate": 24, "shell": 24, "solid": 16}
 TOLERANCE = {"plate": 2e-2, "shell": 2e-2, "solid": 1e-2}

@@ -218,20 +218,6 @@ class DirectSolver:
         return _superlu(matrix, columns) if self.symmetric else Factor(matrix, splu(columns).solve, more=more)
 
 
-def solve_free(matrix: sp.csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """Return u (n,) with K u = f for its free unknowns (k,), the others as they are. Raises
-    SingularMatrixError.
-
-    >>> springs = sp.csr_matrix([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])
-    >>> solve_free(springs, np.array([0.0, 0.0, 3.0]), np.zeros(3), np.array([1, 2]))
-    array([0., 3., 6.])
-    """
-    out = u.copy()
-    out[free] = 0.0
-    out[free] = DirectSolver().factor(matrix[free][:, free]).solve((force - matrix @ out)[free])
-    return out
-
-
 def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | None:
     """x with A x = b to ITERATION_ACCURACY by conjugate gradients with the factors of a matrix close by
     (Hestenes and Stiefel 1952); None where the factors are those of an indefinite matrix or too far off."""

@@ -10,8 +10,7 @@ from comparisons.models.spec import Lattice
 from comparisons.stability import extremes
 from comparisons.stability.answer import limits, summary
 from comparisons.stability.extremes import scaled, stability
-from comparisons.stability.limit import rests_flat
-from sheetbench.scenes import Clamped, PointLoad, Pressure, load
+from sheetbench.scenes import PointLoad, Pressure, load
 
 SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")
 
@@ -33,13 +32,6 @@ def test_a_factor_is_of_what_it_names_and_of_nothing_else(name, factor):
     assert thickness == pytest.approx(factor if name == "slenderness" else 1.0)
     assert acting == pytest.approx([factor if name == "load" else 1.0] * 3)
     assert scaled(found, name, 1.0 / factor).material.young == pytest.approx(scene.material.young)
-
-
-def test_a_history_keeps_its_times():
-    gravity = SEED.gravity.replace(history={"time": (0.0, 1.0), "factor": (0.5, 2.0)})
-    found = scaled(SEED.replace(gravity=gravity), "load", 10.0).gravity
-    assert found is not None and found.history is not None
-    assert (found.history.time, found.history.factor) == ((0.0, 1.0), (5.0, 20.0))
 
 
 def test_the_linear_plate_degrades_first_and_beyond_the_strains_all_refuse(store, monkeypatch):
@@ -79,12 +71,6 @@ def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
     assert steps["verlet", "the scene's"][2] == pytest.approx(known)
     implicit = [row for row in found.rows if row["cell"]["integrator"] == "midpoint"]
     assert [row["status"] for row in implicit] == ["converged"] * 2
-
-
-def test_limits_are_measured_where_the_flat_sheet_is_at_rest():
-    assert rests_flat(SEED)
-    assert not rests_flat(load("curved-edge")) and not rests_flat(load("actuated-edge"))
-    assert not rests_flat(SEED.replace(supports=(Clamped("x0", tilt=0.1),)))
 
 
 def test_the_motions_error_is_of_the_largest_displacement():

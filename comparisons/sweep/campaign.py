@@ -39,7 +39,7 @@ from sheetbench.sources import source, version
 # Tasks by the names that rows are kept under, so that moving a file loses no result.
 TASKS = {
     "solve": "comparisons.sweep.task:solve",
-    "stability.run": "comparisons.stability.limit:run",
+    "stability.run": "comparisons.stability.extremes:run",
 }
 GOING = "going on"
 

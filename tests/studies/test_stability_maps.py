@@ -11,10 +11,10 @@ import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
-from comparisons.stability import extremes, limit
+from comparisons.stability import extremes
 from comparisons.stability.rows import LARGE
 from sheetbench.answers.solution import Status
-from studies.stability import study
+from studies.stability import limit, study
 from studies.stability.scenes import pressed, sheet
 
 

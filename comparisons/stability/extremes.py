@@ -67,7 +67,7 @@ class DefaultSteps(Ask):
     @property
     def task(self) -> Run:
         arguments = {"scene": self.scene.document(), "lattice": self.spec.settings, **self.run}
-        return Run("stability.run", arguments, self.label)
+        return Run(f"{__name__}:run", arguments, self.label)
 
 
 def stability(

@@ -161,17 +161,6 @@ SHAPED = {
 }  # fmt: skip
 
 
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("word", ["cutout", "support.where"])
-def test_plate_and_shell_begin_to_move_alike(word):
-    scene = load("one-edge-clamped").replace(probes={}, **SHAPED[word])
-    found = [
-        fem_reference.simulate(scene, model, 5e-4, elements=2, step=1e-4) for model in ("plate", "shell")
-    ]
-    ends = [np.array([probe[-1] for probe in history.probes.values()]) for history in found]
-    assert np.abs(ends[1]).max() > 0.0 and np.allclose(*ends, rtol=0.0, atol=0.01 * np.abs(ends[1]).max())
-
-
 def test_a_load_on_parts_of_an_edge_is_that_on_the_whole_of_it():
     """But that the edge's tangent, about which its moment turns, is one-sided where parts meet."""
     scene = load("one-edge-clamped")
@@ -189,8 +178,7 @@ def test_a_load_on_parts_of_an_edge_is_that_on_the_whole_of_it():
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("word", SHAPED)
 def test_references_agree_on_shapes(word):
-    """Of a stiff sheet, which bends little; a clamp within the sheet has a layer in the solid, as wide as the
-    sheet is thick, that elements of a seventh of its side are too coarse for."""
+    """Of a stiff sheet; the layer at a clamp within it is too narrow for these elements of the solid."""
     scene = load("one-edge-clamped").replace(probes={})
     keys = dict(SHAPED[word])
     scene = scene.replace(**keys.pop("sheet", {}), **keys, material=scene.material.replace(young=54.5e8))

@@ -12,7 +12,7 @@ from sheetbench.choices import CALIBRATIONS
 
 SUMMARIES = "; ".join(f"{name}: {method.summary}" for name, method in CALIBRATIONS.items())
 SPRINGS = "calibration k layer_distance grading toml"
-DAMPING = "loss_factor damping_ratio log_decrement quality at band prony"
+DAMPING = "loss_factor at band prony"
 
 
 @no_effect(
@@ -33,9 +33,6 @@ def command(
     hinge: str | None = None,
     coefficient: list[str] | None = None,
     loss_factor: float | None = None,
-    damping_ratio: float | None = None,
-    log_decrement: float | None = None,
-    quality: float | None = None,
     at: Annotated[float | None, Kind("Hz")] = None,
     band: tuple[float, float] | None = None,
     prony: Path | None = None,
@@ -64,10 +61,8 @@ def command(
         hinge (WEIGHT): With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height,
             w = 3 length² over the area of both triangles. Default: length.
         coefficient (NAME=VALUE): With --cell: use this in place of the one found. May be repeated.
-        loss_factor (ETA): Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.
-        damping_ratio (ZETA): Damping as ζ, a fraction of critical damping.
-        log_decrement (DELTA): Damping as the logarithmic decrement of a decay, ln(peak/next peak).
-        quality (Q): Damping as the quality factor of a resonance.
+        loss_factor (ETA): Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band; of a decay
+            2Λ/√(4π² + Λ²), Λ = ln(peak/next peak).
         at (HZ): One damper per spring: the loss factor is right at this frequency only.
         band (LOW HIGH): Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.
         prony (FILE): Young's modulus and branches from a CSV of frequency [Hz], storage, loss (or tan_delta),
@@ -87,7 +82,7 @@ def command(
 
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
-    damped = damping.keys(loss_factor, damping_ratio, log_decrement, quality, at, band, prony)
+    damped = damping.keys(loss_factor, at, band, prony)
     if sheet.young is not None and "young" in damped:
         raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
     if cell is not None and scene is None:
@@ -112,9 +107,7 @@ def command(
                 "--toml": toml,
             },
         )
-        ways = (loss_factor, damping_ratio, log_decrement, quality, prony)
-        names = (f"--{name}" for name in damping.MEASURES)
-        require_damper(for_, of.material, dict(zip(names, ways, strict=True)))
+        require_damper(for_, of.material, {"--loss-factor": loss_factor, "--prony": prony})
         found = setup(of, for_, squares_of(wanted.grid), named=named)
         with output.open(about=about, variant={"--for": for_}) as out:
             return out.show(found)

@@ -15,7 +15,7 @@ from comparisons.models.spec import Lattice
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.pictures.work import Work
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.report import Write
 from sheetbench.answers.solution import About
 from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, TableUnit
 from sheetbench.errors import BadInput
@@ -142,9 +142,6 @@ class Linearisation(Answer):
         undamped = not any(self.damping_ratios)
         columns = [replace(one, detail=undamped and one.name in ("damping ratio", "real")) for one in POLES]
         return Table.listed("Poles (undamped)" if undamped else "Poles", columns, rows, "poles")
-
-    def figures(self) -> tuple[Picture, ...]:
-        return (Picture("responses", "comparisons.modes.figure:responses", (self,)),)
 
     def files(self) -> dict[str, Write]:
         """Return the matrices; in MATLAB and Octave ss(ss_A, ss_B, ss_C, ss_D)."""

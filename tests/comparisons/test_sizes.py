@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import json_of, run
+from commands import run
 from verbs import SMALL, write_inputs
 
 import lumped
@@ -150,12 +150,6 @@ def test_every_verb_refuses_what_does_not_fit(line, little, capsys):
     said = capsys.readouterr().err.splitlines()[-1]
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said
     assert not Path("out").exists()
-
-
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("line", LINES)
-def test_large_goes_on_all_the_same(line, little, capsys):
-    assert json_of(capsys, *line.split(), "--large")
 
 
 def written(root, files):

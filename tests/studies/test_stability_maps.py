@@ -7,12 +7,10 @@ import pytest
 from campaigns import FEW
 from commands import json_of, run
 
-import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.stability import extremes
-from comparisons.stability.rows import LARGE
 from sheetbench.answers.solution import Status
 from studies.stability import limit, study
 from studies.stability.scenes import pressed, sheet
@@ -36,19 +34,6 @@ def off(scene, masses, elements=12):
     """How a lattice ended beside the shell, and its error."""
     ours, shell = solve(resolve(scene, Lattice(masses))), solve(resolve(scene, Elements("shell", elements)))
     return ours, shell, study._compared(scene, ours, shell)["error"]
-
-
-def test_a_thin_sheet_clamped_twice_is_said_not_to_be_unique_on_the_grid():
-    ours, _, error = off(sheet(1e-4, 10.0, edges=("x0", "y0")), 9, 8)
-    assert ours.status is Status.CONVERGED and error > LARGE and "not unique" in ours.message
-
-
-def test_single_precision_calls_nothing_converged_that_has_no_digits_left():
-    scene = sheet(1e-5, 1.0)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=17)
-    single = lumped.solve(scene, springs, precision="single")
-    assert single.status is not Status.CONVERGED and "rounding" in single.message
-    assert lumped.solve(scene, springs).status is Status.CONVERGED
 
 
 def test_lattice_and_shell_bend_to_the_side_that_a_slight_weight_chooses():

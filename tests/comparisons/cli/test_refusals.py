@@ -1,7 +1,4 @@
-"""Command lines that no verb can answer: exit status 2 and one line with the option and what is allowed.
-
-A row is a command line and the parts of its line, with | between them.
-"""
+"""Command lines that no verb can answer: exit status 2 and one line with the option and what is allowed."""
 
 import shlex
 from pathlib import Path
@@ -114,7 +111,7 @@ ROWS = {
     f"tradeoff {ONE} --workers 2 --scheduler tcp://127.0.0.1:9": "--workers: no effect with --scheduler",
     f"crosscheck {ONE} --judges '' --meshes 4,8": "--meshes: no effect without external codes",
     f"calibrate {ONE} --for newton --loss-factor 0.1 --at 3": "--loss-factor: no effect|newton|stiffness",
-    f"calibrate {ONE} --for mujoco --quality 9 --band 1 9": "--quality: no effect with --for mujoco|Maxwell",
+    f"calibrate {ONE} --for mujoco --loss-factor 0.1 --band 1 9": "no effect with --for mujoco|Maxwell",
     f"identify {ONE} --tensile measured.csv": "SCENE: no effect with --tensile",
     "identify --tensile t.csv --unknown poisson": "--unknown: no effect with --tensile",
     "identify --tensile t.csv --law biot": "--law: no effect with --tensile",

@@ -10,7 +10,6 @@ import pytest
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.error_bar import ErrorBar
-from comparisons.models.context import running
 from comparisons.models.spec import Lattice
 from comparisons.sweep.differences import error, relative
 from fem_reference.uncertainty import estimate
@@ -20,8 +19,6 @@ from sheetbench.answers.solution import Status
 from sheetbench.scenes import Scene
 
 pytestmark = pytest.mark.smoke
-
-SMALL = Lattice((5, 5, 2))
 
 
 @pytest.fixture(scope="module")
@@ -127,14 +124,6 @@ def test_json_document_has_the_promised_keys(real):
     assert set(difference) == {"probe", "of", "against", "relative", "distinguishable"}
     u, truth = (np.array(s["probes"]["P1"]) for s in (first, second))
     assert difference["relative"] == pytest.approx(np.linalg.norm(u - truth) / np.linalg.norm(truth))
-
-
-def test_naming_a_calibration_leaves_no_companion(scene):
-    done = []
-    with running(solved=lambda s: done.append(s.model)):
-        alone = compare(scene, SMALL.but(calibration="uniform"), elements=4)
-    assert done == ["lumped", "shell"] == [s.model for s in alone.solutions]
-    assert alone.solutions[0].settings["calibration"] == "uniform"
 
 
 def test_the_pull_of_a_stretched_sheet_stands_beside_the_costs():

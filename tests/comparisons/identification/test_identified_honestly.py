@@ -167,12 +167,6 @@ def test_the_interval_of_a_shell_contains_the_error_of_its_mesh():
     assert "mesh's error; take more --elements" in found.warnings[-1]
 
 
-def test_one_element_is_not_looked_at_twice():
-    values = fem_reference.solve(SEED, elements=1).displacement(POINTS)
-    found = identify(SEED, Displacements(POINTS, noisy(values, 3)), model="shell", elements=1)
-    assert found.contains == "noise only" and any("mesh's error is not known" in w for w in found.warnings)
-
-
 def test_what_the_data_do_not_determine_is_no_result():
     data = Displacements(POINTS, noisy(solved(SEED), 8))
     found = identify(SEED, data, ["E", "rho"], Lattice(3), refine=False)

@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from commands import run
 from live_server import got, posted, serving
-from matrix_rows import pairwise, require_balanced
 from terminals import COMMAND, Terminal
 
 import sheetbench as sb
@@ -22,7 +21,6 @@ from comparisons.live import server
 from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
-from sheetbench import load
 from sheetbench.answers.solution import Status
 from sheetbench.choices import CALIBRATIONS
 from sheetbench.errors import BadInput
@@ -223,29 +221,3 @@ def test_it_ends_by_ctrl_c():
     assert terminal.end() == 130
     assert "nothing was kept" not in terminal.shown and "the server has stopped" in terminal.shown
     assert "Traceback" not in terminal.shown and "http://127.0.0.1:" in terminal.shown
-
-
-PANEL = Panel(load("curved-edge"), 2, Lattice(3, "uniform", k=550.0))
-FEW = {"grid": (3, 4), "elements": (2, 3)}  # larger ones answer alike, later
-ENDS = [
-    tuple((name, value) for value in FEW.get(name, (slider.low, slider.high)))
-    for name, slider in PANEL.sliders.items()
-]
-ROWS = pairwise([*ENDS, tuple(("calibration", name) for name in PANEL.calibrations)])
-
-
-@pytest.mark.sweep(6)
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: " ".join(f"{name}={value}"[:24] for name, value in row))
-def test_every_pair_of_ends_has_an_answer_or_a_reason(row):
-    values = dict(row)
-    message = json.dumps({"number": 1, "calibration": values.pop("calibration"), "values": values})
-    question = PANEL.read(message)
-    try:
-        scene = PANEL.scene_of(question)
-        solution = server.solved(scene, question)
-    except BadInput as error:
-        assert 0 < len(str(error)) < 300
-        return
-    require_balanced({**solution.document(scene), "label": solution.label})
-    said = json.dumps(server.lattice(scene, question), allow_nan=False)
-    assert f'"status": "{solution.status}"' in said

@@ -35,13 +35,6 @@ def test_a_factor_is_of_what_it_names_and_of_nothing_else(name, factor):
     assert scaled(found, name, 1.0 / factor).material.young == pytest.approx(scene.material.young)
 
 
-def test_a_history_keeps_its_times():
-    gravity = SEED.gravity.replace(history={"time": (0.0, 1.0), "factor": (0.5, 2.0)})
-    found = scaled(SEED.replace(gravity=gravity), "load", 10.0).gravity
-    assert found is not None and found.history is not None
-    assert (found.history.time, found.history.factor) == ((0.0, 1.0), (5.0, 20.0))
-
-
 def test_the_linear_plate_degrades_first_and_beyond_the_strains_all_refuse(store, monkeypatch):
     monkeypatch.setitem(extremes.FACTORS, "load", (0.01, 1.0, 1000.0))
     found = varied(store, "load")

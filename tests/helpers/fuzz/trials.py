@@ -5,7 +5,6 @@ Each takes a folder of its own, in which it may write, and what its strategy of 
 
 import warnings
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -53,18 +52,15 @@ def checks(folder: Path, text: bytes) -> str:
     return WORDS[found.status]
 
 
-def compares(folder: Path, data: dict[str, Any], masses: int = 3) -> str:
+def compares(folder: Path, data: dict[str, Any]) -> str:
     """A sound scene is solved, and what converges is in balance."""
     (folder / "scene.toml").write_text(tomlkit.dumps(data), encoding="utf-8")
-    small = ("--lumped", str(masses), "--elements", "2", "--no-uncertainty", "--json")
+    small = ("--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
     found = outcome(["compare", "scene.toml", *small], folder)
     held(found, data)
     if found.status != BAD_INPUT:
         in_balance(document(found))
     return WORDS[found.status]
-
-
-compares_shapes = partial(compares, masses=5)
 
 
 def solves_shapes(folder: Path, data: dict[str, Any]) -> str:

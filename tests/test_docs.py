@@ -1,5 +1,4 @@
-"""The documentation and the README: pages run as written; commands, options, scenes, links, targets and
-pictures are there, and numbers in pictures are those of the text."""
+"""Pages run as written; commands, options, scenes, links, targets, pictures and their numbers are there."""
 
 import pkgutil
 import re

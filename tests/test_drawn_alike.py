@@ -55,10 +55,7 @@ class _Pen:
 
 
 def draw(seed: int, oblique: bool = False) -> Document:
-    """A sheet with holes, patches or an outline, held and loaded at edges and in parts, that bends little.
-
-    oblique: with round and oblique rims too.
-    """
+    """A sheet with holes, patches or an outline, held and loaded at edges and in parts, that bends little."""
     pen = _Pen(seed, oblique)
     lx = round(0.1 + 0.04 * pen.random.random(), int(pen.either(2, 5)))
     ly = round(lx * pen.either(1.0, 0.75, 1.5, 1.8), 6)

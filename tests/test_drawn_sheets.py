@@ -178,8 +178,7 @@ def test_a_load_on_parts_of_an_edge_is_that_on_the_whole_of_it():
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("word", SHAPED)
 def test_references_agree_on_shapes(word):
-    """Of a stiff sheet, which bends little; a clamp within the sheet has a layer in the solid, as wide as the
-    sheet is thick, that elements of a seventh of its side are too coarse for."""
+    """Of a stiff sheet; the layer at a clamp within it is too narrow for these elements of the solid."""
     scene = load("one-edge-clamped").replace(probes={})
     keys = dict(SHAPED[word])
     scene = scene.replace(**keys.pop("sheet", {}), **keys, material=scene.material.replace(young=54.5e8))

@@ -71,8 +71,7 @@ def test_a_strip_with_a_body_at_its_tip_has_the_beams_first_frequency(model, mom
 
 
 def test_a_body_that_turns_about_the_strip_slows_its_twist_alone():
-    """Of the fixed rod with a third of its own inertia and the body's at the end, G J/L the spring; a point
-    gives way against the whole width."""
+    """Of the fixed rod with a third of its own inertia and the body's at the end, G J/L the spring."""
     plain, turning = (frequencies(strip(body(moments=m)), "shell", 4) for m in (None, (2e-6, 0.0, 0.0)))
     spring = YOUNG / 2.0 * WIDTH * THICK**3 / 3.0 * (1.0 - 0.63 * THICK / WIDTH) / LENGTH
     whole = 2e-6 + BEAM * (WIDTH**2 + THICK**2) / 36.0

@@ -1,9 +1,6 @@
-"""What a release carries beside the code: versions that agree, licences of others' work, packages that
-editors and type checkers find, as plain folders on the path."""
+"""What a release carries beside the code: versions that agree, licences of others' work."""
 
 import re
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
@@ -26,13 +23,3 @@ def test_the_wheel_carries_the_licence_of_every_package_in_the_viewer():
     bundled = re.search(r"/\*! With three\.js ([\d.]+)\.\n(.*?)\n\*/", viewer, re.S)
     assert bundled and bundled[1] in text and bundled[2] in text
     assert "LICENSES/*.txt" in PROJECT["license-files"]
-
-
-def test_the_packages_are_found_by_path_from_any_folder(tmp_path):
-    """setuptools' import hook, which editors and mypy do not follow, is no path."""
-    code = "from importlib.machinery import PathFinder as P; print(all(map(P.find_spec, {names})))"
-    names = ["sheetbench", "lumped", "fem_reference", "comparisons"]
-    found = subprocess.run(
-        [sys.executable, "-c", code.format(names=names)], cwd=tmp_path, capture_output=True, text=True
-    )
-    assert found.stdout.strip() == "True", "run `make install` again"

@@ -1,5 +1,4 @@
-"""The same words mean the same lattice, in every verb and function: its constants, caught where the
-solver gets them."""
+"""The same words mean the same lattice in every verb and function: the constants that a solver gets."""
 
 import json
 from collections.abc import Callable
@@ -161,8 +160,7 @@ def test_k_alone_is_the_uniform_lattice_of_that_k():
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
 def test_so_are_a_scene_s_own_springs(name):
-    """Where nothing is named the scene's own [springs] are meant, but where springs are to be made; in any
-    case their grid is the usual one."""
+    """Where nothing is named the scene's own [springs] are meant; in any case their grid is the usual one."""
     ask, words = VERBS[name]
     plain = sb.load(SCENE)
     springs = lumped.calibrate(plain.sheet, plain.material, grid=(4, 6), method="uniform", k=400.0)

@@ -1,7 +1,4 @@
-"""An exit status, words and numbers as documented, and no file but where it was requested.
-
-Some 160 examples, the same ones every time; `make fuzz SEED=1` draws 28 000 others, in batches.
-"""
+"""An exit status, words and numbers as documented, and no file but where it was requested."""
 
 import os
 import signal

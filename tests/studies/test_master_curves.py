@@ -28,8 +28,7 @@ def test_a_strip_that_is_not_turned_is_the_elastica():
 
 
 def test_a_shell_lies_on_the_turned_strips_curve(monkeypatch):
-    """One of a twentieth is off by the order of its width over its length, squared, and its bending in
-    its plane, (h/width)²: 0.2 % each."""
+    """One of a twentieth is off by (width/length)² and (h/width)²: 0.2 % each."""
     for name, value in (("LOADS", ()), ("WIDTHS", ()), ("TWISTING", (3.16,))):
         monkeypatch.setattr(study, name, value)
     monkeypatch.setattr(study, "TWISTED", {"shell 16": {"model": "shell", "elements": (16, 1)}})

@@ -83,8 +83,7 @@ def test_advice_keeps_its_tolerance_on_two_drawn_scenes_and_has_a_cost(store, mo
 
 
 def test_on_the_stored_scenes_errors_are_expected_within_a_factor_of_two():
-    """On four of five of each group's cases that have an estimate, never three times it; four of five have
-    one."""
+    """In four of five of each group's cases that have an estimate; four of five have one."""
     rows = list(expected_errors())
     assert Promises(tuple(rows), {}).succeeded
     for group in ("hard", "independent", "catalogue", "transfer", "drawn"):

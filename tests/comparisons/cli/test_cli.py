@@ -131,8 +131,7 @@ def test_an_interrupt_within_compiled_code_is_an_interrupt(monkeypatch, capsys):
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("line", ["check --schema", "score --json", "compare --help"])
 def test_an_output_that_nobody_reads_on_is_no_fault(line):
-    """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends, for what is longer than a
-    pipe holds and for what is not."""
+    """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends."""
     with subprocess.Popen(
         [*PROGRAM, *line.split()], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as process:

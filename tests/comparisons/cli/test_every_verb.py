@@ -1,7 +1,4 @@
-"""What every verb does with --json, --out, a terminal of any width and Python, by one kept run of each.
-
-Its options in pairs: tests/test_matrix*.py; alone: tests/test_options_alone.py.
-"""
+"""What every verb does with --json, --out, a terminal of any width and Python, by one kept run of each."""
 
 import inspect
 import json

@@ -1,8 +1,6 @@
-"""What is said while people wait: what is solved, how large it is, how far it has come; little in a pipe and
-nothing with --quiet; in characters that a terminal has."""
+"""What is said while people wait, how far it has come; little in a pipe, nothing with --quiet."""
 
 import io
-import logging
 import sys
 from typing import Any
 
@@ -163,14 +161,6 @@ def test_quiet_leaves_results_and_warnings(chatty, quiet, capsys):
     assert printed.out == "the result\n"
     progress = [] if quiet else ["1/2 a run: converged", "kernels are compiled first"]
     assert printed.err.splitlines() == [*progress, "a warning"]
-
-
-def test_quiet_is_quiet_of_what_the_packages_log(capsys):
-    from comparisons.cli import messages
-
-    with messages.in_lines(), console.speaking(quiet=True):
-        logging.getLogger("sheetbench").info("compiling")
-    assert capsys.readouterr().err == ""
 
 
 def test_a_comparison_says_in_a_pipe_what_lasts_and_nothing_where_it_is_quiet(monkeypatch, capsys):

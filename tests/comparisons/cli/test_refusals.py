@@ -1,7 +1,4 @@
-"""Command lines that no verb can answer: exit status 2 and one line with the option and what is allowed.
-
-A row is a command line and the parts of its line, with | between them.
-"""
+"""Command lines that no verb can answer: exit status 2 and one line with the option and what is allowed."""
 
 import shlex
 from pathlib import Path

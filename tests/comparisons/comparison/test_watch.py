@@ -77,18 +77,8 @@ def test_a_growth_is_told_from_a_hundredth_and_ends_a_run_from_a_tenth():
         assert Watch.recall(watch.memory()).ending("") == (status, message)
 
 
-def test_samples_one_by_one_are_watched_as_all_at_once():
-    """Energies that fall and work that rises, up to a number that is none."""
-    rows = -np.sort(np.random.default_rng(0).normal(size=(9, 8)), axis=0) + 3.0
-    rows[:, 5], rows[6, 7] = -rows[:, 5], np.nan
-    at_once, one_by_one = Watch(), Watch()
-    assert at_once.take(rows)[0] == sum(one_by_one.take(row[None])[0] for row in rows[:7])
-    assert np.array_equal(at_once.memory(), one_by_one.memory(), equal_nan=True)
-
-
 def test_what_the_rule_takes_is_an_energy_of_its_own():
-    """With it the account closes; in JSON, CSV and arrays. A support that starts and stops at once shakes
-    waves that the rule damps: what it takes is said."""
+    """With it the account closes; in JSON, CSV and arrays."""
     clamp = {"edge": "x0", "kind": "clamped"}
     clamp["motion"] = {"time": [0.0, 0.05], "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.03]]}
     material = {"young": 6e6, "poisson": 0.0, "density": 1100.0}

@@ -13,8 +13,7 @@ PLACES = "Array.from(live.viewer.sheets.get('lattice').positions.array)"
 
 
 def until(page, expression):
-    """Wait for an expression to hold; the page's policy lets nobody wait within it. The limit only ends a
-    test that hangs."""
+    """Wait for an expression to hold; the page's policy lets nobody wait within it."""
     for _ in range(20_000):
         if page.evaluate(f"window.live !== undefined && ({expression})"):
             return

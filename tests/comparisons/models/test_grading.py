@@ -62,8 +62,7 @@ def test_auto_grades_the_scenes_that_grading_mends():
 
 @pytest.mark.parametrize(("edge", "graded"), [("x0", True), ("y0", False)])
 def test_a_sheet_that_juts_out_far_is_graded_at_its_clamp(edge, graded):
-    """The layer of 72 mm beside the length of 180 mm that juts out, not beside the width; with 17 masses the
-    error of its motion falls from 0.70 to 0.22 % of the peak (docs/theory.md)."""
+    """The layer of 72 mm beside the length of 180 mm that juts out, not beside the width."""
     strip = settling_strip.scene().replace(supports=[Clamped(edge=edge)])
     assert (grading_of(strip, (33, 17, 2), AUTO)[0] == towards(0.5, ["x0"])) == graded
 

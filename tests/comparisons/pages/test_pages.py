@@ -15,8 +15,8 @@ from comparisons.cli.app import VERBS
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
 from comparisons.pages import studies as pages
-from comparisons.pages.page import page, question
-from comparisons.pages.studies import Study, read, tables
+from comparisons.pages.page import page
+from comparisons.pages.studies import read, tables
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.report import Report
 from sheetbench.answers.table import Column, Table, unit
@@ -129,27 +129,12 @@ def test_the_page_is_opened_where_that_is_asked(tmp_path, capsys, monkeypatch, t
     assert ("There is no browser here" in capsys.readouterr().err) is not there
 
 
-def test_settings_have_units_and_several_grids_are_not_the_sides_of_one(tmp_path):
-    settings = {"grids": [5, 9], "grid": [5, 9], "layer_distance": 0.002, "k": 5000.0, "every": 0.01}
-    study = Study(tmp_path, "", "crosscheck", (), {"settings": settings})
-    assert question(study) == [
-        ("settings", "grids 5, 9, grid 5 × 9, layer distance 2 mm, k 5000 N/m, every 10 ms")
-    ]
-
-
 def test_no_verb_has_a_page_of_its_own():
     """The manifest lists what a page shows: a new verb needs nothing there."""
     for path in sorted(Path(pages.__file__).parent.glob("*.py")):
         text = path.read_text(encoding="utf-8")
         named = [verb for verb in VERBS if f'"{verb}"' in text or f"'{verb}'" in text]
         assert not set(named), f"{path.name} knows {named}"
-
-
-def test_long_tables_are_folded(tmp_path):
-    columns = (Column("mode", form="d"),)
-    made = [Table(f"of {n}", columns, tuple((i,) for i in range(n)), f"of{n}") for n in (3, 40)]
-    Folder(tmp_path, "check", ["sheetbench"]).report(Report("made", "made", {}, tables=tuple(made)))
-    assert [table.aside for table in tables(read(tmp_path).studies[0])] == [False, True]
 
 
 def test_damage_costs_a_sentence(tmp_path, capsys):

@@ -10,8 +10,7 @@ from comparisons.models.spec import Lattice
 from comparisons.stability import extremes
 from comparisons.stability.answer import limits, summary
 from comparisons.stability.extremes import scaled, stability
-from comparisons.stability.limit import rests_flat
-from sheetbench.scenes import Clamped, PointLoad, Pressure, load
+from sheetbench.scenes import PointLoad, Pressure, load
 
 SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")
 
@@ -72,12 +71,6 @@ def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
     assert steps["verlet", "the scene's"][2] == pytest.approx(known)
     implicit = [row for row in found.rows if row["cell"]["integrator"] == "midpoint"]
     assert [row["status"] for row in implicit] == ["converged"] * 2
-
-
-def test_limits_are_measured_where_the_flat_sheet_is_at_rest():
-    assert rests_flat(SEED)
-    assert not rests_flat(load("curved-edge")) and not rests_flat(load("actuated-edge"))
-    assert not rests_flat(SEED.replace(supports=(Clamped("x0", tilt=0.1),)))
 
 
 def test_the_motions_error_is_of_the_largest_displacement():

@@ -46,8 +46,7 @@ def test_a_column_is_a_function_of_scene_and_answer(store, monkeypatch):
 
 
 def test_tags_and_labels_make_no_other_row(store, monkeypatch):
-    """What was varied is the reader's; a model, its settings, a column, times and a program's version are
-    not."""
+    """A model, its settings, a column, times and a program's version do."""
     ask = Ask(SEED, Lattice(3))
     same = Ask(SEED, Lattice(3), tags={"factor": 2.0}, label="other")
     others = [

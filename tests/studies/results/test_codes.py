@@ -57,8 +57,7 @@ def test_a_ladder_is_measured_against_the_reference_set(tmp_path, monkeypatch):
 
 
 def test_rows_with_the_same_inputs_are_not_run_again(tmp_path, monkeypatch):
-    """A code that answers with nothing moved: all off by 100 %. Then it is gone, and only a changed recipe
-    would need it; one row is left where the budget is none."""
+    """A code that answers with nothing moved: all off by 100 %."""
     code = tmp_path / "python"
     probes = {name: [0.0, 0.0, 0.0] for name in results.CASES["thick"].scene.probes}
     answer = json.dumps({"status": "converged", "probes": probes, "solve_seconds": 0.5})

@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite
 
-from comparisons.comparison import strain_law
 from comparisons.comparison.comparison import load_static
 from comparisons.models.spec import Lattice, Spec, items
 from comparisons.sweep import load
@@ -201,7 +200,6 @@ def _advice(
         tried=tried,
         message=message,
         reasons=tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in lattice.reasons.items()),
-        limit=strain_law.limit(lattice, trials.reference.answer.stretch or 0.0),
         model=trials.model_error,
         warnings=(
             *load.warnings([row.load_average for row in rows], [row.samples for row in rows]),

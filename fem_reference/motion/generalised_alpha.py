@@ -170,10 +170,8 @@ class ConstrainedAlpha:
             self._control.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
         before, after = (float(u @ (model.mass @ u)) for u in (v, rate))  # twice the kinetic energy
         if self.adapts and self._euler:
-            taken = float(a @ (model.mass @ a))  # h² times half of it
-            self._control.step = min(
-                self._control.step, np.sqrt(TAKEN * max(before, after) / max(taken, 1e-30))
-            )
+            taken = max(float(a @ (model.mass @ a)), 1e-30)  # h² times half of it
+            self._control.step = min(self._control.step, np.sqrt(TAKEN * max(before, after) / taken))
         memory = self._remembered(q, branches)
         motion = SheetMotion(time, q, rate, a, a, model.mass @ a + forces, memory)
         return Advance(motion, 0.0, 0.5 * (after - before))

@@ -19,7 +19,7 @@ from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseLinear, Scene, Sheet, Symmetric
+from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseCurve, Scene, Sheet, Symmetric
 from sheetbench.scenes.meaning.region import area_in, edge_length
 from sheetbench.scenes.objects.grading import is_mirrored, line_numbers
 from sheetbench.scenes.objects.grid import MESH, elements_of
@@ -222,10 +222,10 @@ def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
     if len(sides) % 2 and is_mirrored(places, length):
         count += count % 2
     at = np.arange(count + 1)
-    lines = PiecewiseLinear(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(at)
-    in_elements = PiecewiseLinear(lines.tolist(), at.tolist()).at(sides)
+    lines = PiecewiseCurve(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(at)
+    in_elements = PiecewiseCurve(lines.tolist(), at.tolist()).at(sides)
     fixed = [0, *line_numbers(in_elements.tolist(), count), count]
-    return PiecewiseLinear(lines[fixed].tolist(), [lines[0], *places, lines[-1]]).at(lines)
+    return PiecewiseCurve(lines[fixed].tolist(), [lines[0], *places, lines[-1]]).at(lines)
 
 
 def _cuts(scene: Scene) -> list[str]:

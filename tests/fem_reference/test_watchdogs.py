@@ -17,10 +17,9 @@ from lumped.statics import faults
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.runs.record import width
-from sheetbench.runs.run import Run
+from sheetbench.runs.run import Run, Watch
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
-from sheetbench.runs.watch import Watch
 from sheetbench.scenes import Curved, EdgeLoad
 from studies.stability.limit import start, system
 from studies.stability.scenes import sheet

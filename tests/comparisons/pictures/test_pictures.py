@@ -12,7 +12,6 @@ from comparisons.pictures.plan import (
     edge_ends,
     held_lines,
     load_arrows,
-    on_sheet,
     plan_lines,
     plan_mesh,
     rims,
@@ -94,17 +93,6 @@ def test_all_that_is_drawn_lies_on_the_sheet():
     for points in drawn:
         assert shapely.intersects_xy(near, points[:, 0], points[:, 1]).all()
     assert ends[:, 1].tolist() == [0.05, 0.188]
-
-
-def test_a_rectangle_is_drawn_as_it_was():
-    mesh = plan_mesh(PLAIN, 4)
-    assert (
-        area(mesh) == pytest.approx(0.188**2)
-        and len(mesh.points) == 25
-        and len(plan_lines(PLAIN, 4)) == 10
-        and len(rims(PLAIN)) == 1
-    )
-    assert on_sheet(PLAIN, np.array([[-1.0, 0.1]])).tolist() == [[0.0, 0.1]]
 
 
 def test_check_draws_the_plan_of_any_scene():

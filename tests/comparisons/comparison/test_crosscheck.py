@@ -89,12 +89,6 @@ def test_judges_side_by_side(fakes, capsys):
     assert [judge["status"] for judge in document["judges"]] == ["found"] * 3
 
 
-def test_without_judges_there_is_no_table_of_them():
-    """It had a heading and no row."""
-    found = Crosscheck((SEED,), {SEED.name: ()}, ())
-    assert "judges" not in [table.name for table in found.report().tables]
-
-
 def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(fakes, capsys):
     judges = fakes("EXACT", "REFUSES", "DIVERGES")
     assert run("crosscheck", "two-edges-clamped", *NONE, *judges, "--json") == 3  # one mesh of diverges

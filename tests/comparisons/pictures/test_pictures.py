@@ -47,15 +47,6 @@ def test_names_of_near_points_stand_apart():
         assert not any(first.overlaps(second) for second in boxes[i + 1 :])
 
 
-def test_many_probes_have_a_dozen_panels_of_those_that_move_most():
-    time = np.linspace(0.0, 1.0, 5)
-    moved = {f"p{i} $": np.outer(time, [0.0, 0.0, 1e-3 * i]) for i in range(250)}
-    figure = motion.compose(history(time, moved), HOSTILE)
-    titles = [axis.get_title(loc="left") for axis in figure.axes]
-    assert len(figure.axes) == MOST + 1
-    assert titles[0] == plain("p238 $") and titles[MOST - 1] == plain("p249 $")
-
-
 DISC = {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}
 SPOT = {"circle": {"centre": (0.03, 0.15), "radius": 0.02}}
 GRIP = {"rectangle": {"x": (0.16, 0.2), "y": (0.15, 0.2)}}

@@ -5,7 +5,6 @@ import json
 import pytest
 from commands import json_of, one_line, run
 
-from comparisons.comparison.crosscheck import Crosscheck
 from sheetbench.scenes import load
 
 SEED = load("two-edges-clamped")

@@ -20,8 +20,6 @@ from comparisons.identification.unknowns import Unknown, unknown
 from comparisons.models.grading import lines_on_shapes
 from comparisons.models.spec import Lattice
 from sheetbench import scenes
-from sheetbench.errors import BadInput
-from sheetbench.face import solve
 from sheetbench.scenes.meaning.parameters import put
 from sheetbench.scenes.objects.grading import of_settings
 

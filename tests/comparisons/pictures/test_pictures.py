@@ -3,7 +3,6 @@
 import matplotlib
 import numpy as np
 import pytest
-from fake_solutions import history
 from matplotlib.figure import Figure
 
 from comparisons.models.check import check
@@ -16,8 +15,7 @@ from comparisons.pictures.plan import (
     plan_mesh,
     rims,
 )
-from sheetbench.answers import history_figure as motion
-from sheetbench.answers.style import MOST, STYLE, plain, save
+from sheetbench.answers.style import STYLE, plain, save
 from sheetbench.scenes import load
 
 HOSTILE = "T $\\foo$ \x1b[31m _x^y\n$"

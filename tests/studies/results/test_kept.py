@@ -3,8 +3,6 @@
 import pytest
 from commands import run
 
-from sheetbench.answers.report import Report
-from sheetbench.answers.table import MILLIMETRES, Column, Table, TableUnit
 from studies import pages
 
 NAMES = sorted(path.stem for path in pages.RESULTS.glob("*.json") if path.stem != "promises")

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -108,7 +106,7 @@ def _values(cases: Sequence[Reference]) -> str:
     names, numbers = _columns(cases[0].suite)
     places, bars = (("x", "y"), ("bar_x", "bar_y", "bar_z")) if len(numbers) == 3 else ((), ("bar",))
     rows = ([case.name, *named, *at, *u, *by] for case in cases for named, u, by, at in _places(case))
-    return _csv([*names, *places, *numbers, *bars], rows)
+    return Table.listed("", [*names, *places, *numbers, *bars], rows).to_csv()
 
 
 def _form(cases: Sequence[Reference]) -> str:
@@ -118,16 +116,10 @@ def _form(cases: Sequence[Reference]) -> str:
     rows = (
         [case.name, *named, *[""] * len(u), "", *at] for case in cases for named, u, _, at in _places(case)
     )
-    return _csv([*names, *numbers, "seconds", *places], rows)
+    return Table.listed("", [*names, *numbers, "seconds", *places], rows).to_csv()
 
 
 def _columns(suite: str) -> tuple[list[str], list[str]]:
     """Return the columns that say where, and those of numbers."""
     where = [name for name in HEADERS[suite] if name in PLACES]
     return where, [name for name in HEADERS[suite] if name not in PLACES]
-
-
-def _csv(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([header, *rows])
-    return text.getvalue()

@@ -10,7 +10,6 @@ import numpy as np
 
 from comparisons.scoring.answers import HEADERS, PLACES
 from comparisons.scoring.reference import Reference, document, references
-from comparisons.scoring.score import Place, own_models
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
@@ -44,21 +43,8 @@ class Suite(Answer):
         return {**self._whole, "cases": kept}
 
     def tables(self) -> list[Table]:
-        cases = Table.of(Reference, self.cases.values(), "Cases of the reference set", "cases", fields=CASE)
-        return [cases, *([self._leaderboard()] if self.suite in (None, "statics") else [])]
-
-    def _leaderboard(self) -> Table:
-        """How our own models and other programs fare on the statics, the best first."""
-        ours = own_models([case for case in self.cases.values() if case.suite == "statics"])
-        rows = sorted(ours, key=lambda one: one.score)
-        machine = self._whole["made_with"]["machine"].get("processor", "the machine that made the set")
-        text = (
-            "score: geometric mean of the errors on the statics, 100 % for a case that is refused; worst: of "
-            f"those answered; time: of a solve, geometric mean, on {machine}"
-        )
-        fields = ("model", "score", "worst_error", "worst", "refused", "seconds")
-        caption = "Our models and other programs on the statics"
-        return Table.of(Place, rows, caption, "standing", fields=fields, text=text)
+        caption = "Cases of the reference set"
+        return [Table.of(Reference, self.cases.values(), caption, "cases", fields=CASE)]
 
     def notes(self) -> tuple[str, ...]:
         return (

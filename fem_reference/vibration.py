@@ -67,6 +67,7 @@ class ReferenceModes(NaturalModes):
     def heading(self) -> tuple[str, str, str]:
         return f"{len(self.frequencies)} modes of {self.label}", "", ""
 
+
 def modes(
     scene: AnyScene,
     model: str = "shell",

@@ -42,6 +42,7 @@ class Modes(NaturalModes):
     def heading(self) -> tuple[str, str, str]:
         return f"{len(self.frequencies)} modes of the lattice", "", ""
 
+
 def modes(
     scene: AnyScene,
     calibration: Calibration | None = None,

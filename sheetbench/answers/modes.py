@@ -55,14 +55,8 @@ class Buckling:
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return {
-            "model": self.model,
-            "label": self.label,
-            "settings": self.settings,
-            "load_factors": self.load_factors,
-            "unknowns": self.unknowns,
-            "solve_seconds": self.seconds,
-        }
+        keys = ("model", "label", "settings", "load_factors", "unknowns")
+        return {**{key: getattr(self, key) for key in keys}, "solve_seconds": self.seconds}
 
 
 def require_flat_and_dead(scene: Scene) -> None:

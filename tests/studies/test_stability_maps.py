@@ -10,9 +10,9 @@ from commands import json_of, run
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
-from comparisons.stability import extremes, limit
+from comparisons.stability import extremes
 from sheetbench.answers.solution import Status
-from studies.stability import study
+from studies.stability import limit, study
 from studies.stability.scenes import pressed, sheet
 
 

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sheetbench.scenes import PiecewiseLinear, Sheet
+from sheetbench.scenes import PiecewiseCurve, Sheet
 from sheetbench.scenes.objects.grading import (
     Graded,
     Grading,
@@ -102,7 +102,7 @@ def _through(lines: Lines, places: Sequence[float]) -> Lines:
     if not kept:
         return lines
     numbers = np.arange(last + 1)
-    in_cells = PiecewiseLinear(lines.at.tolist(), numbers.tolist()).at(np.array(kept))
+    in_cells = PiecewiseCurve(lines.at.tolist(), numbers.tolist()).at(np.array(kept))
     moved = [0, *line_numbers(in_cells.tolist(), last), last]
-    at = PiecewiseLinear(moved, [0.0, *kept, end]).at(numbers)
+    at = PiecewiseCurve(moved, [0.0, *kept, end]).at(numbers)
     return Lines(at, np.diff(at), lines.mean)

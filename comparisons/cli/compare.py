@@ -64,7 +64,7 @@ def command(
 
         moving = scenes.scene_of(scene)
         with output.open(scene=moving, variant={"--duration": duration, "--every": every, **models}) as out:
-            for name in ("lumped", named, "difference") if output.out is not None else ():
+            for name in ("lumped", named) if output.out is not None else ():
                 out.reserve(f"{name}/")
             both = compare_motion(
                 moving,

@@ -9,7 +9,7 @@ from comparisons.cli.options import ClusterOptions, Kind, Listed, Seconds, Share
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from comparisons.tradeoff import usual
-from sheetbench.choices import INTEGRATORS, REFERENCES
+from sheetbench.choices import INTEGRATORS, REFERENCE, REFERENCES
 
 OF_ROWS = "lumped_pair model elements repeats duration integrator workers scheduler retry"
 
@@ -71,7 +71,8 @@ def command(
         integrator (NAMES): With --duration: some of {INTEGRATORS}. Default: all.
     """
     from comparisons.comparison.comparison import load_static
-    from comparisons.models.spec import items, parse
+    from comparisons.models.grids import parse_elements
+    from comparisons.models.spec import Elements, items, parse
     from comparisons.tradeoff import choices
     from comparisons.tradeoff.advisor import advise
     from comparisons.tradeoff.motion import dynamic_tradeoff
@@ -92,7 +93,7 @@ def command(
             return out.show(replace(found, called=scene) if isinstance(scene, str) else found)
     own, meshes_of = lattice.spec, usual.MESHES if duration is None else usual.MOVING
     others, extra = choices.of_references(meshes, meshes_of), list(map(parse, model or ()))
-    reference = choices.finest(elements)
+    reference = None if elements is None else Elements(REFERENCE, parse_elements(elements))
     if duration is not None:
         more: dict[str, Any] = {"lattices": choices.moving_lattices(own, grid, calibration)}
         measure: Any = dynamic_tradeoff

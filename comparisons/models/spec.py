@@ -141,11 +141,10 @@ class LatticePair(OnGrid):
     calibration: str | None = None
     layer_distance: float | None = None
     grading: GradingLike = None
-    linear: bool = False
 
     def lattice(self, grid: GridLike) -> Lattice:
         """Return one of the two lattices."""
-        return Lattice(grid, self.calibration, None, self.layer_distance, self.grading, self.linear)
+        return Lattice(grid, self.calibration, None, self.layer_distance, self.grading)
 
 
 @dataclass(frozen=True)

@@ -126,8 +126,8 @@ def _reference(model: Resolved[Elements], count: int, about: About) -> Spectrum:
         label=modes.label,
         settings=modes.settings,
         frequencies=modes.frequencies,
-        rigid=modes.rigid_modes,
+        rigid=modes.rigid,
         unknowns=modes.unknowns,
         seconds=modes.solve_seconds,
-        shapes=lambda plan: np.stack([modes.displacement(mode, plan) for mode in range(count)]),
+        shapes=modes.displacement,
     )

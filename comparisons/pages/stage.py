@@ -34,8 +34,6 @@ def stage(study: Study) -> Options | None:
     views: list[Options] = []
     models = _models(study.document)
     for name, frames in moving.items():
-        if "difference" in frames[-1][1].point_data:  # moves as the reference does
-            continue
         model = Path(name).stem if Path(name).stem in models else ""
         key = model or name
         sheet = study.attempt(name, partial(_moving, key, frames, study.scene))

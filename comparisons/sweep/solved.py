@@ -22,6 +22,8 @@ from sheetbench.answers.history import History
 from sheetbench.answers.solution import Status, comparable
 from sheetbench.scenes import Scene
 
+TASK = "comparisons.sweep.task:solve"
+
 
 @dataclass(frozen=True)
 class Ask:
@@ -53,7 +55,7 @@ class Ask:
         arguments = {"scene": self.scene.document(), "model": self.spec.model, "settings": self.spec.settings}
         if (digest := plugins.digest(self.spec.model)) is not None:
             given["digest"] = digest
-        return Run("solve", arguments | given, self.label or self.spec.label, self.repeats > 0)
+        return Run(TASK, arguments | given, self.label or self.spec.label, self.repeats > 0)
 
     @property
     def layered(self) -> bool:

@@ -47,9 +47,8 @@ class Advice(Answer):
     model: what the reference leaves out on every mesh.
 
     choice is None, with `message` saying why, where no model converges or none in `budget` is known. reasons:
-    why the lattices have their springs and grading, where that was chosen. limit: from which stretch on
-    lattices are no rubber, where the sheet is stretched farther. warnings: of times that are doubtful, taken
-    on a busy machine. called: how the scene was requested, its name unless given.
+    why the lattices have their springs and grading, where that was chosen. warnings: of times
+    that are doubtful, taken on a busy machine. called: how the scene was requested, its name unless given.
     """
 
     file_name = "advice"
@@ -67,7 +66,6 @@ class Advice(Answer):
     tried: tuple[TrialRow, ...] = field(repr=False)
     message: str = ""
     reasons: tuple[str, ...] = ()
-    limit: str = ""
     model: ModelError | None = None
     warnings: tuple[str, ...] = ()
     called: str = ""
@@ -114,7 +112,6 @@ class Advice(Answer):
             "tried": [one.as_dict() for one in self.tried],
             "message": self.message,
             **({"reasons": self.reasons} if self.reasons else {}),
-            **({"limit": self.limit} if self.limit else {}),
             "warnings": list(self.warnings),
             "command": self.command,
         }
@@ -142,7 +139,6 @@ class Advice(Answer):
             f"the scene needs {', '.join(self.needs)}",
             *self.warnings,
             *self.reasons,
-            *([self.limit] if self.limit else []),
             *(f"left out: {left}" for left in self.left_out),
             f"load number q L³/D = {number(scales.span_load_number, '.3g')}, "
             f"L = {quantity(scales.span, 'm', '.4g')} from the held edges; "

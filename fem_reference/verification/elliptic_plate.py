@@ -58,10 +58,12 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     unknowns = np.flatnonzero(free.ravel())
     matrix = sheet.tangent(sheet.shape(rest, 0.0), rest, 0.0, 0.0)
     force = np.zeros(free.shape)
-    force[:, -1, 2] = -PRESSURE * _shares(columns)
+    plan, upwards = columns.plan, np.array([-PRESSURE])
+    force[:, -1, 2:] = area_force(areas(plan.corners), plan.elements, sheet.nodes, upwards)
     displacement = np.zeros(free.shape)
     displacement[free] = DirectSolver().factor(matrix[unknowns][:, unknowns]).solve(force[free])
-    return _stress(columns, displacement.reshape(-1, 3), _at_d(columns))
+    at_d = int(np.argmin(np.hypot(plan.nodes[:, 0] - INNER[0], plan.nodes[:, 1])))
+    return _stress(columns, displacement.reshape(-1, 3), (at_d + 1) * columns.levels - 1)
 
 
 def _quarter(radial: int, around: int) -> MeshQuad2:
@@ -78,19 +80,6 @@ def _quarter(radial: int, around: int) -> MeshQuad2:
     a, b = (inner + (outer - inner) * outwards for inner, outer in zip(INNER, OUTER, strict=True))
     bent = dataclasses.replace(mesh, doflocs=np.array([a * np.cos(angle), b * np.sin(angle)]))
     return bent.with_boundaries({name: plan.facets_satisfying(test) for name, test in sides.items()})
-
-
-def _shares(columns: Columns) -> np.ndarray:
-    """∫ N dA (n,) [m²] of the upper face."""
-    per_element = areas(columns.plan.corners)
-    count = len(columns.plan.nodes)
-    return area_force(per_element, columns.plan.elements, count, np.ones(1))[:, 0]
-
-
-def _at_d(columns: Columns) -> int:
-    """The number of the node at D."""
-    x, y = columns.plan.nodes.T
-    return int(np.argmin(np.hypot(x - INNER[0], y))) * columns.levels + columns.levels - 1
 
 
 def _stress(columns: Columns, displacement: np.ndarray, node: int) -> np.ndarray:

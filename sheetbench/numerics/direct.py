@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, cg, onenormest, splu
+from scipy.sparse.linalg import LinearOperator, cg, splu
 
 from sheetbench.numerics import pardiso
 from sheetbench.numerics.banded import BACKWARD_ERROR
@@ -112,20 +112,6 @@ class Factor:
         size = self._largest * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
         gap = np.abs(left).max(initial=0.0)
         return left, float(gap / size) if gap else 0.0
-
-    def condition(self) -> float:
-        """Condition number ‖A‖₁ ‖A⁻¹‖₁, the latter estimated with the factors (Hager 1984, Higham 1988)."""
-        n = self.matrix.shape[0]
-        if n == 0:
-            return 1.0
-
-        def solved(b: np.ndarray) -> np.ndarray:
-            return np.column_stack([self.solve_unrefined(column) for column in b.reshape(n, -1).T])
-
-        # of an unsymmetric matrix the solver with the transpose is missing: its symmetric part is close by
-        inverse = LinearOperator((n, n), solved, solved, solved, dtype=float, rmatmat=solved)
-        largest = float(abs(self.matrix).sum(axis=0).max())
-        return largest * float(onenormest(inverse, t=min(2, n)))
 
 
 class NearFactor(Factor):

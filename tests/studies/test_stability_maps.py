@@ -6,8 +6,8 @@ import pytest
 from campaigns import FEW
 from commands import json_of, run
 
-from comparisons.stability import extremes, limit
-from studies.stability import study
+from comparisons.stability import extremes
+from studies.stability import limit, study
 from studies.stability.scenes import sheet
 
 

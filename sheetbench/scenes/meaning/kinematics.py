@@ -26,7 +26,7 @@ from sheetbench.scenes.objects.actuators import EdgeMotion
 from sheetbench.scenes.objects.quantities import Vector3
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
 from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
-from sheetbench.scenes.objects.tables import PiecewiseLinear
+from sheetbench.scenes.objects.tables import PiecewiseCurve
 
 UP = np.array([0.0, 0.0, 1.0])
 _CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2).reshape(3, 9)  # [e]× of the axes
@@ -86,8 +86,8 @@ class MovedEdge:
         self.edge: str = motion.edge
         self._middle = np.mean(sheet.edge_ends(motion.edge), axis=0)
         still = ((0.0, 0.0, 0.0),) * len(motion.time)
-        self._displacement = PiecewiseLinear(motion.time, motion.displacement or still)
-        self._rotation = PiecewiseLinear(motion.time, motion.rotation or still)
+        self._displacement = PiecewiseCurve(motion.time, motion.displacement or still)
+        self._rotation = PiecewiseCurve(motion.time, motion.rotation or still)
 
     def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
         """Where plan points (k, 2) [m] are."""

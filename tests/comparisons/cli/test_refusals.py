@@ -104,7 +104,6 @@ ROWS = {
     "score --suite all": "statics, motion, modes",
     "score --case thin": "--case: no effect without ANSWERS",
     f"tradeoff {TWO} --lumped 1": "--lumped = '1'",
-    f"tradeoff {TWO} --elements 1": "--elements = 1",
     f"tradeoff {TWO} --model nothing:grid=3": "model = 'nothing'",
     f"compare {ONE} --uncertainty --no-uncertainty": "--uncertainty and --no-uncertainty: give one",
     f"compare {ONE} --duration 0.1 --branch path": "--branch: no effect with --duration",

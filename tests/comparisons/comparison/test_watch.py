@@ -6,7 +6,7 @@ import pytest
 import fem_reference
 import lumped
 from sheetbench.answers.solution import Status
-from sheetbench.runs.watch import Watch
+from sheetbench.runs.run import Watch
 from sheetbench.scenes import Scene
 
 MODELS = ("lumped", "plate", "shell", pytest.param("solid", marks=pytest.mark.nightly))

@@ -23,6 +23,17 @@ def bricks():
     return Bricks.of(SEED, 4, 2, "edges")
 
 
+def test_the_mid_surface_of_a_quadratic_field_is_sampled_exactly(bricks):
+    def field(at):
+        x, y = at[:, 0], at[:, 1]
+        return np.column_stack([x * y, x**2 - 3 * y, 2 * y**2 + x + 1])
+
+    points = np.random.default_rng(1).uniform(0.0, 0.188, (50, 2))
+    nodes, weights = bricks.weights(points)
+    sampled = np.einsum("pk,pkc->pc", weights, field(bricks.positions)[nodes])
+    np.testing.assert_allclose(sampled, field(points), atol=1e-14)
+
+
 def test_forces_add_up_and_act_where_they_should(bricks):
     point = PointLoad(at=(0.11, 0.07), force=(1.0, 2.0, 3.0))
     line = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, 5.0))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comparisons.identification.tensile.curves import TESTS, Curve, read
-from comparisons.identification.tensile.laws import KEYS, LAWS, energy, largest_x, stress
+from comparisons.identification.tensile.laws import KEYS, LAWS, energy, kinematics, stress
 from comparisons.identification.tensile.tensile import identify_tensile
 from sheetbench.errors import BadInput
 
@@ -75,10 +75,9 @@ def test_one_curve_cannot_tell_the_two_constants_of_mooney_rivlin():
     (mooney,) = (f for f in found.fits if f.law == "mooney-rivlin")
     assert mooney.correlation < -0.9 and found.law is not None and found.law.law != "mooney-rivlin"
     said = " ".join(found.report().notes)
-    assert "cannot distinguish c1 from c2" in said and "Not measured: equibiaxial" in said
-    assert found.open is not None and found.open[1][1] > 1.2 * found.open[1][0]
+    assert "cannot distinguish c1 from c2" in said
     both = identify_tensile(curves("mooney-rivlin", ("uniaxial", "equibiaxial"), 0.005))
-    assert both.law is not None and both.law.law == "mooney-rivlin" and both.open is None
+    assert both.law is not None and both.law.law == "mooney-rivlin"
 
 
 def table(folder, text):
@@ -149,7 +148,8 @@ def test_treloars_rubber_asks_for_gent_with_published_constants(tmp_path):
     assert low < 0.240e6 < high and high / low < 1.2
     low, high = found.law.intervals["limit"]
     assert low < 80.0 < high and high / low < 1.1
-    assert max(map(largest_x, found.curves)) == pytest.approx(7.512**2 + 2.0 / 7.512 - 3.0)
+    largest = max(kinematics(curve.test, curve.stretch)[2].max() for curve in found.curves)
+    assert largest == pytest.approx(7.512**2 + 2.0 / 7.512 - 3.0)
 
 
 def test_a_silicone_file_is_read_as_the_machine_wrote_it():

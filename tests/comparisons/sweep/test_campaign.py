@@ -15,7 +15,7 @@ from campaigns import Here, alive, interrupt_when, rows_in, task, wait_for
 from limits import at_most
 
 from comparisons.sweep import campaign as runs_campaign
-from comparisons.sweep.campaign import TASKS, Progress, Run, campaign, carry_out, execute, function
+from comparisons.sweep.campaign import Progress, Run, campaign, carry_out, execute
 from comparisons.sweep.store import FILE, Finished
 from sheetbench.errors import BadInput
 from sheetbench.sources import digest, source
@@ -60,10 +60,6 @@ def test_the_source_digest_sees_names_and_contents(tmp_path):
 def test_other_code_in_the_worker_is_a_failure_and_not_an_answer():
     outcome = execute("a key of other code", "campaign_tasks:square", {"x": 1.0})
     assert outcome.status == "failed" and "another version" in outcome.message
-
-
-def test_every_task_is_where_its_name_says():
-    assert all(callable(function(name)) for name in TASKS)
 
 
 def test_a_run_that_fails_is_a_row_and_a_fault_not_filed_as_the_users_mistake(store):

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from math import isfinite
 
 from comparisons.comparison.comparison import load_static
-from comparisons.models.spec import Lattice, Spec, items
+from comparisons.models.spec import Lattice, Spec
 from comparisons.sweep import load
 from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import left_for_grid
@@ -27,7 +27,6 @@ from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene
-from sheetbench.scenes.language.units import amount
 from sheetbench.scenes.objects.grid import MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
@@ -37,15 +36,15 @@ STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 
 def advise(
     scene: AnyScene,
-    tolerance: float | str | None = None,
-    budget: float | str | None = None,
+    tolerance: float | None = None,
+    budget: float | None = None,
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     *,
-    models: Sequence[str] | str | None = None,
+    models: Sequence[str] | None = None,
     calibration: str | None = None,
 ) -> Advice:
-    """Return the cheapest model predicted to meet `tolerance` (a fraction, or text as "1 %"; 0.01 unless a
-    budget alone is given), or the most accurate in `budget` [s].
+    """Return the cheapest model predicted to meet `tolerance` (a fraction; 0.01 unless a budget
+    alone is given), or the most accurate in `budget` [s].
 
     models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
     tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
@@ -55,9 +54,14 @@ def advise(
     other.
     """
     scene = load_static(scene)
-    tolerance, budget = _limits(tolerance, budget)
+    if budget is not None and not budget > 0.0:
+        raise BadInput(f"budget = {budget:g}: seconds, more than 0")
+    if tolerance is None and budget is None:
+        tolerance = 0.01
+    if tolerance is not None and not 0.0 < tolerance < 1.0:
+        raise BadInput(f"tolerance = {tolerance:g}: a fraction between 0 and 1, as 0.01 for one percent")
     own = lattice if calibration is None else lattice.but(calibration=calibration)
-    trials = TrialSolves(scene, own, items(models) if isinstance(models, str) else models)
+    trials = TrialSolves(scene, own, models)
     for _ in range(3):
         trials.refine()
     while not trials.reference.stable and trials.refine():
@@ -94,20 +98,6 @@ def advise(
     elif chosen is None:
         chosen = _nearest(trials, candidates)
     return _advice(trials, tolerance, budget, chosen, message)
-
-
-def _limits(tolerance: float | str | None, budget: float | str | None) -> tuple[float | None, float | None]:
-    """Return tolerance and budget [s] as numbers. Raises BadInput unless the first is a fraction above 0 and
-    below 1 and the second above 0."""
-    seconds = None if budget is None else amount("budget", budget, "s")
-    if seconds is not None and not seconds > 0.0:
-        raise BadInput(f"budget = {seconds:g}: seconds, more than 0")
-    if tolerance is None:
-        return (0.01 if seconds is None else None), seconds
-    share = amount("tolerance", tolerance, "")
-    if not 0.0 < share < 1.0:
-        raise BadInput(f"tolerance = {share:g}: a fraction between 0 and 1, as 0.01 for one percent")
-    return share, seconds
 
 
 def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> SolvedHere | None:

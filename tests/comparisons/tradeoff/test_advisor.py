@@ -167,7 +167,7 @@ def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law, said):
 
 def test_one_rule_says_what_a_tolerance_is_held_against():
     """Error, bar and model error together, as a column and in a sentence; the cheapest of the table."""
-    advice = advise("two-edges-clamped", "1 %")
+    advice = advise("two-edges-clamped", 0.01)
     assert advice.tolerance == 0.01 and advice.model is not None
     for row in advice.tried:
         assert row.total == pytest.approx(row.error + advice.bar + advice.model.value)
@@ -193,7 +193,7 @@ def test_the_trade_off_has_the_same_rule():
 
 
 def test_models_may_be_named():
-    lattice = advise("two-edges-clamped", 0.01, models="lumped")
+    lattice = advise("two-edges-clamped", 0.01, models=["lumped"])
     assert lattice.succeeded and lattice.choice.model == "lumped"
     assert lattice.error + lattice.bar + lattice.model.value <= 0.01
     hopeless = advise("two-edges-clamped", 1.05 * lattice.model.value, models=["lumped"])

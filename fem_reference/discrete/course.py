@@ -44,17 +44,12 @@ def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
     if not moving:
         yield scene, float  # the load factor itself
         return
-    still = slack(scene)
+    still = [a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators]
+    # one commanded, the others straight
     for number, chain in enumerate(scene.actuators):
         if isinstance(chain, Chain):
             over_time = chain.curvature if isinstance(chain.curvature, CurvatureTable) else None
             bent = chain.replace(curvature=1.0) if over_time else chain
-            actuators = (*still.actuators[:number], bent, *still.actuators[number + 1 :])
+            actuators = (*still[:number], bent, *still[number + 1 :])
             factor = PiecewiseCurve(over_time.time, over_time.value).at if over_time else None
-            yield still.replace(actuators=actuators), factor
-
-
-def slack(scene: Scene) -> Scene:
-    """The scene with chains that no command bends."""
-    straight = (a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
-    return scene.replace(actuators=tuple(straight))
+            yield scene.replace(actuators=actuators), factor

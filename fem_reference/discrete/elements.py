@@ -59,21 +59,17 @@ class DiscreteElements(Discrete):
     def onto_rods(self, shape: SheetShape) -> np.ndarray:
         """∂Q/∂(unknowns) of the rods' sides (k, 3 a, b)."""
 
-    @abstractmethod
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         """Zᵀ f (unknowns,) of forces (N,)."""
+        return np.asarray(self.basis(shape.q, shape.at).T @ force)
 
-    @abstractmethod
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         """Z x (N,) of a step (unknowns,)."""
+        return np.asarray(self.basis(shape.q, shape.at) @ step)
 
     @abstractmethod
     def of_held_positions(self, force: np.ndarray) -> np.ndarray:
         """Those of forces (N,) on what is held of positions, (N,) or fewer."""
-
-    @abstractmethod
-    def short(self, shape: SheetShape) -> np.ndarray:
-        """The step (N,) to what is prescribed and onto the constraints, linear in both."""
 
     def fault(self, shape: SheetShape) -> Fault | None:
         """Why an equilibrium is given up: an element that has turned inside out."""

@@ -168,8 +168,12 @@ class Discrete(ABC):
         return turned or self.supports.jumps(time)
 
     @abstractmethod
+    def short(self, shape: SheetShape) -> np.ndarray:
+        """The step (N,) to what is prescribed and onto the constraints, linear in both."""
+
     def placed(self, q: np.ndarray, at: float) -> np.ndarray:
         """q (N,) with what is prescribed, on the constraints."""
+        return self.moved(q, self.short(self.shape(q, at)))
 
     @abstractmethod
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
@@ -239,9 +243,10 @@ class Discrete(ABC):
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         """Coordinates (N,) of displacements and changes of the directors of the plan's nodes, (n, 3)."""
 
-    @abstractmethod
     def on_surface(self, q: np.ndarray) -> np.ndarray:
         """Position φ and director d at the nodes of the plan's elements, (m, 18, 3)."""
+        surface, on = self.surface(q), self.plan.elements
+        return np.concatenate([surface.position[on], surface.director[on]], axis=1)
 
     @abstractmethod
     def surface_change(self, change: np.ndarray) -> np.ndarray:

@@ -35,7 +35,7 @@ from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
 from fem_reference.surface.carried import add_carried
 from fem_reference.surface.materials import Section, constants_of
-from fem_reference.surface.mesh import field_mesh, plan_of
+from fem_reference.surface.mesh import plan_of, quarters
 from fem_reference.surface.rod import block_diagonal
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
@@ -146,9 +146,6 @@ class DiscreteShell(DiscreteElements):
         nodes, along = np.nonzero(self.supports.tilt & ~self.supports.director[:, None])
         axes[nodes] = along
         return axes
-
-    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
-        return self.of_unit_directors(np.where(self._held, self._target(at), q.reshape(-1, 3)))
 
     def change(self, at: float) -> np.ndarray:
         """Prescribed change (2, n, 3) of positions [m] and directors."""
@@ -303,9 +300,6 @@ class DiscreteShell(DiscreteElements):
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         return self.on_coordinates(np.concatenate([displacement, turn]))
 
-    def on_surface(self, q: np.ndarray) -> np.ndarray:
-        return self.element.reference + self.gather(q)
-
     def surface_change(self, change: np.ndarray) -> np.ndarray:
         return self.gather(change)
 
@@ -328,7 +322,8 @@ class DiscreteShell(DiscreteElements):
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
         directors = (q[3 * self.nodes :].reshape(-1, 3) + self._upright)[: self.nodes]
-        return field_mesh(self.plan.nodes, self.plan.elements, self.displacement(q), directors, **fields)
+        fields |= {"displacement": self.displacement(q), "director": directors}
+        return FieldMesh(self.flat, [("quad", quarters(self.plan.elements.T))], fields)
 
     def surface(self, q: np.ndarray) -> Surface:
         return Surface(self.plan, self.position(q), self.directors(q)[: self.nodes], self.own)

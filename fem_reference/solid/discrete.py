@@ -111,9 +111,6 @@ class DiscreteSolid(DiscreteElements):
     def _turned_fully(self) -> np.ndarray:
         return self.column_supports.bases(1.0)
 
-    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
-        return q + self._to_supports(self.frame(q, at), q, self.column_supports.target(*self.instant(at)))
-
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         rate = self.column_supports.spread(self.supports.rate(time))
         return v + self._to_supports(self.frame(q, time), v, rate)
@@ -134,7 +131,8 @@ class DiscreteSolid(DiscreteElements):
         return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
-        return self._constant_basis if self.moving else self._basis(self.frame(q, at))
+        bases = self.frame(q, at)
+        return self._constant_basis if bases is self._turned_fully else self._basis(bases)
 
     @cached_property
     def _constant_basis(self) -> csc_matrix:
@@ -145,16 +143,6 @@ class DiscreteSolid(DiscreteElements):
         of_columns = bsr_matrix((bases, blocks[:-1], blocks)).tocsc()
         aside = identity(len(self._held_aside), format="csc")
         return block_diag([of_columns, aside], format="csc")[:, self._free]
-
-    def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
-        on_components = applied(shape.frame.swapaxes(1, 2), self._on_columns(force))
-        found: np.ndarray = np.append(on_components, force[self._cut :])[self._free]
-        return found
-
-    def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
-        every = np.zeros(self.size)
-        every[self._free] = step
-        return np.append(applied(shape.frame, self._on_columns(every)), every[self._cut :])
 
     def _on_columns(self, q: np.ndarray) -> np.ndarray:
         """The columns' part (n, levels, 3)."""
@@ -242,15 +230,12 @@ class DiscreteSolid(DiscreteElements):
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         return self._padded(self.column_supports.spread(np.array([displacement, turn])))
 
-    def on_surface(self, q: np.ndarray) -> np.ndarray:
-        return self._averages(self.columns.positions + self._on_columns(q))
-
     def surface_change(self, change: np.ndarray) -> np.ndarray:
-        return self._averages(self._on_columns(change))
+        return np.concatenate([*self._averages(self._on_columns(change))[:, self.plan.elements]], axis=1)
 
     def _averages(self, positions: np.ndarray) -> np.ndarray:
-        averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.plan.elements]
-        return np.concatenate([averages[0], averages[1]], axis=1)
+        """Means and directors (2, n, 3) of columns at positions (n, levels, 3)."""
+        return np.einsum("pl,nlc->pnc", self.columns.averages, positions)
 
     def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
         out = np.zeros_like(self.columns.positions)
@@ -285,8 +270,7 @@ class DiscreteSolid(DiscreteElements):
         return self.columns.field_mesh(self._on_columns(q))
 
     def surface(self, q: np.ndarray) -> Surface:
-        position = self.columns.positions + self._on_columns(q)
-        mean, director = np.einsum("pl,nlc->pnc", self.columns.averages, position)
+        mean, director = self._averages(self.columns.positions + self._on_columns(q))
         return Surface(self.plan, mean, director, self.own)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:

@@ -74,8 +74,10 @@ def section_of(material: Material | Constants, thickness: float) -> Section:
     """The section of a sheet of this material, homogeneous through its thickness, or of its plies."""
     if isinstance(material, Constants) and material.plies:
         return Section(*plies.section(material.plies, thickness))
-    laws = (membrane_stiffness, bending_stiffness, transverse_shear_stiffness)
-    return Section(*(law(material, thickness) for law in laws))
+    membrane = times(thickness, plane_stress(material))
+    return Section(
+        membrane, bending_stiffness(material, thickness), transverse_shear_stiffness(material, thickness)
+    )
 
 
 def plane_stress(material: Material | Constants) -> np.ndarray:
@@ -91,11 +93,6 @@ def plane_stress(material: Material | Constants) -> np.ndarray:
 def shear_modulus(material: Material | Constants) -> float:
     """G = E/2(1 + ν) [Pa]."""
     return material.young / (2.0 * (1.0 + material.poisson))
-
-
-def membrane_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
-    """h C (3, 3) [N/m]."""
-    return times(thickness, plane_stress(material))
 
 
 def bending_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:

@@ -16,7 +16,6 @@ from skfem import Dofs, ElementQuad2, MeshQuad
 
 from fem_reference.surface.borders import Borders, borders_of, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
-from sheetbench.answers.solution import FieldMesh
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseCurve, Scene, Sheet, Symmetric
@@ -289,16 +288,3 @@ def require_upright(mesh: MeshQuad) -> None:
 def quarters(element_nodes: np.ndarray) -> np.ndarray:
     """Nine-node elements (9, m) as bilinear cells (4 m, 4) for drawing."""
     return element_nodes.T[:, _QUARTERS].reshape(-1, 4)
-
-
-def field_mesh(
-    nodes: np.ndarray,
-    element_nodes: np.ndarray,
-    displacement: np.ndarray,
-    director: np.ndarray,
-    **more: np.ndarray,
-) -> FieldMesh:
-    """Nodes and bilinear quarters of the elements, with displacement [m], director and more nodal fields."""
-    points = np.column_stack([nodes, np.zeros(len(nodes))])
-    fields = {"displacement": displacement, "director": director, **more}
-    return FieldMesh(points, [("quad", quarters(element_nodes.T))], fields)

@@ -141,6 +141,11 @@ class Code(ABC):
         if not np.isfinite(found.displacement).all():
             status = Status.NON_FINITE
         displacement = np.nan_to_num(found.displacement)
+
+        def sample(points: np.ndarray) -> np.ndarray:
+            nodes, weights = mesh.weights(points)
+            return np.asarray(np.einsum("pk,pkc->pc", weights, displacement[nodes]))
+
         return Solution(
             model=self.name,
             label=f"{self.called} {mesh.label}",
@@ -150,7 +155,7 @@ class Code(ABC):
             iterations=found.iterations,
             setup_seconds=perf_counter() - began - found.seconds,
             solve_seconds=found.seconds,
-            sample=lambda points: mesh.sample(displacement, points),
+            sample=sample,
             reactions={},
             energies={},
             mesh=FieldMesh(mesh.positions, [(mesh.KIND, mesh.elements)], {"displacement": displacement}),

@@ -178,11 +178,6 @@ class Bricks:
         element, place = locate(self.plan, points)
         return self.number[nodes_of(self.plan)[1][element, :8], self.layers], serendipity(*place)
 
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, 3)."""
-        nodes, weights = self.weights(points)
-        return np.einsum("pk,pkc->pc", weights, displacement[nodes])
-
 
 @dataclass(frozen=True)
 class Tie:

@@ -102,11 +102,6 @@ class Triangles:
         nodes = np.column_stack([a, a + len(self.y), a + len(self.y) + 1, a + 1])
         return nodes, np.column_stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
 
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, 3)."""
-        nodes, weights = self.weights(points)
-        return np.einsum("pk,pkc->pc", weights, displacement[nodes])
-
 
 def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str, np.ndarray]:
     """Return the arrays that `comparisons.external.kratos.process` reads."""

@@ -10,7 +10,6 @@ import lumped.plies
 from fem_reference.surface import plies
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Material, SceneError, load
-from sheetbench.scenes.meaning.parameters import parameter
 from sheetbench.scenes.objects.orthotropy import Ply
 
 PLAIN = load("two-edges-clamped")
@@ -100,12 +99,6 @@ def test_lattice_and_shell_agree(name):
     found, shell = lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=12)
     points = scene.probe_points()
     assert found.balance.holds and relative(found.displacement(points), shell.displacement(points)) < 0.02
-
-
-@pytest.mark.parametrize("name", ["poisson", "young_3"])
-def test_unknowns_that_fibres_do_not_have_are_refused(name):
-    with pytest.raises(ValueError, match=f"'{name}'"):
-        parameter(with_fibres(**FIBRES), name)
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,6 @@
-"""Each option of each verb, alone beside a small command: the answer's numbers change, or it is refused for
-having no effect, and the function of Python answers alike. A refusal for another reason, as of a file that is
-not there, proves nothing and fails.
+"""Each option of each verb, alone: the answer's numbers change, in Python too, or it is refused.
 
-What is neither is in `SAME` or `SAME_OF`, with the reason. An option that is in no table fails the test: a
-new one needs a row.
+An option is in a table, or in `SAME` or `SAME_OF` with the reason.
 """
 
 import json

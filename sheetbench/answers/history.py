@@ -27,6 +27,7 @@ UNDAMPED = (
     "damping_time or damping_rate, or [air] its drag"
 )
 COMPONENTS = ("ux", "uy", "uz")
+WRENCH = (*((f"F{axis}", "N") for axis in "xyz"), *((f"M{axis}", "N·m") for axis in "xyz"))
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 
 
@@ -156,23 +157,20 @@ class History(Answer):
 
     def series(self) -> Table:
         """A row per sample: time, probes, energies, reactions and the actuators' total force."""
-        columns, values = [Column("time", "s")], [self.time]
+        found: list[tuple[str, str, np.ndarray]] = [("time", "s", self.time)]
         for name, u in self.probes.items():
-            columns += [Column(f"{name}.{component}", "m") for component in COMPONENTS]
-            values += list(u.T)
+            found += [(f"{name}.{component}", "m", of) for component, of in zip(COMPONENTS, u.T, strict=True)]
         known = {**self.accounts, "balance": self.balance} if self.energies else {}
-        for name, energy in known.items():
-            columns.append(Column(name, "J"))
-            values.append(energy)
+        found += [(name, "J", energy) for name, energy in known.items()]
         for name, force in self.reactions.items():
-            columns += [Column(f"{name}.F{axis}", "N") for axis in "xyz"]
-            values += list(force.T)
+            found += [(f"{name}.F{axis}", "N", of) for axis, of in zip("xyz", force.T, strict=True)]
         for name, wrench in self.actuators.items():
             for segment in range(wrench.shape[1]):
-                columns += [Column(f"{name}.{segment}.F{axis}", "N") for axis in "xyz"]
-                columns += [Column(f"{name}.{segment}.M{axis}", "N·m") for axis in "xyz"]
-                values += list(wrench[:, segment].T)
-        return Table("History", tuple(columns), tuple(zip(*(v.tolist() for v in values), strict=True)))
+                parts = zip(WRENCH, wrench[:, segment].T, strict=True)
+                found += [(f"{name}.{segment}.{part}", unit, of) for (part, unit), of in parts]
+        columns = tuple(Column(name, unit) for name, unit, _ in found)
+        rows = zip(*(values.tolist() for *_, values in found), strict=True)
+        return Table("History", columns, tuple(rows))
 
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
         """Return all samples in SI units, or the table of a name. Raises BadInput as `Answer.to_pandas`."""

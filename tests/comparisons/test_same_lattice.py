@@ -84,14 +84,12 @@ def verb(words):
     return ask
 
 
-def python(function, *given, **fixed):
+def python(function):
     """A function of the package: a grid as text is a number there, or numbers."""
 
     def call(scene, grid=None, **options):
         shape = {} if grid is None else {"grid": int(grid) if str(grid).isdigit() else grid}
-        found = function(sb.load(scene), *given, **fixed, **shape, **options)
-        if isinstance(found, lumped.Calibration):
-            raise Used(found)
+        function(sb.load(scene), **shape, **options)
 
     return call
 
@@ -101,10 +99,6 @@ def of_advice(scene, **options):
     found = TrialSolves(scene, Lattice(**options), ["lumped"]).candidates(linear=False)
     (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
     return resolve(scene, last).springs
-
-
-def listed(scene, grid=9, calibration="consistent", **options):
-    return sb.tradeoff(scene, grid=[grid], calibration=[calibration], shell=(), **options)
 
 
 FILE = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
@@ -122,17 +116,9 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     "advise": (python(of_advice), WORDS - {"grid"}),
     "live": (verb("live {} --no-browser"), GRIDS),
     "sb.solve": (python(sb.solve), WORDS),
-    "sb.compare": (python(sb.compare), WORDS),
-    "sb.compare of a motion": (python(sb.compare, duration=0.01), WORDS),
-    "sb.simulate": (python(sb.simulate, 0.01), WORDS),
-    "sb.modes": (python(sb.modes), WORDS),
-    "sb.modes of a state space": (python(sb.modes, state_space=20), WORDS),
-    "sb.identify": (python(sb.identify, "measured.csv", "thickness"), WORDS),
-    "sb.calibrate": (python(sb.calibrate), WORDS),
-    "sb.tradeoff": (python(listed), WORDS),
 }
-ANEW = {"calibrate", "sb.calibrate", "identify", "sb.identify"}  # make the springs, whatever the scene has
-NAMED = {"tradeoff", "sb.tradeoff"}  # list their calibrations, where the others leave them open
+ANEW = {"calibrate", "identify"}  # make the springs, whatever the scene has
+NAMED = {"tradeoff"}  # lists its calibrations, where the others leave them open
 CHOSEN = {*NAMED, "crosscheck", "advise"}
 UNABLE = {"live": ("5x7", "0.4:x0")}  # one number for the grid, one grading for all edges
 

@@ -1,11 +1,6 @@
-"""`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
+"""`make kills SEED=2`: campaigns, runs and trade-offs, killed at drawn instants and resumed to their end.
 
-    make kills SEED=2
-
-A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
-time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
-comes to its end. What had been kept by a kill must stand there unchanged ever after, and what stands there at
-the end must be what an undisturbed process leaves: nothing lost, nothing doubled, no partial file.
+What had been kept by a kill stands unchanged ever after; the end is what an undisturbed process leaves.
 """
 
 import json

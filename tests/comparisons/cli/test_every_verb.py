@@ -145,13 +145,6 @@ def test_a_help_page_cuts_nothing_off(monkeypatch, capsys, verb, width):
     assert "--help" in page and "…" not in page.replace("N,N,…", "")
 
 
-@pytest.mark.parametrize("verb", VERBS)
-def test_a_help_page_keeps_its_brackets(verb):
-    command = verb_group().commands[verb]
-    for text in (command.help, *(getattr(option, "help", None) for option in command.params)):
-        assert not re.search(r"(?<!\\)\[[a-z/@#]", text or "", re.IGNORECASE)  # it would be rich's markup
-
-
 def test_help_lists_fifteen_verbs_on_a_screen(monkeypatch, capsys):
     """Of 40 lines and 80 columns, a line each."""
     monkeypatch.setenv("COLUMNS", "80")

@@ -66,13 +66,6 @@ def test_the_references_row_is_of_the_extrema_that_the_other_row_is_of():
     assert truth.last < extrema(other.time, other.probes["P"][:, 2])[-1, 0]
 
 
-def test_what_does_not_swing_has_no_period():
-    still = swing(5.0, 0.05, 0.0)
-    assert len(extrema(still.time, still.probes["P"][:, 2])) == 0
-    measured, _ = measured_alike(still, still)
-    assert (measured.peak, measured.period, measured.decay) == (None, None, None)
-
-
 def test_the_reference_has_a_bar_by_mesh_and_by_step():
     both = sb.compare("two-edges-settling", duration=0.05, **SMALL)
     assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2
@@ -134,9 +127,3 @@ def test_runs_of_a_comparison_are_gone_on_with(tmp_path):
         for probe, u in one.probes.items():
             assert np.array_equal(second.histories[name].probes[probe], u)
     assert len(list(tmp_path.iterdir())) == 4  # the lattice, the shell, and its two for the bars
-
-
-def test_an_undamped_sheet_is_said_not_to_settle():
-    swinging = sb.simulate("one-edge-clamped", 0.02, grid=3)
-    assert any("does not settle" in note for note in swinging.notes())
-    assert not any("settle" in note for note in sb.simulate("two-edges-settling", 0.02, grid=3).notes())

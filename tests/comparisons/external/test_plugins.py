@@ -150,20 +150,3 @@ def test_mujoco_refuses_what_it_does_not_have(shipped):
     for name, value in (("elastic2d", "none"), ("grid", 2)):
         with pytest.raises(BadInput, match=f"{name} = "):
             models.solve(base, "mujoco", **{name: value})
-
-
-@pytest.mark.parametrize(
-    ("model", "settings", "said"),
-    [
-        ("lumped", {"elements": 4}, "lumped: no setting 'elements'; it has grid"),
-        ("lumped", {"grid": 1}, "grid = 1x1x2"),
-        ("lumped", {"grid": ["a", "b"]}, "grid = "),
-        ("plate", {"layers": 2}, "plate: no option 'layers'; it has hard_edges"),
-        ("solid", {"layers": "two"}, "solid: layers = 'two'"),
-        ("shell", {"elements": "many"}, "elements = 'many'"),
-        ("shell", {"elements": []}, "elements = "),
-    ],
-)
-def test_settings_of_our_own_models_are_looked_at_before_solving(model, settings, said):
-    with pytest.raises(BadInput, match=said):
-        models.solve(scenes.load("one-edge-clamped"), model, **settings)

@@ -42,15 +42,6 @@ def lines(case, values):
     ]
 
 
-def test_right_answers_are_not_distinguishable_and_lead_the_front(write):
-    found = score(write(seconds=1e-3))
-    assert not found.faults and not any(row.distinguishable for row in found.rows)
-    assert len(found.rows) == 80
-    assert found.leaderboard[0].model == "answers" and found.front == ["answers"]
-    bars = [case.bar for case in references("statics").values()]
-    assert found.score == pytest.approx(np.exp(np.mean(np.log(bars))))
-
-
 def test_an_error_is_that_of_the_design(write):
     found = score(write(change=lambda case, values: 1.02 * values))
     assert [row.error for row in found.rows if row.case == "thick"][-1] == pytest.approx(0.02)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from campaigns import Here
 from commands import run
-from matplotlib.figure import Figure
 from verbs import run_here
 
 from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
@@ -16,7 +15,6 @@ from comparisons.sweep.campaign import campaign
 from comparisons.sweep.peak_memory import with_peak_memory
 from comparisons.sweep.solved import Ask, Solved
 from comparisons.tradeoff import statics
-from comparisons.tradeoff.figure import logarithmic
 from comparisons.tradeoff.motion import dynamic_tradeoff
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
@@ -153,11 +151,3 @@ def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch):
     busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])
     assert busy.startswith("1 of 2 times are too long: the machine was busy (load 20 on 2 processors")
     assert wide.startswith("1 of 2 timings vary by more than a factor of 2, by up to 3")
-
-
-@pytest.mark.parametrize(("most", "labels"), [(100, "50 60"), (1000, "50"), (3000, "")])
-def test_a_short_axis_has_numbers_between_powers_of_ten(most, labels):
-    axis = Figure().add_subplot(xlim=(45, most))
-    logarithmic(axis)
-    label = axis.xaxis.get_minor_formatter()
-    assert " ".join(filter(None, map(label, (50, 60)))) == labels

@@ -15,7 +15,7 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshQuad
 
 from fem_reference.discrete.shape import SheetShape
@@ -86,6 +86,13 @@ class DiscretePlate(DiscreteShell):
     def _frame(self) -> np.ndarray:
         return super().frame(np.zeros(self.size), 0.0)
 
+    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
+        return self._constant_basis
+
+    @cached_property
+    def _constant_basis(self) -> csc_matrix:
+        return super().basis(np.zeros(self.size))
+
     def change(self, at: float) -> np.ndarray:
         share, time = self.instant(at)
         out = np.zeros((2, self.nodes, 3))
@@ -103,7 +110,17 @@ class DiscretePlate(DiscreteShell):
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
-        return self.with_mass(self.folded(self.element.tangent(moduli)).data, shape, by_a)
+        stiffness = moduli[0, 0, 0] / self.element.stiffness[0, 0, 0] * self._stiffness
+        return stiffness + by_a * self._mass if by_a else stiffness
+
+    @cached_property
+    def _stiffness(self) -> np.ndarray:
+        """Data of K, which moduli are a multiple of everywhere."""
+        return self.folded(self.element.tangent(self.element.stiffness)).data
+
+    @cached_property
+    def _mass(self) -> np.ndarray:
+        return self.folded(self._inertia).data
 
     def folded(self, blocks: np.ndarray) -> csr_matrix:
         """The sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""

@@ -101,7 +101,7 @@ class PlateElements:
         return self.stiffness
 
     def tangent(self, moduli: np.ndarray) -> np.ndarray:
-        """Bᵀ D B (m, 54, 54)."""
+        """Bᵀ D B (m, 54, 54) of moduli (9 m, 8, 8)."""
         m, points = len(self.forms), self.forms.reshape(-1, 8, 54)
         return self.forms.swapaxes(1, 2) @ (moduli @ points).reshape(m, -1, 54)
 

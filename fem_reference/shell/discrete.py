@@ -266,10 +266,6 @@ class DiscreteShell(DiscreteElements):
         on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
         data, slots, on = self.pattern.zeros(on_turns), self.pattern.slots[0], self.plan.elements
         add_tangents(data, slots, self.element, shape.operator, moduli, stress, on, shape.frame)
-        return self.with_mass(data, shape, by_a)
-
-    def with_mass(self, data: np.ndarray, shape: SheetShape, by_a: float) -> np.ndarray:
-        """The data of a matrix with so many times the elements' M."""
         if by_a:
             blocks = self.fold(shape, np.arange(len(self.plan.elements)), self._inertia)
             add_blocks(data, self.pattern.slots[0], by_a * blocks)

@@ -1,5 +1,6 @@
 """Compiled kernels: kept, compiled anew with what they are made of, and announced."""
 
+import gc
 import json
 import os
 import platform
@@ -16,6 +17,8 @@ import scipy.sparse as sp
 from dynamic_cases import make_scene, springs
 from llvmlite.binding import get_host_cpu_features
 from numba import njit, typeof
+from numba.core.datamodel import default_manager
+from numba.core.errors import TypingError
 
 import lumped
 from lumped.dynamics.explicit.steps import march
@@ -221,6 +224,17 @@ def numbers():
         "verlet": lumped.simulate(settling, springs, 5e-4, integrator="verlet").probes["P4"].tolist(),
     }
 """
+
+
+def test_compiling_collects_garbage_again_afterwards_and_counts_an_arrays_memory_alone():
+    @njit
+    def wrong(a):
+        return a.nothing
+
+    with pytest.raises(TypingError):
+        wrong(np.zeros(2))
+    assert gc.isenabled()
+    assert default_manager.lookup(typeof(np.zeros((2, 2, 2, 2)))).traverse(None) == []
 
 
 @pytest.mark.nightly  # half a minute of Python

@@ -69,7 +69,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SHIPPED = Path(__file__).resolve().parent / "compiled"
 OURS = ("lumped", "fem_reference", "sheetbench.numerics", "sheetbench.runs")
 IMPORTS = re.compile(rf"^from ((?:{'|'.join(OURS)})[\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
-COMPILED = re.compile(r"\b(njit|NamedTuple|intrinsic|OPTIONS)\b")
+COMPILED = re.compile(r"\b(njit|inner|NamedTuple|intrinsic|OPTIONS)\b")
 NOTICE = "compiling for this machine, once: a minute or two …"
 
 
@@ -145,9 +145,9 @@ def _remove_old(folder: Path) -> None:
 
 @cache
 def stamp(path: Path) -> str:
-    """A digest of a file and of those with kernels that it is made of."""
+    """A digest of a file, of those with kernels that it is made of, and of this file, which says how."""
     digest = hashlib.sha256()
-    for source in sorted(made_of(path)):
+    for source in (Path(__file__), *sorted(made_of(path))):
         digest.update(_text(source).encode())
     return digest.hexdigest()
 
@@ -230,8 +230,8 @@ def _arrays_hold_one_reference() -> None:
     @register_model(types.Array)
     class _Array(models.ArrayModel):  # type: ignore[misc]
         def traverse(self, builder: Any) -> list[Any]:
-            """Return no parts that count references of their own."""
-            return []
+            """Return the one part that has references."""
+            return [part for part in super().traverse(builder) if isinstance(part[0], types.MemInfoPointer)]
 
 
 def _mismatches_in_brief() -> None:

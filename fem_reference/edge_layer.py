@@ -43,20 +43,6 @@ class Missed(NamedTuple):
 NOTHING = Missed(0.0, 0.0)
 
 
-def missed(scene: Scene, counts: tuple[int, int], graded: bool) -> Missed:
-    """What a mesh of so many elements along x and y misses."""
-    lines = lines_of(scene, counts, graded)
-    share, stiffening = 0.0, 0.0
-    for name in sorted(scene.twisting_edges()):  # alike in every process
-        edge = EDGES[name]
-        cells = np.diff(lines[edge.normal_axis])
-        inwards = cells[::-1] if edge.far_end else cells
-        lost = 1.0 - captured(inwards / (LENGTH * scene.sheet.thickness))
-        share = max(share, lost)
-        stiffening += lost * SOFTENING * scene.sheet.thickness / scene.sheet.lengths[edge.normal_axis]
-    return Missed(share, stiffening)
-
-
 def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
     """What the mesh of an answer with these settings misses: graded unless they say otherwise.
 
@@ -68,10 +54,18 @@ def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
     even = settings.get("graded") is False or settings.get("grading") == "uniform"
     bricks = "grading" in settings
     rows = not bricks or has_lines(borders_of(scene))
-    found = missed(scene, counts, rows and not even)
+    lines, thickness = lines_of(scene, counts, rows and not even), scene.sheet.thickness
+    share, stiffening = 0.0, 0.0
+    for name in sorted(scene.twisting_edges()):  # alike in every process
+        edge = EDGES[name]
+        cells = np.diff(lines[edge.normal_axis])
+        lost = 1.0 - captured((cells[::-1] if edge.far_end else cells) / (LENGTH * thickness))
+        share = max(share, lost)
+        stiffening += lost * SOFTENING * thickness / scene.sheet.lengths[edge.normal_axis]
     own = [(name, patch.own[name]) for patch in scene.patches for name in ELASTIC & set(patch.own)]
-    steps = bricks and any(value != getattr(scene.material, name) for name, value in own)
-    return found._replace(share=1.0) if steps else found
+    if bricks and any(value != getattr(scene.material, name) for name, value in own):
+        share = 1.0
+    return Missed(share, stiffening)
 
 
 def captured(cells: np.ndarray) -> float:

@@ -56,7 +56,6 @@ class Assembly:
             weights,
             twisting,
             calibration.grading,
-            calibration.half,
             calibration.per_area,
         )
         # Habibi et al.'s lattice has equal masses; any other one is as inert at its edges as the sheet

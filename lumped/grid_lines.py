@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sheetbench.scenes import PiecewiseLinear, Sheet
+from sheetbench.scenes import PiecewiseCurve, Sheet
 from sheetbench.scenes.objects.grading import (
     Graded,
     Grading,
@@ -34,13 +34,11 @@ from sheetbench.scenes.objects.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """at: (n,) [m] places of the lines from 0 on; widths: (n − 1,) [m] of the cells between; mean: [m]; half:
-    whether they end at a plane of symmetry."""
+    """at: (n,) [m] places of the lines from 0 on; widths: (n − 1,) [m] of the cells between; mean: [m]."""
 
     at: np.ndarray
     widths: np.ndarray
     mean: float
-    half: bool = False
 
     @property
     def tributary(self) -> np.ndarray:
@@ -54,54 +52,43 @@ class Lines:
         cell = np.clip(np.searchsorted(self.at, x, side="right") - 1, 0, len(self.widths) - 1)
         return cell, (x - self.at[cell]) / self.widths[cell]
 
-    def around(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The `count` lines nearest to the cells of places x (k,) [m], all where there are fewer; the weight
-        of each in the polynomial through them (Lagrange's), on a line its own is 1; and whether each is a
-        line's image beyond the plane of symmetry. (k, count) each."""
-        n = len(self.at)
-        number, at = np.arange(n), self.at
-        if self.half:
-            number, at = np.append(number, number[-2::-1]), np.append(at, 2.0 * at[-1] - at[-2::-1])
-        count = min(count, len(at))
-        first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(at) - count)
+    def around(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """The `count` lines nearest to the cells of places x (k,) [m], all where there are fewer, and the
+        weight of each in the polynomial through them (Lagrange's), on a line its own is 1; (k, count)."""
+        count = min(count, len(self.at))
+        first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(self.at) - count)
         chosen = first[:, None] + np.arange(count)
-        places = at[chosen]
+        places = self.at[chosen]
         weights = np.ones_like(places)
         for line in range(count):
             for other in range(count):
                 if other != line:
                     weights[:, line] *= (x - places[:, other]) / (places[:, line] - places[:, other])
-        return number[chosen], weights, chosen >= n
+        return chosen, weights
 
 
-def grid_lines(
-    sheet: Sheet, grid: Grid, grading: Graded = 0.0, half: tuple[bool, bool] = (False, False)
-) -> tuple[Lines, Lines]:
-    """The lines across x and across y. half: along which axes the sheet is the lower half of the one that was
-    graded, up to a plane of symmetry.
-
-    Raises BadInput for a grading outside 0 to 1.
-    """
+def grid_lines(sheet: Sheet, grid: Grid, grading: Graded = 0.0) -> tuple[Lines, Lines]:
+    """The lines across x and across y. Raises BadInput for a grading outside 0 to 1."""
     by = amount(grading)
     towards(by)
     lines = []
     for axis in (0, 1):
         ends = grading.ends(axis) if isinstance(grading, Grading) else (True, True)
-        found = _lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends, half[axis])
+        found = _lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends)
         lines.append(_through(found, grading.places[axis]) if isinstance(grading, Grading) else found)
     return lines[0], lines[1]
 
 
-def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool], half: bool) -> Lines:
+def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool]) -> Lines:
     mean = length / (count - 1)
     if not grading:
-        return Lines(np.arange(count) * mean, np.full(count - 1, mean), mean, half)
-    if half or not all(ends):
-        whole = _lines(2.0 * length, 2 * count - 1, grading, (True, True), False)
+        return Lines(np.arange(count) * mean, np.full(count - 1, mean), mean)
+    if not all(ends):
+        whole = _lines(2.0 * length, 2 * count - 1, grading, (True, True))
         at, widths = whole.at[:count], whole.widths[: count - 1]
         if not ends[0]:
             at, widths = at[-1] - at[::-1], widths[::-1]
-        return Lines(at, widths, mean, half)
+        return Lines(at, widths, mean)
     t = np.linspace(0.0, 1.0, count)
     at = length * ((1.0 - grading) * t + 0.5 * grading * (1.0 - np.cos(np.pi * t)))
     widths = np.diff(at)
@@ -115,7 +102,7 @@ def _through(lines: Lines, places: Sequence[float]) -> Lines:
     if not kept:
         return lines
     numbers = np.arange(last + 1)
-    in_cells = PiecewiseLinear(lines.at.tolist(), numbers.tolist()).at(np.array(kept))
+    in_cells = PiecewiseCurve(lines.at.tolist(), numbers.tolist()).at(np.array(kept))
     moved = [0, *line_numbers(in_cells.tolist(), last), last]
-    at = PiecewiseLinear(moved, [0.0, *kept, end]).at(numbers)
+    at = PiecewiseCurve(moved, [0.0, *kept, end]).at(numbers)
     return Lines(at, np.diff(at), lines.mean)

@@ -201,11 +201,10 @@ def build(
     weights: Weights = "tributary",
     twisting: frozenset[str] = frozenset(),
     grading: Graded = 0.0,
-    half: tuple[bool, bool] = (False, False),
     per_area: np.ndarray | None = None,
 ) -> Lattice:
     """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
-    mass the same share, as Habibi et al. have them. grading, half: of the grid's lines (`lumped.grid_lines`).
+    mass the same share, as Habibi et al. have them. grading: of the grid's lines (`lumped.grid_lines`).
     per_area: of the cells (ny − 1, nx − 1) [kg/m²], where some are not there and have none.
 
     Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights
@@ -218,7 +217,7 @@ def build(
     if weights == "full" and grading:
         raise BadInput(f"weights = 'full': equal masses are for equal cells, not for grading = {grading:g}")
     present = None if per_area is None else per_area > 0.0
-    lines = across_x, across_y = grid_lines(sheet, grid, grading, half)
+    lines = across_x, across_y = grid_lines(sheet, grid, grading)
     j, i, k = _indices(grid)
     heights = (k - (layers - 1) / 2) * layer_distance
     positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)

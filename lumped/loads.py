@@ -32,7 +32,7 @@ from sheetbench.scenes import (
     AreaLoad,
     EdgeLoad,
     FactorTable,
-    PiecewiseLinear,
+    PiecewiseCurve,
     PointLoad,
     Pressure,
     Scene,
@@ -49,7 +49,7 @@ class LoadPart:
     an edge, [N·m] by column, turn.
     """
 
-    history: PiecewiseLinear | None
+    history: PiecewiseCurve | None
     dead: np.ndarray
     pressure: np.ndarray
     moments: list[tuple[np.ndarray, np.ndarray, float]] = field(default_factory=list)
@@ -122,7 +122,7 @@ class Loads:
     def _part(self, history: FactorTable | None) -> LoadPart:
         """The part with this history, made when it is first requested."""
         if history not in self._parts:
-            course = None if history is None else PiecewiseLinear(history.time, history.factor)
+            course = None if history is None else PiecewiseCurve(history.time, history.factor)
             pressure = np.zeros(len(self._assembly.lattice.mid_cells))
             self._parts[history] = LoadPart(course, np.zeros((self._assembly.pattern.size, 3)), pressure)
         return self._parts[history]

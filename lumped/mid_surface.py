@@ -39,7 +39,7 @@ class MidSurface:
 
     def of(self, field: np.ndarray) -> np.ndarray:
         """Values (n, 3) at the points of a field of vectors over the masses, (masses and more, 3)."""
-        values: np.ndarray = np.einsum("pcq,pclq->pq", self._share, field[self._nodes])
+        values: np.ndarray = np.einsum("pc,pclq->pq", self._share, field[self._nodes])
         return values
 
     def matrix(self, size: int) -> sp.csr_array:
@@ -49,22 +49,22 @@ class MidSurface:
         shape = (points, around, layers, 3)
         rows = np.broadcast_to(3 * np.arange(points)[:, None, None, None] + axes, shape)
         columns = 3 * self._nodes[..., None] + axes
-        values = np.broadcast_to(self._share[:, :, None, :], shape)
+        values = np.broadcast_to(self._share[:, :, None, None], shape)
         entries = (values.ravel(), (rows.ravel(), columns.ravel()))
         return sp.csr_array(sp.coo_array(entries, shape=(3 * points, 3 * size)))
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
         """The transpose: values (n, 3) at the points shared among the masses, (size, 3)."""
         out = np.zeros((size, 3))
-        parts = (self._share * np.asarray(values, float)[:, None, :])[:, :, None, :]
+        parts = (self._share[..., None] * np.asarray(values, float)[:, None, :])[:, :, None, :]
         np.add.at(out, self._nodes, np.broadcast_to(parts, (*self._nodes.shape, 3)))
         return out
 
 
 @kept(last=8, most=2**16, size=lambda lattice, points, _: points.nbytes + 8 * lattice.mass_count)
 def _nodes_and_shares(lattice: Lattice, points: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """The masses (n, columns, layers) around plan points (n, 2) [m], and what share of each component every
-    one of a column has in the value there, (n, columns, 3). Raises BadInput for points off the sheet."""
+    """The masses (n, columns, layers) around plan points (n, 2) [m], and what share every one of a
+    column has in the value there, (n, columns). Raises BadInput for points off the sheet."""
     places = [lines.index(points[:, axis])[1] for axis, lines in enumerate(lattice.lines)]
     outside = np.max(np.abs(np.array(places) - 0.5), axis=0) > 0.5 + 1e-9
     if outside.any():
@@ -72,13 +72,9 @@ def _nodes_and_shares(lattice: Lattice, points: np.ndarray, order: int) -> tuple
     if lattice.per_area is not None:
         return _near_rims(lattice, lattice.per_area, points, order)
     ends = [lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)]
-    (i, x, beyond_x), (j, y, beyond_y) = ends
-    columns = lattice.columns()[j[:, :, None], i[:, None, :]]
-    signs = np.ones((*columns.shape[:3], 3))  # an image moves across its plane of symmetry the other way
-    signs[..., 0] -= 2.0 * beyond_x[:, None, :]
-    signs[..., 1] -= 2.0 * beyond_y[:, :, None]
-    weights = y[:, :, None, None] * x[:, None, :, None] / lattice.grid[2] * signs
-    return columns.reshape(len(points), -1, lattice.grid[2]), weights.reshape(len(points), -1, 3)
+    (i, x), (j, y) = ends
+    columns = lattice.columns()[j[:, :, None], i[:, None, :]].reshape(len(points), -1, lattice.grid[2])
+    return columns, (y[:, :, None] * x[:, None, :] / lattice.grid[2]).reshape(len(points), -1)
 
 
 def _near_rims(
@@ -104,9 +100,8 @@ def _near_rims(
             found = known[other]
             row, column = found.rows - cell[0] + reach, found.over - cell[1] + reach
             share[which[:, None], row, column] += weight[:, None] * found.at(points[which])
-    share = share.reshape(len(points), -1, 1) / lattice.grid[2]
     nodes = columns.reshape(len(points), -1, lattice.grid[2])
-    return nodes, np.broadcast_to(share, (*share.shape[:2], 3))
+    return nodes, share.reshape(len(points), -1) / lattice.grid[2]
 
 
 @dataclass(frozen=True, eq=False)

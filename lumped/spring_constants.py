@@ -175,21 +175,6 @@ class Springs:
         times = {name: np.ones_like(factor) if name == "gent_limit" else factor for name in self.of}
         return replace(self, of={name: array * times[name] for name, array in self.of.items()}, edges={})
 
-    def halved(self, axis: int, rows: int, columns: int) -> Springs:
-        """Of the first rows and columns of cells, up to a plane of symmetry across the axis: a free edge
-        opposite it stands for two opposite ones."""
-        edges = {
-            name: tuple(pair[min(k, len(pair) - 1)] for k in (0, 1)) for name, pair in self.edges.items()
-        }
-        strip, edge = (edges.get(f"{name}_shear", (np.zeros(1),) * 2) for name in ("strip", "edge"))
-        edges["edge_shear"] = tuple((strip if k == axis else edge)[k] for k in (0, 1))
-        cut = {name: (pair[0][:rows], pair[1][:columns]) for name, pair in edges.items()}
-        return replace(
-            self,
-            of={name: array[:, :rows, :columns] for name, array in self.of.items()},
-            edges={name: either(*pair) for name, pair in cut.items()},
-        )
-
     def names(self) -> list[str]:
         """Names of the constants that are not zero, one a direction where directions differ."""
         found: list[str] = []

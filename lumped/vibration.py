@@ -30,13 +30,8 @@ from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, require_stati
 
 @dataclass(frozen=True, repr=False)
 class Modes(NaturalModes):
-    """frequencies: (count,) [Hz], ascending; shapes: (count, n, 3), largest component 1, of the masses of
-    `lattice`; rigid: rigid motions left out; unknowns of the eigenproblem."""
+    """Shapes are of the masses of `lattice`, their largest component 1."""
 
-    frequencies: np.ndarray
-    shapes: np.ndarray
-    rigid: int
-    unknowns: int
     lattice: Lattice
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
@@ -46,10 +41,6 @@ class Modes(NaturalModes):
 
     def heading(self) -> tuple[str, str, str]:
         return f"{len(self.frequencies)} modes of the lattice", "", ""
-
-    @property
-    def left_out(self) -> int:
-        return self.rigid
 
 
 def modes(

@@ -15,9 +15,6 @@ from importlib import import_module as _import_module
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 if _TYPE_CHECKING:
-    from collections.abc import Callable as _Callable
-    from typing import Any as _Any
-
     import sheetbench.scenes as scenes
     from comparisons.codes.cell import Cell
     from comparisons.codes.cell import cell_of as cell
@@ -27,6 +24,7 @@ if _TYPE_CHECKING:
     from sheetbench.answers.history import History
     from sheetbench.answers.solution import Solution, Status
     from sheetbench.face import solve, study
+    from sheetbench.face import verb as _verb
     from sheetbench.scenes import (
         BadInput,
         Chain,
@@ -50,19 +48,8 @@ if _TYPE_CHECKING:
         load,
     )
 
-    calibrate: _Callable[..., _Any]
-    check: _Callable[..., _Any]
-    compare: _Callable[..., _Any]
-    crosscheck: _Callable[..., _Any]
-    identify: _Callable[..., _Any]
-    modes: _Callable[..., _Any]
-    new: _Callable[..., _Any]
-    report: _Callable[..., _Any]
-    score: _Callable[..., _Any]
-    simulate: _Callable[..., _Any]
-    stability: _Callable[..., _Any]
-    tradeoff: _Callable[..., _Any]
-    verify: _Callable[..., _Any]
+    calibrate = check = compare = crosscheck = identify = modes = new = report = score = _verb("")
+    simulate = stability = tradeoff = verify = calibrate
 
 _VERBS = (
     "new", "check", "compare", "simulate", "tradeoff", "stability", "crosscheck", "calibrate", "identify",
@@ -99,9 +86,7 @@ def __getattr__(name: str) -> object:
     if name not in __all__:
         raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
     if name in _VERBS:
-        from sheetbench.face import verb
-
-        return verb(name)
+        return _import_module("sheetbench.face").verb(name)
     module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
     return getattr(module, _NAME_THERE.get(name, name))
 

@@ -7,7 +7,7 @@ import fake_solutions
 import pytest
 from hypothesis import HealthCheck, settings
 from matrix_options import scene_files
-from matrix_rows import check, tally
+from matrix_rows import check
 from verbs import few_runs, run_here, undraw
 
 from comparisons.sweep import here as table
@@ -97,18 +97,12 @@ def places(tmp_path_factory):
     return scene_files(tmp_path_factory.mktemp("scenes"))
 
 
-@pytest.fixture(scope="module")
-def counted():
-    with tally() as found:
-        yield found
-
-
 @pytest.fixture
-def ends(places, counted, tmp_path, undrawn, monkeypatch, capsys):
+def ends(places, tmp_path, undrawn, monkeypatch, capsys):
     """Run a command line of the matrices, names in braces filled in, and check how it ends."""
     known = {**places, "folder": str(tmp_path / "out"), "export": str(tmp_path / "export")}
 
     def ends(*arguments):
-        return check([one.format(**known) for one in arguments], counted, monkeypatch, capsys)
+        return check([one.format(**known) for one in arguments], monkeypatch, capsys)
 
     return ends

@@ -1,5 +1,4 @@
-"""The catalogue's answers are those of the table and in balance, the same on one thread, on two and in every
-process."""
+"""The catalogue's answers are the table's and in balance, on one thread, on two and in every process."""
 
 import json
 import os

@@ -1,5 +1,4 @@
-"""The documentation and the README: pages run as written; commands, options, scenes, links, targets and
-pictures are there, and numbers in pictures are those of the text."""
+"""Pages run as written; commands, options, scenes, links, targets, pictures and their numbers are there."""
 
 import pkgutil
 import re
@@ -131,14 +130,6 @@ def test_make_targets_exist():
     assert {"demo", "test", "check", "tests-of"} <= set(targets)
     for target in targets:
         assert re.search(rf"^{target}:", MAKE, re.M)
-
-
-def test_pictures_exist_and_are_small():
-    pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", TEXT)
-    assert pictures
-    for picture in pictures:
-        most = 1_000_000 if picture.endswith(".gif") else 300_000  # what moves is a few dozen pictures
-        assert (ROOT / picture).stat().st_size < most
 
 
 def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve():

@@ -14,7 +14,7 @@ import lumped
 from fem_reference.discrete.items import Drag
 from fem_reference.sheets import shell
 from lumped.dynamics import INTEGRATORS, drag
-from sheetbench.scenes import Air, BadInput, Gravity, load
+from sheetbench.scenes import Air, Gravity, load
 
 G = 9.81
 SHEET = load("one-edge-clamped")
@@ -63,11 +63,6 @@ def test_drag_is_normal_to_the_current_surface_and_its_tangent_a_derivative():
     blocks[np.arange(len(u)), :, np.arange(len(u))] = drag.velocity_tangent(air, u, v)
     numeric = derivative(lambda w: force(u, w)[1], v)
     assert np.allclose(blocks.reshape(numeric.shape), numeric, atol=1e-6 * np.abs(numeric).max())
-
-
-def test_an_export_refuses_air_by_name():
-    with pytest.raises(BadInput, match=r"air: an exported lattice has no drag; leave \[air\] out"):
-        lumped.describe(SHEET.replace(air=Air(drag=1.0)), springs(SHEET, 3))
 
 
 SWING = SHEET.replace(gravity=Gravity(acceleration=(0.0, 0.0, -0.1)), air=Air(drag=2.0, density=6e4))

@@ -6,17 +6,7 @@ from cases import GRAVITY, OBLONG, SILICONE, sheet
 
 from sheetbench import face
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import (
-    AreaLoad,
-    Chain,
-    Clamped,
-    EdgeMotion,
-    Gravity,
-    Material,
-    PointLoad,
-    Scene,
-    load,
-)
+from sheetbench.scenes import AreaLoad, Chain, Clamped, EdgeMotion, Gravity, Material, PointLoad, Scene, load
 from sheetbench.scenes.objects.supports import Motion
 
 FOUR = {"elements": 4}

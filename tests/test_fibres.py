@@ -7,11 +7,9 @@ from cases import relative
 import fem_reference
 import lumped
 import lumped.plies
-import sheetbench as sb
 from fem_reference.surface import plies
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Material, SceneError, load
-from sheetbench.scenes.meaning.parameters import parameter
 from sheetbench.scenes.objects.orthotropy import Ply
 
 PLAIN = load("two-edges-clamped")
@@ -101,29 +99,6 @@ def test_lattice_and_shell_agree(name):
     found, shell = lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=12)
     points = scene.probe_points()
     assert found.balance.holds and relative(found.displacement(points), shell.displacement(points)) < 0.02
-
-
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_identify_finds_moduli_and_the_angle_of_fibres(model, tmp_path):
-    """From a lattice's own answer; of a shell, from a shell's."""
-    true = with_fibres(load("one-edge-clamped"), **FIBRES, angle=0.4)
-    at = np.array([[0.188 * i / 3.0, 0.188 * j / 3.0] for i in (1, 2, 3) for j in range(4)])
-    solution = lumped.solve(true, lattice(true, 5)) if model == "lumped" else answer(true, model)
-    file = tmp_path / "measured.csv"
-    rows = np.column_stack([at, solution.displacement(at)])
-    np.savetxt(file, rows, delimiter=",", header="x,y,ux,uy,uz", comments="")
-    guess = with_fibres(load("one-edge-clamped"), **{**FIBRES, "young_1": 40e6}, angle=0.6)
-    size = {"grid": 5} if model == "lumped" else {"elements": 4}
-    found = sb.identify(guess, file, ["young_1", "angle"], model=model, refine=False, **size)
-    assert found.unknowns["young_1"].value == pytest.approx(54.5e6, rel=1e-3)
-    assert found.unknowns["angle"].value == pytest.approx(0.4, abs=1e-3)
-
-
-@pytest.mark.parametrize("name", ["poisson", "young_3"])
-def test_unknowns_that_fibres_do_not_have_are_refused(name):
-    with pytest.raises(ValueError, match=f"'{name}'"):
-        parameter(with_fibres(**FIBRES), name)
 
 
 @pytest.mark.parametrize(

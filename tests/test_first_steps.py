@@ -25,7 +25,6 @@ from sheetbench.scenes import (
 from sheetbench.scenes.language.schema import for_editors, json_schema
 from sheetbench.scenes.language.toml import to_toml
 from sheetbench.scenes.meaning.words import in_words
-from sheetbench.scenes.objects.supports import Motion
 from sheetbench.scenes.reference import markdown
 from sheetbench.scenes.template import template
 
@@ -91,21 +90,6 @@ def test_new_keeps_what_is_there(tmp_path, capsys):
     assert path.read_text() == "dear\n"
     assert run("new", str(path), "--overwrite") == 0
     assert load(path).name == "mine"
-    mine = ("--side", "120x80mm", "--thickness", "2mm", "--young", "0.25MPa")
-    assert run("new", str(path), "--overwrite", *mine) == 0
-    assert load(path).sheet.lengths == pytest.approx((0.12, 0.08)) and load(path).title == ""
-
-
-def test_check_says_how_a_scene_moves_and_names_the_command_of_its_motion(tmp_path, capsys):
-    scene = load("one-edge-clamped")
-    there = Motion(time=(0.0, 0.1, 0.5), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.005), (0.0, 0.0, 0.0)))
-    path = tmp_path / "moved.toml"
-    path.write_text(to_toml(scene.replace(supports=(scene.supports[0].replace(motion=there),))))
-    assert run("check", str(path)) == 0
-    printed = capsys.readouterr().out
-    assert "moved smoothly over 0.5 s, farthest by 5 mm along +z" in printed
-    assert f"sheetbench compare {path}\n" in printed
-    assert f"sheetbench compare {path} --duration 0.5\n" in printed
 
 
 def test_check_warns_and_says_what_floats(tmp_path, capsys):

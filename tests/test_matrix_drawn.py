@@ -1,6 +1,4 @@
-"""Every verb that asks about a scene, on sheets as people build them: in every pair with a material, a plan,
-parts that differ, and what holds and loads it. A row is one small command line.
-"""
+"""Every verb on sheets as people build them: in every pair with a material, a plan, parts and loads."""
 
 import pytest
 from matrix_rows import named, pairwise

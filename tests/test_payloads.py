@@ -71,8 +71,7 @@ def test_a_strip_with_a_body_at_its_tip_has_the_beams_first_frequency(model, mom
 
 
 def test_a_body_that_turns_about_the_strip_slows_its_twist_alone():
-    """Of the fixed rod with a third of its own inertia and the body's at the end, G J/L the spring; a point
-    gives way against the whole width."""
+    """Of the fixed rod with a third of its own inertia and the body's at the end, G J/L the spring."""
     plain, turning = (frequencies(strip(body(moments=m)), "shell", 4) for m in (None, (2e-6, 0.0, 0.0)))
     spring = YOUNG / 2.0 * WIDTH * THICK**3 / 3.0 * (1.0 - 0.63 * THICK / WIDTH) / LENGTH
     whole = 2e-6 + BEAM * (WIDTH**2 + THICK**2) / 36.0
@@ -106,19 +105,6 @@ def test_a_swing_keeps_its_energy_and_reaches_as_far_as_the_others(run):
     assert energies["kinetic"].max() > 0.2 * np.ptp(energies["potential"])
 
 
-def test_lattice_and_shell_swing_alike_as_gravity_comes_and_goes_and_all_masses_are_dragged():
-    pulse = {"time": (0.0, 0.03, 0.06), "factor": (0.0, 1.0, 0.2)}
-    scene = strip(body(moments=(2e-6, 2e-6, 1e-6)), gravity=Gravity((0.0, 0.0, -9.81), history=pulse))
-    scene = scene.replace(material=scene.material.replace(young=2e8, damping_rate=8.0))
-    every = {"duration": 0.12, "every": 0.01}
-    lattice = lumped.simulate(scene, springs(scene, (11, 3)), **every)
-    shell = fem_reference.simulate(scene, "shell", elements=1, **every)
-    ends = [np.array(history.probes["P3"]) for history in (lattice, shell)]
-    assert np.abs(ends[0] - ends[1]).max() < 0.01 * np.abs(ends[1]).max()
-    spent = [np.array(history.energies["dissipated"])[-1] for history in (lattice, shell)]
-    assert spent[0] == pytest.approx(spent[1], rel=0.02) and spent[0] > 0.0
-
-
 @pytest.mark.parametrize("model", ["lumped", "plate", "shell"])
 def test_a_mass_spread_over_a_part_is_a_patch_of_higher_density(model):
     denser = DENSITY + TIP / (0.05 * WIDTH * THICK)
@@ -146,7 +132,7 @@ def test_judges_are_given_the_weight():
     scene = strip(body(at=(0.17, 0.013)), {"where": PART, "mass": TIP}, young=2e8)
     bricks = Bricks.of(scene, 2, 2, "edges")
     assert forces(scene, bricks).sum(axis=0) == pytest.approx([0.0, 0.0, -2.0 * TIP * 9.81])
-    assert "*CLOAD" in deck(scene, bricks, False)
+    assert "*CLOAD" in deck(scene, bricks)
     pointed = strip(body(at=(0.17, 0.013)))
     handed = problem(pointed, Triangles.of(pointed.sheet, 2), np.ones(1))["force"]
     assert handed.sum(axis=0) == pytest.approx([0.0, 0.0, -TIP * 9.81])

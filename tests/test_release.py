@@ -1,9 +1,6 @@
-"""What a release carries beside the code: versions that agree, licences of others' work, packages that
-editors and type checkers find, as plain folders on the path."""
+"""What a release carries beside the code: versions that agree, licences of others' work."""
 
 import re
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
@@ -26,24 +23,3 @@ def test_the_wheel_carries_the_licence_of_every_package_in_the_viewer():
     bundled = re.search(r"/\*! With three\.js ([\d.]+)\.\n(.*?)\n\*/", viewer, re.S)
     assert bundled and bundled[1] in text and bundled[2] in text
     assert "LICENSES/*.txt" in PROJECT["license-files"]
-
-
-def test_the_packages_are_found_by_path_from_any_folder(tmp_path):
-    """setuptools' import hook, which editors and mypy do not follow, is no path."""
-    code = "from importlib.machinery import PathFinder as P; print(all(map(P.find_spec, {names})))"
-    names = ["sheetbench", "lumped", "fem_reference", "comparisons"]
-    found = subprocess.run(
-        [sys.executable, "-c", code.format(names=names)], cwd=tmp_path, capture_output=True, text=True
-    )
-    assert found.stdout.strip() == "True", "run `make install` again"
-
-
-def test_every_installation_of_the_makefile_is_by_path():
-    text = "".join((ROOT / place).read_text(encoding="utf-8") for place in ("Makefile", "studies/Makefile"))
-    assert "EDITABLE := --config-settings editable_mode=compat --editable" in text
-    # but of other codes alone, in environments of their own
-    installs = re.findall(r"pip install (?:.*\\\n)*.*", text)
-    known = re.compile(r"\$\(EDITABLE\)|--requirement|plug-ins")
-    assert len(installs) >= 3 and all(known.search(one) for one in installs)
-    for package in ("sheetbench", "lumped", "fem_reference", "comparisons"):
-        assert (ROOT / package / "py.typed").is_file()

@@ -1,5 +1,4 @@
-"""Scripts beside the packages: the gallery runs and draws, notebooks print what they keep, docstrings give
-what they say, and what benchmarks hold ours against is given the same equations."""
+"""Scripts beside the packages: gallery, notebooks, docstrings, and what benchmarks hold ours against."""
 
 import doctest
 import importlib

@@ -1,4 +1,4 @@
-"""Damping of a material from a loss factor, a decay, or measured moduli.
+"""Damping of a material from a loss factor or measured moduli.
 
     η = 2ζ = tan δ = 1/Q,    ζ = δ/√(4π² + δ²)
 
@@ -10,10 +10,9 @@ Sensors 24, 6137.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict
 from itertools import pairwise
-from math import ceil, hypot, log10, pi, prod
+from math import ceil, log10, pi, prod
 from pathlib import Path
 from typing import Any
 
@@ -30,13 +29,6 @@ from sheetbench.scenes.objects.relaxation import A_DECADE
 MODES = 10
 LEAST_SHARE = 1e-4  # of a branch that is kept
 FEWEST = 4  # rows of measured moduli
-MEASURES: dict[str, Callable[[float], float]] = {  # and the loss factor that each says; moduli say it all
-    "loss-factor": lambda value: value,
-    "damping-ratio": lambda value: 2.0 * value,
-    "log-decrement": lambda value: 2.0 * value / hypot(2.0 * pi, value),
-    "quality": lambda value: 1.0 / value,
-    "prony": float,
-}
 RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement is πη where η is small"
 
 
@@ -48,37 +40,27 @@ def branches(material: Material) -> list[tuple[float, float]]:
 
 def keys(
     loss_factor: float | None = None,
-    damping_ratio: float | None = None,
-    log_decrement: float | None = None,
-    quality: float | None = None,
     at: float | None = None,
     band: tuple[float, float] | None = None,
     prony: Path | None = None,
     option: str = "--",
 ) -> dict[str, Any]:
     """Return the keys of [material] that say this; none of nothing. Raises BadInput by the options' names."""
-    values = (loss_factor, damping_ratio, log_decrement, quality, prony)
-    given: dict[str, Any] = {n: v for n, v in zip(MEASURES, values, strict=True) if v is not None}
-    named = [*given]
     where = " and ".join(option + name for name, value in (("at", at), ("band", band)) if value is not None)
-    if len(named) > 1:
-        raise BadInput(f"{' and '.join(option + name for name in named)}: give one of them")
-    if not named:
-        if where:
-            raise BadInput(f"{where}: needs a loss factor: {option}loss-factor, damping-ratio or the like")
-        return {}
+    factor = f"{option}loss-factor"
     if prony is not None:
-        if where:
-            raise BadInput(f"{option}prony and {where}: measured moduli have a band of their own")
+        if beside := " and ".join(filter(None, [factor if loss_factor is not None else "", where])):
+            raise BadInput(f"{option}prony and {beside}: measured moduli have their own damping and band")
         return _series(prony)
-    value = given[named[0]]
-    if not value > 0.0:
-        raise BadInput(f"{option}{named[0]} = {value:g}: must be greater than 0")
+    if loss_factor is None:
+        if where:
+            raise BadInput(f"{where}: needs {factor}")
+        return {}
+    if not loss_factor > 0.0:
+        raise BadInput(f"{factor} = {loss_factor:g}: must be greater than 0")
     if (at is None) == (band is None):
-        raise BadInput(
-            f"{option}{named[0]}: give {option}at HZ, for one damper a spring, or {option}band LOW HIGH"
-        )
-    return {"loss_factor": MEASURES[named[0]](value), "frequency": at, "band": band}
+        raise BadInput(f"{factor}: give {option}at HZ, for one damper a spring, or {option}band LOW HIGH")
+    return {"loss_factor": loss_factor, "frequency": at, "band": band}
 
 
 def ratios(scene: Scene, springs: lumped.Calibration) -> tuple[ModeDamping, ...]:

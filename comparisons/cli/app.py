@@ -80,16 +80,11 @@ def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
 def _version_or_help(
     context: typer.Context,
     version: bool = typer.Option(False, "-V", "--version", help="Print the version and stop."),
-    verbose: bool = typer.Option(
-        False, "--verbose", help="With --version: what is installed: codes, solvers, processor, folders."
-    ),
 ) -> None:
-    if version or verbose:
+    if version:
         from importlib.metadata import version as version_of
 
-        from comparisons.cli import installed
-
-        print(installed.installed_parts() if verbose else f"sheetbench {version_of('sheetbench')}")
+        print(f"sheetbench {version_of('sheetbench')}")
         raise typer.Exit
     if context.invoked_subcommand is None:
         print(context.get_help(), end="")

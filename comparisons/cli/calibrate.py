@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from comparisons.cli.options import Kind, LatticeOptions, Metres, SheetOptions
-from comparisons.cli.output import OutputOptions
+from comparisons.cli.output import OutputOptions, command_line
 from comparisons.cli.verb import no_effect
 from sheetbench.choices import CALIBRATIONS
 
 SUMMARIES = "; ".join(f"{name}: {method.summary}" for name, method in CALIBRATIONS.items())
 SPRINGS = "calibration k layer_distance grading toml"
-DAMPING = "loss_factor damping_ratio log_decrement quality at band prony"
+DAMPING = "loss_factor at band prony"
 
 
 @no_effect(
@@ -33,9 +33,6 @@ def command(
     hinge: str | None = None,
     coefficient: list[str] | None = None,
     loss_factor: float | None = None,
-    damping_ratio: float | None = None,
-    log_decrement: float | None = None,
-    quality: float | None = None,
     at: Annotated[float | None, Kind("Hz")] = None,
     band: tuple[float, float] | None = None,
     prony: Path | None = None,
@@ -64,10 +61,8 @@ def command(
         hinge (WEIGHT): With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height,
             w = 3 length² over the area of both triangles. Default: length.
         coefficient (NAME=VALUE): With --cell: use this in place of the one found. May be repeated.
-        loss_factor (ETA): Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band.
-        damping_ratio (ZETA): Damping as ζ, a fraction of critical damping.
-        log_decrement (DELTA): Damping as the logarithmic decrement of a decay, ln(peak/next peak).
-        quality (Q): Damping as the quality factor of a resonance.
+        loss_factor (ETA): Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band; of a decay
+            2Λ/√(4π² + Λ²), Λ = ln(peak/next peak).
         at (HZ): One damper per spring: the loss factor is right at this frequency only.
         band (LOW HIGH): Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.
         prony (FILE): Young's modulus and branches from a CSV of frequency [Hz], storage, loss (or tan_delta),
@@ -77,9 +72,9 @@ def command(
 
     from comparisons.calibration import damping
     from comparisons.calibration.calibrate import SheetCalibration, calibrate, expected, subject, to_toml
+    from comparisons.codes import lattice as exchange
     from comparisons.codes.cell_moduli import given_coefficients, homogenise
     from comparisons.codes.files import WRITERS
-    from comparisons.codes.lattice import CODES, lattice_files
     from comparisons.codes.setup import require_damper, setup, squares_of
     from comparisons.models.sizes import require_room
     from lumped import Calibration
@@ -87,7 +82,7 @@ def command(
 
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
-    damped = damping.keys(loss_factor, damping_ratio, log_decrement, quality, at, band, prony)
+    damped = damping.keys(loss_factor, at, band, prony)
     if sheet.young is not None and "young" in damped:
         raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
     if cell is not None and scene is None:
@@ -102,7 +97,7 @@ def command(
             known = given_coefficients(coefficient or ())
             return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
     if for_ is not None:
-        require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *CODES])))
+        require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *exchange.CODES])))
     if for_ is not None and for_ in WRITERS:
         springs_only = {name: value for name, value in wanted.settings.items() if name != "grid"}
         require_effect(
@@ -112,9 +107,7 @@ def command(
                 "--toml": toml,
             },
         )
-        ways = (loss_factor, damping_ratio, log_decrement, quality, prony)
-        names = (f"--{name}" for name in damping.MEASURES)
-        require_damper(for_, of.material, dict(zip(names, ways, strict=True)))
+        require_damper(for_, of.material, {"--loss-factor": loss_factor, "--prony": prony})
         found = setup(of, for_, squares_of(wanted.grid), named=named)
         with output.open(about=about, variant={"--for": for_}) as out:
             return out.show(found)
@@ -126,9 +119,11 @@ def command(
         springs = calibrate(of, wanted, named)
         foretold = named and wanted.k is None and wanted.layer_distance is None
         off = expected(of, springs) if foretold else None
-        out.export(export, of, springs)
+        if export is not None:
+            line = command_line(output.verb, output.terminal)
+            out.notes.append(exchange.export(export, of, springs, line, output.overwrite))
         modes = damping.ratios(of, springs)
         own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
-        files = ({}, []) if for_ is None else lattice_files(of, springs, for_)
+        files = ({}, []) if for_ is None else exchange.lattice_files(of, springs, for_)
         answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

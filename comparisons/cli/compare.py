@@ -14,7 +14,7 @@ from sheetbench.choices import REFERENCE
 FRAMES = 100  # of a motion
 
 
-@no_effect(with_duration="symmetry branch export", without_duration="every animate")
+@no_effect(with_duration="branch", without_duration="every animate")
 def command(
     scene: str,
     lattice: LatticeOptions,
@@ -22,14 +22,12 @@ def command(
     *,
     elements: str | None = None,
     law: str | None = None,
-    symmetry: bool = False,
     model: list[str] | None = None,
     uncertainty: bool | None = None,
     branch: str | None = None,
     duration: Seconds = None,
     every: Seconds = None,
     animate: bool = False,
-    export: str | None = None,
     large: bool = False,
     output: PictureOptions,
 ) -> Any:
@@ -54,7 +52,6 @@ def command(
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.context import running
     from comparisons.models.grids import parse_elements
-    from comparisons.models.resolve import resolve
     from comparisons.pictures.array_files import write_mesh
     from sheetbench import scenes
 
@@ -67,7 +64,7 @@ def command(
 
         moving = scenes.scene_of(scene)
         with output.open(scene=moving, variant={"--duration": duration, "--every": every, **models}) as out:
-            for name in ("lumped", named, "difference") if output.out is not None else ():
+            for name in ("lumped", named) if output.out is not None else ():
                 out.reserve(f"{name}/")
             both = compare_motion(
                 moving,
@@ -81,7 +78,7 @@ def command(
             )
             return out.show(replace(both, animate=animate))
     loaded = load_static(scene)
-    spec = lattice.spec.but(symmetry=symmetry, branch=branch or "path")
+    spec = lattice.spec.but(branch=branch or "path")
     models |= {"--calibration": "open" if spec.calibration is None and spec.k is None else "named"}
     with output.open(scene=loaded, variant=models) as out:
 
@@ -90,6 +87,4 @@ def command(
 
         with running(solved=keep):
             comparison = compare(loaded, spec, uncertainty=uncertainty, **shared)
-        if export is not None:
-            out.export(export, loaded, resolve(loaded, lattice.spec).springs)
         return out.show(comparison)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.text import Text
 
-from comparisons.cli.lines import Lines
 from sheetbench.answers.escape import terminal
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
 _quiet = False
 verbose = False  # all notes
+QUIET, BETWEEN = 2.0, 10.0  # s without a line of progress where there is no terminal: at first, and later
 
 
 @contextmanager
@@ -35,13 +36,20 @@ def speaking(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
 @contextmanager
 def progress() -> Iterator[Callable[[object], None]]:
     """Yield a function that shows what is being done, a `Work`, a campaign's progress or a text: a spinner on
-    a terminal, else lines."""
+    a terminal, else a line now and then, and at once of what says that it is to be told at once."""
     if _quiet:
         yield lambda what: None
         return
     if not err.is_terminal:
-        with Lines(tell) as lines:
-            yield lines.say
+        due = monotonic() + QUIET
+
+        def say(what: object) -> None:
+            nonlocal due
+            if getattr(what, "at_once", False) or monotonic() >= due:
+                tell(str(what))
+                due = monotonic() + BETWEEN
+
+        yield say
         return
     with err.status("", spinner="line") as spinner:
         yield lambda what: spinner.update(Text(terminal(str(what))))

@@ -5,6 +5,12 @@ from __future__ import annotations
 from comparisons.cli.options import LatticeOptions
 
 ELEMENTS = 8
+REDIRECTION = """<!doctype html>
+<meta charset="utf-8">
+<meta name="referrer" content="no-referrer">
+<meta http-equiv="refresh" content="0;url={address}">
+<a href="{address}">sheetbench live</a>
+"""
 
 
 def command(
@@ -33,8 +39,8 @@ def command(
 
     from comparisons.cli.console import note
     from comparisons.comparison.comparison import load_static
-    from comparisons.live import server
     from comparisons.live.panel import Panel
+    from comparisons.live.server import Server
     from comparisons.models.resolve import resolve
     from sheetbench.errors import BadInput
 
@@ -45,13 +51,13 @@ def command(
     panel = Panel(loaded, elements, meant.but(grid=lattice.grid))
 
     # a browser's command line can be read by every user of the machine: it gets a file that only this one can
-    with NamedTemporaryFile("w", prefix="sheetbench-live-", suffix=".html") as file:
-
-        def opened(address: str) -> None:
-            note(f"{address}\nCtrl-C ends it.")
-            if browser:
-                file.write(server.REDIRECTION.format(address=escape(address)))
-                file.flush()
-                webbrowser.open(Path(file.name).as_uri())
-
-        server.run(panel, port, opened)
+    with (
+        Server(panel, port) as server,
+        NamedTemporaryFile("w", prefix="sheetbench-live-", suffix=".html") as file,
+    ):
+        note(f"{server.address}\nCtrl-C ends it.")
+        if browser:
+            file.write(REDIRECTION.format(address=escape(server.address)))
+            file.flush()
+            webbrowser.open(Path(file.name).as_uri())
+        server.serve_forever()

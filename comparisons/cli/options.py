@@ -25,7 +25,6 @@ Args:
     elements (N): The reference's elements along the shorter side, or 8x4 along x and y.
     law (NAME): Law of strain of a shell or solid: {STRAIN_LAWS}. Default: the material's own, else
         {STRAIN_LAW}.
-    symmetry: Solve a half or a quarter where scene and grid are symmetric; solids are solved whole.
     model (MODEL): A further model: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped,
         lumped-pair, plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.
     export (DIR): Write the lattice for another simulator: masses, springs, supports, loads, values to check

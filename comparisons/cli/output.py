@@ -22,7 +22,6 @@ from sheetbench import clock
 
 if TYPE_CHECKING:
     from comparisons.sweep.folder import Folder
-    from lumped import Calibration
     from sheetbench.answers.answer import Answer
     from sheetbench.answers.figure_style import FigureStyle
     from sheetbench.answers.report import Report, Write
@@ -67,14 +66,6 @@ class Output:
         """Write a file of the answer at once, if there is a folder."""
         if self.folder is not None:
             self.folder.write(name, write)
-
-    def export(self, folder: str | Path | None, scene: Scene, springs: Calibration) -> None:
-        """Write the lattice for other simulators if there is a folder, and note it."""
-        if folder is not None:
-            from comparisons.codes.lattice import export
-
-            line = command_line(self.options.verb, self.options.terminal)
-            self.notes.append(export(folder, scene, springs, line, self.options.overwrite))
 
     def reserve(self, name: str) -> Path | None:
         """Return the path of a file, or of a folder if the name ends in "/", that a run fills by itself."""
@@ -167,25 +158,20 @@ class Output:
         if (left := len(report.notes) - shown) > 0:
             notes.append(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
         if self.folder is not None:
-            notes.append(self._written(console.out.width))
+            notes.append(self._written())
         if notes and not (report.shown and report.shown[-1].text):
             console.blank()
         for note in notes:
             console.note(note)
 
-    def _written(self, width: int) -> str:
-        """Return the line that names the files in the folder, pictures first; --verbose: all of them."""
-        from textwrap import shorten
-
+    def _written(self) -> str:
+        """Return the line that counts the files in the folder; --verbose: names them, pictures first."""
         from comparisons.cli import console
 
         assert self.folder is not None
         written = [*self.folder.written, "manifest.json", *self.store_files]
         names = ", ".join(sorted(written, key=lambda name: not name.endswith(PICTURES)))
-        head = f"{len(written)} files in {self.folder.path}: "
-        return head + (
-            names if console.verbose else shorten(names, max(width - len(head), 20), placeholder=" …")
-        )
+        return f"{len(written)} files in {self.folder.path}" + (f": {names}" if console.verbose else "")
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,4 @@ def command(
 
     parts = [name for name in REPRODUCED if name in (part or REPRODUCED)]
     with output.open(variant={"--part": parts}) as out:
-        reproduction = reproduce(parts, parse_elements(elements))
-        for name in reproduction.folders:
-            out.reserve(name)
-        return out.show(reproduction)
+        return out.show(reproduce(parts, parse_elements(elements)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any
 
 from comparisons.cli.options import Kind, LatticeOptions, Seconds
@@ -22,9 +21,7 @@ def command(
     error: float | None = None,
     integrator: str = INTEGRATOR,
     every: Seconds = None,
-    measured: Path | None = None,
     animate: bool = False,
-    export: str | None = None,
     large: bool = False,
     output: PictureOptions,
 ) -> Any:
@@ -38,20 +35,14 @@ def command(
         error (FRACTION): Error of a step, of the displacement, for integrators that choose their steps.
         integrator (NAME): {SUMMARIES}; auto: esdirk, or generalised-alpha where the sheet has chains.
         every (S): Time between samples. Default: 1/100 of the lowest period.
-        measured (FILE): Measured histories, CSV: time,probe,ux,uy,uz in s and m.
         animate: Also draw an animation (with --out).
     """
-    from comparisons.comparison.measured import read_measured, require_within
     from comparisons.comparison.simulation import Simulation
     from comparisons.models.resolve import resolve
     from comparisons.models.solve import simulate
     from sheetbench.scenes import scene_of
 
     loaded = scene_of(scene)
-    truth = {}
-    if measured is not None:
-        truth = read_measured(measured, list(loaded.probes))
-        require_within(truth, duration, measured)
     model = resolve(loaded, lattice.spec, "motion")
     run = {"--integrator": integrator, "--step": step, "--every": every, "--error": error}
     run |= {f"--{name}": value for name, value in lattice.spec.settings.items()}
@@ -68,5 +59,4 @@ def command(
             **chosen,
         )
         out.reserve("frames/")
-        out.export(export, loaded, model.springs)
-        return out.show(Simulation(**vars(history), scene=loaded, measured=truth, animate=animate))
+        return out.show(Simulation(**vars(history), scene=loaded, animate=animate))

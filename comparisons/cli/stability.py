@@ -23,7 +23,7 @@ def command(
     """Map where each model is accurate, degrades, refuses or fails.
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
-    integrators the largest stable step is measured. With --out an interrupted run is resumed.
+    integrators the largest stable step is shown. With --out an interrupted run is resumed.
 
     Args:
         vary (NAME): Only {VARIED}; may be repeated. Default: all.

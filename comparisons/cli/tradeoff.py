@@ -9,15 +9,15 @@ from comparisons.cli.options import ClusterOptions, Kind, Listed, Seconds, Share
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from comparisons.tradeoff import usual
-from sheetbench.choices import INTEGRATORS, REFERENCES
+from sheetbench.choices import INTEGRATORS, REFERENCE, REFERENCES
 
-OF_ROWS = "lumped_pair model symmetry elements repeats duration integrator workers scheduler retry"
+OF_ROWS = "lumped_pair model elements repeats duration integrator workers scheduler retry"
 
 
 @no_effect(
     with_tolerance=OF_ROWS,
     with_budget=OF_ROWS,
-    with_duration="symmetry lumped_pair repeats",
+    with_duration="lumped_pair repeats",
     without_duration="integrator",
 )
 def command(
@@ -33,7 +33,6 @@ def command(
     shell: Listed = None,
     solid: Listed = None,
     model: list[str] | None = None,
-    symmetry: bool = False,
     elements: str | None = None,
     repeats: Annotated[int | None, Kind(least=1)] = None,
     duration: Seconds = None,
@@ -72,7 +71,8 @@ def command(
         integrator (NAMES): With --duration: some of {INTEGRATORS}. Default: all.
     """
     from comparisons.comparison.comparison import load_static
-    from comparisons.models.spec import items, parse
+    from comparisons.models.grids import parse_elements
+    from comparisons.models.spec import Elements, items, parse
     from comparisons.tradeoff import choices
     from comparisons.tradeoff.advisor import advise
     from comparisons.tradeoff.motion import dynamic_tradeoff
@@ -92,8 +92,8 @@ def command(
             found = advise(loaded, tolerance, budget, lattice.spec, models=models, calibration=calibration)
             return out.show(replace(found, called=scene) if isinstance(scene, str) else found)
     own, meshes_of = lattice.spec, usual.MESHES if duration is None else usual.MOVING
-    others, extra = choices.of_references(meshes, meshes_of, symmetry), list(map(parse, model or ()))
-    reference = choices.finest(elements)
+    others, extra = choices.of_references(meshes, meshes_of), list(map(parse, model or ()))
+    reference = None if elements is None else Elements(REFERENCE, parse_elements(elements))
     if duration is not None:
         more: dict[str, Any] = {"lattices": choices.moving_lattices(own, grid, calibration)}
         measure: Any = dynamic_tradeoff
@@ -102,7 +102,6 @@ def command(
     else:
         measure = tradeoff
         lattices, reasons = choices.of_lattices(loaded, own, grid, lumped_pair, calibration)
-        lattices = [one.but(symmetry=True) for one in lattices] if symmetry else lattices
         repeats = repeats or usual.REPEATS
         more = {"candidates": [*lattices, *others, *extra], "reasons": reasons, "repeats": repeats}
         if not more["candidates"]:

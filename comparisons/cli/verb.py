@@ -34,7 +34,7 @@ Command = Callable[..., Any]
 
 
 def no_effect(**rules: str) -> Callable[[Command], Command]:
-    """Declare options without effect: with_duration="symmetry branch", those that have none beside
+    """Declare options without effect: with_duration="branch export", those that have none beside
     --duration, without_duration="every", those that have none but with it."""
 
     def declare(command: Command) -> Command:
@@ -242,13 +242,21 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 
     @wraps(command)
     def run(*values: Any, **named: Any) -> Any:
-        from comparisons.cli.keywords import bound
         from comparisons.models.context import running
         from sheetbench.errors import BadInput
         from sheetbench.scenes import Scene
         from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
-        found = bound(name, own, values, named)
+        if "lumped" in named and "grid" in own.parameters:  # one option, as on the command line
+            if "grid" in named:
+                raise BadInput(f"{name}: lumped and grid are one; give one of them")
+            named["grid"] = named.pop("lumped")
+        try:
+            bound = own.bind(*values, **named)
+        except TypeError as error:
+            raise BadInput(f"{name}: {error}; it has {', '.join(own.parameters)}") from None
+        bound.apply_defaults()
+        found = dict(bound.arguments)
         written = [one for one in found.values() if isinstance(one, Scene)]
         if name != "check":  # whose answer has them
             warn_of_slips(((f"scene '{one.name}'", one) for one in written), stacklevel=2)

@@ -34,7 +34,7 @@ def joined(
     """Both answers on one branch, and a sentence; None where they are near each other, where one is not a
     stable equilibrium, or where neither model has the other's."""
     scene = lattice.scene
-    plain = not (lattice.spec.linear or lattice.spec.symmetry or scene.actuators)
+    plain = not (lattice.spec.linear or scene.actuators)
     points = scene.probe_points()
     own, right = first.displacement(points), reference.displacement(points)
     if not far(own, right) or not plain or not first.status is reference.status is Status.CONVERGED:
@@ -45,7 +45,7 @@ def joined(
     again = lumped.solve(scene, lattice.springs, near=shape(scene, reference, first.mesh.points))
     if _on_branch(again, points, right, own):
         return _begun(again, first, reference), reference, _converged_text(first, reference, own, right)
-    if reference.model != "shell" or against.spec.symmetry:
+    if reference.model != "shell":
         return None
     begun = {"elements": against.spec.elements, **against.spec.but(branch=None).options}
     again = fem_reference.solve(

@@ -44,15 +44,14 @@ def compare(
     """Return the answers of a lattice and a reference side by side, as `comparisons.cli.compare` says.
 
     companion: also uniform springs in cells of one size, as `lumped-uniform`, where the lattice leaves its
-    calibration open. The reference has the lattice's symmetry and branch; solids are solved whole. A name of
-    `models` that is taken is changed.
+    calibration open. The reference has the lattice's branch. A name of `models` that is taken is changed.
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
     """
     scene = load_static(scene)
-    whole = {"elements": elements, "law": law, "branch": lattice.branch, "symmetry": lattice.symmetry}
-    against = resolve(scene, Elements.given(reference, whole))
+    given = {"elements": elements, "law": law, "branch": lattice.branch}
+    against = resolve(scene, Elements.given(reference, given))
     first = resolve(scene, lattice)
     named: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
     left_open = lattice.calibration is None and lattice.k is None and first.spec.calibration is not None

@@ -2,11 +2,9 @@
 
 A coarse grid's answer comes nearer to the reference's where its cells are halved; on another branch of
 equilibria it goes elsewhere: extrapolated to first order, the slowest that a lattice converges, it is as far
-off. The lattice is solved once more to tell. (Begun in the
-other's shape a model comes back to its own in both cases.) Up to 100 % something else may keep them apart on
-every grid: springs that do not tend to the sheet's, laws of strain; then branches are not
-told. What else is known of either cause stands beside it: layers narrower than cells, springs that miss the
-sheet's moduli, snaps.
+off. The lattice is solved once more to tell. (Begun in the other's shape a model comes back to its own in
+both cases.) Up to 100 % something else may keep them apart on every grid: springs that do not tend to the
+sheet's, laws of strain; then branches are not told.
 """
 
 from __future__ import annotations
@@ -14,19 +12,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from comparisons.models.expected_error import converges
-from comparisons.models.layers import layers
 from comparisons.models.resolve import Resolved
 from comparisons.models.spec import Lattice, counted
 from comparisons.sweep.differences import error
 from sheetbench.answers.solution import Solution, Status
-from sheetbench.choices import listed
 from sheetbench.scenes.language.summary import few
 
 FAR, SURE = 0.2, 1.0  # errors from which on a reason is looked for, and is not in springs or laws
 NEARER = 0.6  # of the error, that a finer grid leaves
 STAYS = 0.75  # of the error, that grids finer still would leave, to first order
 STRAIN_LAW = 2.3 * 2.0  # times the largest stretch: an error that laws of strain do not explain (model_error)
-MISSED = 0.1  # share of a modulus from which on it is a reason
 UNKNOWN = 0.5  # bar of the reference that tells nothing any more
 
 
@@ -50,12 +45,10 @@ def far_apart_note(
     off = error(own, right)
     if off is None or off <= FAR:
         return "", False
-    known = reasons(lattice, first, reference)
 
     def told(cause: str, after: str = "", apart: bool = False) -> tuple[str, bool]:
         both = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart"
-        because = f" ({'; '.join(known)})" if known else ""
-        return f"{both}: {cause}{because}{after}.", apart
+        return f"{both}: {cause}{after}.", apart
 
     finer = None
     if lattice.spec.calibration is not None:
@@ -88,21 +81,3 @@ def _tends(lattice: Resolved[Lattice], reference: Solution, off: float) -> bool:
         and not lattice.scene.actuators
         and off > STRAIN_LAW * (reference.stretch or 0.0)
     )
-
-
-def reasons(lattice: Resolved[Lattice], first: Solution, reference: Solution) -> list[str]:
-    """Return what is known that speaks for a coarse grid or for other branches, a clause each."""
-    found = []
-    scene, grid = lattice.scene, lattice.grid
-    cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
-    layer = min(layers(scene), default=None)
-    if layer is not None and layer.width < cell:
-        found.append(f"{layer}, {few(layer.width / cell)} cells of {1e3 * cell:.3g} mm")
-    moduli = lattice.springs.document()["moduli"]
-    off = [(abs(row["got"] / row["asked"] - 1.0), row["name"]) for row in moduli if row["asked"]]
-    if (missed := max(off, default=(0.0, "")))[0] > MISSED:
-        found.append(f"the springs miss {missed[1]} by {few(100.0 * missed[0])} %")
-    snapped = [s.model for s in (first, reference) if s.snaps]
-    if snapped:
-        found.append(f"{listed(snapped) if len(snapped) == 1 else 'both'} snapped on the way")
-    return found

@@ -6,7 +6,7 @@ the order of their edges in the scene.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -68,16 +68,11 @@ def frames(history: History) -> list[tuple[float, Frame]]:
 
 
 def write_frames(path: Path, history: History) -> None:
-    """Write a run's frames as a series."""
-    write_series(path, ((time, frame.with_axes()) for time, frame in frames(history)))
-
-
-def write_series(path: Path, meshes: Iterable[tuple[float, FieldMesh]]) -> None:
-    """Write meshes as NAME/0000.vtu … and the PVD file that lists them with their times [s]."""
+    """Write a run's frames as NAME/0000.vtu … and the PVD file that lists them with their times [s]."""
     inside = folder(path.with_suffix(""))
     lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
-    for number, (time, mesh) in enumerate(meshes):
+    for number, (time, frame) in enumerate(frames(history)):
         name = f"{number:04d}.vtu"
-        write_mesh(inside / name, mesh)
+        write_mesh(inside / name, frame.with_axes())
         lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{inside.name}/{name}"/>')
     write_text(path, "\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))

@@ -22,7 +22,6 @@ from comparisons.sweep.here import moved_here
 from comparisons.sweep.limits import motion_bar
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
-from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, Scene, scene_of
 
 ELEMENTS = 8  # of a moving reference along the shorter side
@@ -39,7 +38,6 @@ def compare_motion(
     law: str | None = None,
     uncertainty: bool = True,
     models: Sequence[Spec | str] = (),
-    leave_out: bool = False,
     every: float | None = None,
     frames: int = 0,
     store: Path | None = None,
@@ -47,17 +45,14 @@ def compare_motion(
     """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
 
     uncertainty: move the reference twice more, on elements twice as large and with steps twice as long.
-    leave_out: models that refuse the scene, which the answer names. every [s]: distance of samples. frames:
-    whole displacements to keep. store: a folder in which every run of ours has one to stream to and go on
-    from.
+    every [s]: distance of samples. frames: whole displacements to keep. store: a folder in which every run of
+    ours has one to stream to and go on from.
     Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
     """
     scene = scene_of(scene)
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
     beside = [parse(one) for one in models]
-    left_out = {one.model: why for one in beside if leave_out and (why := refusal(scene, one))}
-    beside = [one for one in beside if one.model not in left_out]
     for one in (finest, *beside):
         require_motion(scene, one)
     model = resolve(scene, lattice, "motion")
@@ -88,7 +83,7 @@ def compare_motion(
             run = moved(resolve(scene, half), f"{named} on larger elements", spacing)
             rows.append(moved_here(scene, half, run))
         bars = motion_bar(rows, moved_here(scene, finest, longer))
-    return MotionComparison(scene, {**histories, finest.kind: truth}, bars, left_out)
+    return MotionComparison(scene, {**histories, finest.kind: truth}, bars)
 
 
 def require_motion(scene: Scene, spec: Spec) -> None:
@@ -99,13 +94,4 @@ def require_motion(scene: Scene, spec: Spec) -> None:
     if isinstance(spec, Elements):
         fem_reference.require_moving(scene, spec.kind)
     elif isinstance(spec, External):
-        plugins.require_moving(spec.model, scene, spec.settings)
-
-
-def refusal(scene: Scene, spec: Spec) -> str:
-    """Return why a model does not move a scene, "" if it does."""
-    try:
-        require_motion(scene, spec)
-    except BadInput as why:
-        return str(why)
-    return ""
+        plugins.moving(spec.model)

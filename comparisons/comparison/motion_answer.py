@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from comparisons.comparison import frames
 from comparisons.comparison.measures import Measures, difference, leading, measured_alike
-from comparisons.models.spec import Lattice
 from comparisons.sweep.limits import in_all
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.history import COMPONENTS, History
 from sheetbench.answers.report import Film, Picture, Write
-from sheetbench.answers.solution import FieldMesh
 from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
@@ -42,15 +39,13 @@ class MotionComparison(Answer):
     """Histories by model, the lattice's first, the reference's last.
 
     uncertainty: how far the reference may be off by its mesh and by its steps, as `largest` and `rms` are
-    measured, None where a run of it did not end; left_out: why models refused the scene; animate: draw the
-    sheets moving, side by side.
+    measured, None where a run of it did not end; animate: draw the sheets moving, side by side.
     """
 
     file_name = "motion"
     scene: Scene
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
-    left_out: dict[str, str] = field(default_factory=dict)
     animate: bool = False
 
     @property
@@ -114,7 +109,6 @@ class MotionComparison(Answer):
                 "differences": self.differences,
                 "uncertainty": self.uncertainty,
                 "bar": self.bar,
-                "left_out": self.left_out,
             },
             "solutions": [
                 {"model": name, **{key: getattr(history, key) for key in OF_A_RUN}}
@@ -148,11 +142,9 @@ class MotionComparison(Answer):
         for name, history in self.histories.items():
             for note in history.notes():
                 models.setdefault(note, []).append(name)
-        left_out = (f"{name} is left out: {why}" for name, why in self.left_out.items())
         return [
             *self._driven(),
             *self._bars(),
-            *left_out,
             *(f"{', '.join(names)}: {note}" for note, names in models.items()),
         ]
 
@@ -169,13 +161,11 @@ class MotionComparison(Answer):
     def files(self) -> dict[str, Write]:
         """Return samples of every model and, where frames were kept, sheets at some moments."""
         found: dict[str, Write] = {
-            f"{name}.csv": partial(_write_samples, history=history)
+            f"{name}.csv": partial(write_text, text=history.series().to_csv())
             for name, history in self.histories.items()
         }
         for name, history in self._with_frames.items():
             found[f"{name}.pvd"] = partial(frames.write_frames, history=history)
-        if {Lattice.NAME, self.reference} <= self._with_frames.keys():
-            found["difference.pvd"] = partial(_write_difference, found=self)
         return found
 
     def choices(self) -> dict[str, Any]:
@@ -237,19 +227,3 @@ class MotionComparison(Answer):
         within = ", ".join(one["of"] for one in self.differences if one["distinguishable"] is False)
         notes = [f"{self.reference}: its own motion changes by up to {changes}"]
         return [*notes, f"{within}: within the {self.reference}'s own error."] if within else notes
-
-
-def _write_samples(path: Path, history: History) -> None:
-    write_text(path, history.series().to_csv())
-
-
-def _write_difference(path: Path, found: MotionComparison) -> None:
-    """On the reference's mesh its mid-surface's displacement, and the lattice's less it."""
-    both = (frames.frames(found.histories[name]) for name in (Lattice.NAME, found.reference))
-    shown = []
-    for (_, ours), (time, truth) in zip(*both, strict=False):
-        plan = truth.mesh.points[:, :2]
-        u = truth.displacement(plan)
-        fields = {"displacement": u, "difference": ours.displacement(plan) - u}
-        shown.append((time, FieldMesh(truth.mesh.points, truth.mesh.cells, fields)))
-    frames.write_series(path, shown)

@@ -1,42 +1,31 @@
-"""A simulated scene: its history beside measured ones, frames of the whole sheet: `sheetbench simulate`."""
+"""A simulated scene: its history and frames of the whole sheet: `sheetbench simulate`."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 from comparisons.comparison.frames import write_frames
-from comparisons.comparison.measured import left_out
 from comparisons.models.grading import choice_notes
-from sheetbench.answers.history import History, Measured
+from sheetbench.answers.history import History
 from sheetbench.answers.report import Film, Picture, Write
-from sheetbench.answers.table import Table, quantity
+from sheetbench.answers.table import quantity
 from sheetbench.scenes import Scene
 
 
 @dataclass(frozen=True, repr=False, eq=False, kw_only=True)
 class Simulation(History):
-    """A run of a scene; measured: histories by probe; animate: draw it moving."""
+    """A run of a scene; animate: draw it moving."""
 
     file_name = "history"
     scene: Scene
-    measured: Mapping[str, Measured] = field(default_factory=dict)
     animate: bool = False
 
     def heading(self) -> tuple[str, str, str]:
         return self.scene.name, self.scene.title, f"{self.label}, {self.integrator}, {self.steps} steps"
 
-    def document(self) -> dict[str, Any]:
-        errors = {name: m.error(self.time, self.probes[name]) for name, m in self.measured.items()}
-        return {**super().document(), **({"measured_errors": errors} if errors else {})}
-
-    def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
-        return super().tables(self.measured if measured is None else measured)
-
     def figures(self) -> tuple[Picture, ...]:
-        of = (self, self.scene.title or self.scene.name, self.measured)
+        of = (self, self.scene.title or self.scene.name)
         pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
         if self.animate:
             film = "comparisons.comparison.animation:animate"
@@ -57,7 +46,3 @@ class Simulation(History):
 
     def notes(self) -> list[str]:
         return [*choice_notes(self.settings), *super().notes()]
-
-    def complaints(self) -> list[str]:
-        """Why the run did not reach its end, and what was measured outside it."""
-        return [*super().complaints(), *left_out(self, self.measured)]

@@ -26,7 +26,6 @@ UNSAID = 1e-3  # without an error bar
 LEAST = 0.4  # of c − c_ref that is looked for
 MOST = 5000  # masses of a lattice that is pulled
 PULLS = (1e-5, 1e-2)  # P/E
-LOOKED_AT = 5e-3  # stretch up to which no lattice is OFF
 RUBBER, OFF = "neo-hookean", 0.02  # the law of soft sheets that name none, and what is off
 
 
@@ -73,17 +72,6 @@ def strain_law_note(lattice: Resolved[Lattice], solutions: tuple[Solution, ...],
         f"and the {reference.model}'s ({law}) differ by up to {few(by)} %: not an error of the grid."
         f"{remedy}{reach}"
     )
-
-
-def limit(lattice: Resolved[Lattice], stretch: float) -> str:
-    """Return a sentence on the stretch from which on a lattice is no rubber, where a sheet is stretched
-    farther."""
-    if stretch <= LOOKED_AT:
-        return ""
-    try:
-        return _limit(lattice, of_lattice(lattice), stretch)
-    except NoEquilibrium as failed:
-        return _unknown(failed)
 
 
 def _unknown(failed: NoEquilibrium) -> str:

@@ -15,13 +15,10 @@ import numpy as np
 from comparisons.external import plugins
 from comparisons.external.bricks import GRADINGS, Bricks
 from comparisons.external.plugins import Model
-from sheetbench.answers.history import History
 from sheetbench.answers.solution import FieldMesh, Solution, Status
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Chain, EdgeLoad, Scene
-from sheetbench.scenes.meaning.kinematics import bent_or_tilted
 
-SUBSTEPS = 8  # of a motion between two samples
 BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
 
 
@@ -79,24 +76,6 @@ def refusal(
     return ""
 
 
-def refusal_of_motion(scene: Scene) -> str:
-    """Return why a scene's motion is not handed over, "" if it is."""
-    if scene.masses:
-        return "its steps in time have the sheet's inertia alone: leave [[mass]] out"
-    material, loads = scene.material, [*filter(None, [scene.gravity]), *scene.loads]
-    if material.dashpot_time or material.damping_rate or material.branches.times:
-        return "its steps in time have no dampers: leave damping_time, damping_rate and relaxation out"
-    if scene.air is not None:
-        return "its steps in time have no drag: leave [air] out"
-    if scene.initial is not None:
-        return "it starts flat: leave [initial] out"
-    if any(load.history is not None for load in loads):
-        return "loads with a history are not handed over"
-    if scene.motions() or bent_or_tilted(scene.supports, scene.sheet):
-        return "edges that are driven, or bent or turned before the sheet moves, are not handed over"
-    return ""
-
-
 class Reached(NamedTuple):
     """What a code finds at rest: nodal displacement (n, 3) [m] at the last load factor that converged;
     iterations; note: why it ended early, "" if it did not; seconds: of the solve alone; held: unknowns of the
@@ -107,17 +86,6 @@ class Reached(NamedTuple):
     iterations: int = 0
     note: str = ""
     seconds: float = 0.0
-    held: int = 0
-
-
-class Sampled(NamedTuple):
-    """What a code finds in motion: times (t,) [s] and nodal displacements (t, n, 3) [m]; the rest as of
-    `Reached`."""
-
-    times: np.ndarray
-    displacement: np.ndarray
-    note: str
-    seconds: float
     held: int = 0
 
 
@@ -173,6 +141,11 @@ class Code(ABC):
         if not np.isfinite(found.displacement).all():
             status = Status.NON_FINITE
         displacement = np.nan_to_num(found.displacement)
+
+        def sample(points: np.ndarray) -> np.ndarray:
+            nodes, weights = mesh.weights(points)
+            return np.asarray(np.einsum("pk,pkc->pc", weights, displacement[nodes]))
+
         return Solution(
             model=self.name,
             label=f"{self.called} {mesh.label}",
@@ -182,59 +155,12 @@ class Code(ABC):
             iterations=found.iterations,
             setup_seconds=perf_counter() - began - found.seconds,
             solve_seconds=found.seconds,
-            sample=lambda points: mesh.sample(displacement, points),
+            sample=sample,
             reactions={},
             energies={},
             mesh=FieldMesh(mesh.positions, [(mesh.KIND, mesh.elements)], {"displacement": displacement}),
             load_factor=found.load_factor,
             remarks=(found.note,) if found.note else (),
-        )
-
-
-class MovingCode(Code):
-    """Base of those that answer motions from rest too, of SUBSTEPS steps a sample."""
-
-    integrator: ClassVar[str]
-
-    @abstractmethod
-    def in_motion(
-        self, scene: Scene, settings: Mapping[str, Any], mesh: Any, duration: float, count: int
-    ) -> Sampled:
-        """Return what it finds of a motion over `duration` [s] at so many times, the start not among them."""
-
-    def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
-        """Return why it does not move a scene, "" if it does."""
-        return self.refusal(scene, settings) or refusal_of_motion(scene)
-
-    def simulate(
-        self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
-    ) -> History:
-        """Return the motion over `duration` [s] from rest, sampled every so often [s], without energies.
-
-        Raises BadInput without the code, and for scenes and settings that it does not take.
-        """
-        if note := self.refusal_of_motion(scene, settings):
-            raise BadInput(f"{self.name}: {note}")
-        began, mesh, count = perf_counter(), self.mesh(scene, settings), max(1, round(duration / every))
-        found = self.in_motion(scene, settings, mesh, float(duration), count)
-        note = found.note or ("" if len(found.times) == count else "it stopped before the end")
-        still = np.zeros((1, *mesh.positions.shape))
-        at_probes = np.array([mesh.sample(u, scene.probe_points()) for u in (*still, *found.displacement)])
-        return History(
-            label=f"{self.called} {mesh.label}",
-            integrator=self.integrator,
-            settings={**settings, "every": duration / count, "elements": list(mesh.counts)},
-            status=Status.DIVERGED if note else Status.CONVERGED,
-            message=note,
-            time=np.concatenate([[0.0], found.times]),
-            probes=dict(zip(scene.probes, np.swapaxes(at_probes, 0, 1), strict=True)),
-            energies={},
-            reactions={},
-            actuators={},
-            steps=SUBSTEPS * len(found.times),
-            setup_seconds=perf_counter() - began - found.seconds,
-            solve_seconds=found.seconds,
-            extra={"unknowns": self.unknowns * len(mesh.positions) - found.held},
         )
 
 

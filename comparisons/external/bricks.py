@@ -178,11 +178,6 @@ class Bricks:
         element, place = locate(self.plan, points)
         return self.number[nodes_of(self.plan)[1][element, :8], self.layers], serendipity(*place)
 
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, 3)."""
-        nodes, weights = self.weights(points)
-        return np.einsum("pk,pkc->pc", weights, displacement[nodes])
-
 
 @dataclass(frozen=True)
 class Tie:
@@ -209,8 +204,8 @@ class Held:
         return np.any(self.axes != np.eye(3), axis=(1, 2))
 
 
-def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
-    """Return what supports and motions hold; linear: to first order in the load."""
+def held(scene: Scene, bricks: Bricks) -> Held:
+    """Return what supports and motions hold."""
     n = len(bricks.positions)
     axes, fixed, value = np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 3), dtype=bool), np.zeros((n, 3))
     middle = bricks.sites[:, 1] == bricks.layers
@@ -229,19 +224,11 @@ def held(scene: Scene, bricks: Bricks, linear: bool = False) -> Held:
             fixed[nodes, :2] = fixed[nodes[middle[nodes]], 2] = True
     for edge in driven.values():
         nodes = bricks.edge(edge.edge)
-        plan, height = bricks.positions[nodes, :2], bricks.positions[nodes, 2:]
-        if linear:
-            moved, change = edge.linear(plan)
-            own = np.eye(3)
-        else:
-            placed = edge.placed(plan)
-            moved, change = placed.displacement, placed.director
-            own = np.swapaxes(np.eye(3) + placed.turn, -1, -2)
-        axes[nodes] = own
+        placed, height = edge.placed(bricks.positions[nodes, :2]), bricks.positions[nodes, 2:]
+        axes[nodes] = np.swapaxes(np.eye(3) + placed.turn, -1, -2)
         fixed[nodes, :2] = fixed[nodes[middle[nodes]], 2] = True
-        value[nodes] = np.einsum(
-            "...rc,kc->kr" if own.ndim == 2 else "krc,kc->kr", own, moved + height * change
-        )
+        moved = placed.displacement + height * placed.director
+        value[nodes] = np.einsum("krc,kc->kr", axes[nodes], moved)
     tied = tuple(tie for (node, axis), tie in ties.items() if not fixed[node, axis])
     return Held(axes, fixed, value, tied)
 

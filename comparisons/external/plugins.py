@@ -102,15 +102,6 @@ def moving(name: str) -> MovingModel:
     return model
 
 
-def require_moving(name: str, scene: Scene, given: Mapping[str, Any]) -> None:
-    """Raise BadInput for a plug-in without motion, or one that does not move the scene with these settings:
-    that has a `refusal_of_motion(scene, settings)`, a sentence, "" if it does."""
-    model = moving(name)
-    refusal = getattr(model, "refusal_of_motion", None)
-    if refusal is not None and (why := refusal(scene, settings_of(model, given))):
-        raise BadInput(f"{model.name}: {why}")
-
-
 def from_file(name: str) -> Path | None:
     """Return the file of a model `FILE.py:OBJECT`, None of any other name."""
     file, colon, _ = name.rpartition(":")

@@ -1,17 +1,17 @@
 """What of a scene can be changed on the page, within which bounds, and how a question is read.
 
-A question is what the page's sliders say; it is JSON from outside, and everything in it is checked: names,
-types, that numbers are finite and within their slider's bounds. The bounds are also what keeps a solve small.
+A question is what the page's sliders say, JSON from outside: names, types and bounds are checked, which are
+also what keeps a solve small.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import asdict, dataclass
-from math import pi
-from typing import Annotated, Any, Literal
+from math import pi, prod
+from typing import Annotated, Any
 
-import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError
 
 from comparisons.models.grids import scene_grid
@@ -19,15 +19,13 @@ from comparisons.models.spec import Lattice
 from comparisons.pages.sheets import eye, outline
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Chain, Curved, Scene, Sheet
+from sheetbench.scenes import EDGES, Scene, Sheet
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.grid import MASSES, near_square
-from sheetbench.scenes.objects.loads import Pressure
 
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second
 OWN = "scene"  # the calibration's name where the scene brings its own [springs]
-FORCES = ("force", "force_per_length", "force_per_area", "acceleration", "moment_per_length", "value")
 SHOWN = 80  # characters of a foreign name
 SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of the scene
 
@@ -55,13 +53,12 @@ class Slider:
 
 
 class Question(BaseModel):
-    """One setting of all sliders, as the page sends it; number: of the question; copied: the text to copy."""
+    """One setting of all sliders, as the page sends it; number: of the question."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
     number: Annotated[int, Field(ge=0, lt=2**53)]
     values: dict[str, float]
     calibration: str
-    copied: Literal["", "springs", "scene"] = Field("", alias="copy")
     _layer_distance: float | None = PrivateAttr(None)
 
     @property
@@ -128,11 +125,9 @@ class Panel:
             if name in SETTINGS or value == self.sliders[name].value:
                 continue
             if name == "gravity":
-                scene = scene.replace(gravity=_times(scene.gravity, value))
+                scene = scene.replace(gravity=scene.gravity and scene.gravity.times(value))
             elif name == "loads":
-                scene = scene.replace(loads=tuple(_times(load, value) for load in scene.loads))
-            elif name == "pressure":  # the only load
-                scene = scene.replace(loads=(scene.loads[0].replace(value=value),))
+                scene = scene.replace(loads=tuple(load.times(value) for load in scene.loads))
             else:
                 scene = put(scene, name, value)
         return scene
@@ -140,38 +135,27 @@ class Panel:
 
 def _of_scene(scene: Scene) -> Iterator[Slider]:
     material, thickness = scene.material, scene.sheet.thickness
-    if material.kind == "orthotropic":
-        for key, label in (("young_1", "along"), ("young_2", "across")):
-            yield _modulus(scene, key, f"Young's modulus {label} the fibres")
-        yield Slider("angle", "Angle of the fibres", "°", 180.0 / pi, -pi, pi, material.angle or 0.0)
-    else:
-        yield _modulus(scene, "young", "Young's modulus E")
+    moduli = {"young_1": "Young's modulus along the fibres", "young_2": "Young's modulus across the fibres"}
+    if material.kind != "orthotropic":
+        moduli = {"young": "Young's modulus E"}
         yield Slider("poisson", "Poisson's ratio ν", "", 1.0, 0.0, 0.495, material.poisson)
-    for number, patch in enumerate(scene.patches, start=1):
-        if "young" in patch.own:
-            yield _modulus(scene, f"patch{number}.young", f"E of patch {number}")
+    else:
+        yield Slider("angle", "Angle of the fibres", "°", 180.0 / pi, -pi, pi, material.angle or 0.0)
+    stiff = (n for n, patch in enumerate(scene.patches, start=1) if "young" in patch.own)
+    for name, label in (moduli | {f"patch{n}.young": f"E of patch {n}" for n in stiff}).items():
+        value = parameter(scene, name).value
+        yield Slider(name, label, "MPa", 1e-6, value / 30, value * 30, value, logarithmic=True)
     thick = max(thickness, min(4 * thickness, 0.5 * min(scene.sheet.lengths)))
     yield Slider("thickness", "Thickness h", "mm", 1e3, thickness / 4, thick, thickness, logarithmic=True)
     if scene.gravity is not None:
         yield Slider("gravity", "Gravity", "× the scene's", 1.0, 0.0, 3.0, 1.0)
-    if len(scene.loads) == 1 and isinstance(pressure := scene.loads[0], Pressure) and pressure.value:
-        most = 3 * abs(pressure.value)
-        yield Slider("pressure", "Pressure", "Pa", 1.0, -most, most, pressure.value)
-    elif scene.loads:
+    if scene.loads:
         yield Slider("loads", "Loads", "× the scene's", 1.0, -3.0, 3.0, 1.0)
-    bent = (h for h in (*scene.supports, *scene.actuators) if isinstance(h, Curved | Chain))
-    for edge in dict.fromkeys(h.edge for h in bent):
-        try:
+    for edge in EDGES:
+        with suppress(BadInput):  # an edge that is not bent, or by no single number
             found = parameter(scene, f"curvature_{edge}")
-        except BadInput:  # a chain's list of curvatures, or one over time, is no single number
-            continue
-        most = max(2 * abs(found.value), 1.5 / min(scene.sheet.lengths))
-        yield Slider(found.name, f"Curvature of edge {edge}", "1/m", 1.0, -most, most, found.value)
-
-
-def _modulus(scene: Scene, name: str, label: str) -> Slider:
-    value = parameter(scene, name).value
-    return Slider(name, label, "MPa", 1e-6, value / 30, value * 30, value, logarithmic=True)
+            most = max(2 * abs(found.value), 1.5 / min(scene.sheet.lengths))
+            yield Slider(found.name, f"Curvature of edge {edge}", "1/m", 1.0, -most, most, found.value)
 
 
 def _of_models(scene: Scene, elements: int, lattice: Lattice) -> Iterator[Slider]:
@@ -195,9 +179,7 @@ def _of_models(scene: Scene, elements: int, lattice: Lattice) -> Iterator[Slider
 
 def most(sheet: Sheet, cap: int) -> int:
     """Near-square cells along the shorter side of a sheet, of which it has cap² in all at most."""
-    counts = range(2, cap + 1)
-    within = [n for n in counts if near_square(sheet, n)[0] * near_square(sheet, n)[1] <= cap**2]
-    return max(within, default=2)
+    return max((n for n in range(2, cap + 1) if prod(near_square(sheet, n)) <= cap**2), default=2)
 
 
 def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
@@ -209,9 +191,3 @@ def _calibrations(scene: Scene) -> dict[str, dict[str, Any]]:
         for method in [CALIBRATIONS[name]]
         if not method.fitted and ("cells" in method.takes or scene.uniform)
     }
-
-
-def _times(load: Any, factor: float) -> Any:
-    """Return a load, or gravity, with all its forces, moments or pressures times a factor."""
-    given = {name: np.multiply(factor, getattr(load, name)) for name in FORCES if hasattr(load, name)}
-    return load.replace(**{name: value.tolist() for name, value in given.items()})

@@ -4,18 +4,11 @@
     GET  /TOKEN/panel     the sliders
     POST /TOKEN/lattice   a question: the lattice's answer
     POST /TOKEN/shell     the same question: the shell's answer, and how far the lattice's is from it
-    POST /TOKEN/text      the springs or the scene of a question, as TOML
 
-Nothing is kept between questions. The page asks one question of each model at a time and leaves out those
-that a newer one overtakes, so there is no queue either. The lattice is solved on the request's thread, one
-question at a time; the shell in a process of its own, so that neither waits for the other.
-
-What comes in is bounded: a question has 4 kB at most, a connection that says nothing for a minute is closed,
-and few are open at once. A question that contradicts itself is answered with status 400 and a sentence. Every
-page open in the browser can send requests here; `refusal` says which are answered.
-
-Both models are solved as `sheetbench compare` solves them, without error bars. The shell is sampled at the
-lattice's masses and on a regular grid for the picture. The error is that of `comparisons.comparison`.
+Nothing is kept between questions, and the page asks one of each model at a time: there is no queue. The
+lattice is solved on the request's thread, the shell in a process of its own, as `sheetbench compare` solves
+them, without error bars. What comes in is bounded, and what contradicts itself is answered with status 400
+and a sentence. Every page open in the browser can send requests here: `refusal` says which are answered.
 """
 
 from __future__ import annotations
@@ -25,7 +18,6 @@ import secrets
 import sys
 import threading
 import traceback
-from collections.abc import Callable
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
@@ -33,7 +25,6 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.calibration.calibrate import to_toml as springs_to_toml
 from comparisons.live.panel import Panel, Question
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
@@ -46,7 +37,6 @@ from sheetbench.answers.files import plain
 from sheetbench.answers.solution import FieldMesh, Solution
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.language.toml import to_toml
 
 LOOPBACK = "127.0.0.1"
 MESSAGE = 4096  # bytes of a question at most
@@ -65,20 +55,6 @@ HEADERS = {  # of every answer: scripts, styles and answers of this server alone
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
-REDIRECTION = """<!doctype html>
-<meta charset="utf-8">
-<meta name="referrer" content="no-referrer">
-<meta http-equiv="refresh" content="0;url={address}">
-<a href="{address}">sheetbench live</a>
-"""
-
-
-def run(panel: Panel, port: int, opened: Callable[[str], None]) -> None:
-    """Serve the page until interrupted. opened: called with its address. Raises BadInput for a port that
-    cannot be had."""
-    with Server(panel, port) as server:
-        opened(server.address)
-        server.serve_forever()
 
 
 class Server(ThreadingHTTPServer):
@@ -152,24 +128,20 @@ class Desk(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """Answer with a file of the page, or with its panel."""
-        if refused := self.refusal():
-            self.reply(refused)
-        elif self.what == "panel":
-            self.reply(HTTPStatus.OK, self.server.panel.document())
-        elif asset := self.server.assets.get(self.what):
-            self.send(HTTPStatus.OK, *asset)
-        else:
-            self.reply(HTTPStatus.NOT_FOUND)
+        refused, asset = self.refusal(), self.server.assets.get(self.what)
+        if refused or not (asset or self.what == "panel"):
+            return self.reply(refused or HTTPStatus.NOT_FOUND)
+        if asset:
+            return self.send(HTTPStatus.OK, *asset)
+        return self.reply(HTTPStatus.OK, self.server.panel.document())
 
     def do_POST(self) -> None:
         """Answer a question; one that contradicts itself is refused in a line."""
-        length = self.headers.get("Content-Length", "")
-        if refused := self.refusal(own=True):
-            return self.reply(refused)
+        length, refused = self.headers.get("Content-Length", ""), self.refusal(own=True)
         if not (length.isascii() and length.isdigit() and int(length) <= MESSAGE):
-            return self.reply(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
-        if self.what not in WAYS:
-            return self.reply(HTTPStatus.NOT_FOUND)
+            refused = refused or HTTPStatus.REQUEST_ENTITY_TOO_LARGE
+        if refused or self.what not in WAYS:
+            return self.reply(refused or HTTPStatus.NOT_FOUND)
         try:
             self.reply(HTTPStatus.OK, self.server.answer(self.what, self.rfile.read(int(length))))
         except BadInput as error:
@@ -181,7 +153,7 @@ class Desk(BaseHTTPRequestHandler):
     def reply(self, status: HTTPStatus, document: dict[str, Any] | None = None) -> None:
         """Send JSON; without any refuse, and end the connection, whose further bytes are not looked at."""
         self.close_connection |= document is None
-        body = json.dumps({"said": status.phrase} if document is None else document, allow_nan=False)
+        body = json.dumps(document or {"said": status.phrase}, allow_nan=False)
         self.send(status, "application/json", body.encode())
 
     def send(self, status: HTTPStatus, kind: str, body: bytes) -> None:
@@ -225,13 +197,6 @@ def shell(scene: Scene, question: Question) -> dict[str, Any]:
     }
 
 
-def text(scene: Scene, question: Question) -> dict[str, Any]:
-    """Return what is to be copied, as TOML: the lattice's [springs], or the scene."""
-    if question.copied == "scene":
-        return {"text": to_toml(scene)}
-    return {"text": springs_to_toml(resolve(scene, question.lattice, "springs").springs)}
-
-
 def _message(
     question: Question, scene: Scene, solution: Solution, model: str, mesh: FieldMesh, *fields: dict[str, Any]
 ) -> dict[str, Any]:
@@ -242,14 +207,14 @@ def _message(
     return found | {name: known[name] for name in KEPT}
 
 
-WAYS = {"lattice": lattice, "shell": shell, "text": text}
+WAYS = {"lattice": lattice, "shell": shell}
 
 
 def _assets() -> dict[str, tuple[str, bytes]]:
     """Return type and content of the page's files by name, read once; the page itself has none."""
-    folder = resources.files("comparisons.live").joinpath("page")
-    own = {name: folder.joinpath(name).read_text("utf-8") for name in ("live.html", "live.css", "live.js")}
-    texts = own | {name: own_text(name) for name in ("viewer.js", "viewer.css")}
+    folder, names = resources.files("comparisons.live").joinpath("page"), ("live.html", "live.css", "live.js")
+    texts = {name: folder.joinpath(name).read_text("utf-8") for name in names}
+    texts |= {name: own_text(name) for name in ("viewer.js", "viewer.css")}
     return {
         name.replace("live.html", ""): (f"{TYPES[name.rpartition('.')[2]]}; charset=utf-8", text.encode())
         for name, text in texts.items()

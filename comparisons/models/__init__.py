@@ -1,1 +1,1 @@
-"""Models: their specifications, grids, springs and sizes on a scene, symmetry, and their solve."""
+"""Models: their specifications, grids, springs and sizes on a scene, and their solve."""

@@ -19,7 +19,6 @@ from comparisons.models.grids import GridLike, scene_grid
 from comparisons.models.method import resolve_calibration
 from comparisons.models.sizes import require_room, size
 from comparisons.models.spec import Elements, External, GradingLike, Lattice, LatticePair, Spec, counted
-from comparisons.models.symmetry import cut_axes
 from sheetbench.answers.size import Size
 from sheetbench.choices import (
     AUTO,
@@ -42,7 +41,7 @@ if TYPE_CHECKING:
     from lumped import Calibration
 
 Use = Literal["statics", "motion", "modes", "springs"]
-ONLY: dict[Use, tuple[str, ...]] = {"statics": ("linear", "symmetry", "branch"), "modes": ("masses",)}
+ONLY: dict[Use, tuple[str, ...]] = {"statics": ("linear", "branch"), "modes": ("masses",)}
 OURS = (Lattice.NAME, LatticePair.NAME, *REFERENCES)
 S = TypeVar("S", bound=Spec)
 
@@ -146,7 +145,7 @@ def resolve(
     elif isinstance(spec, LatticePair):
         found = _pair(scene, spec)
     elif isinstance(spec, Elements):
-        _check_elements(scene, spec)
+        _check_elements(spec)
         found = Resolved(scene, spec)
     else:
         assert isinstance(spec, External)
@@ -257,7 +256,7 @@ def _grids(scene: Scene, grid: GridLike, coarser: GridLike) -> tuple[Grid, Grid]
     return fine, coarse
 
 
-def _check_elements(scene: Scene, spec: Elements) -> None:
+def _check_elements(spec: Elements) -> None:
     import fem_reference
 
     require_choice("reference", spec.kind, fem_reference.MODELS)
@@ -269,8 +268,6 @@ def _check_elements(scene: Scene, spec: Elements) -> None:
     if min(counts) < 1:
         raise BadInput(f"elements = {elements}: at least 1")
     fem_reference.check(spec.kind, spec.options)
-    if spec.symmetry and spec.kind == "solid" and cut_axes(scene, spec.counts(scene), masses=False):
-        raise BadInput("solid: is always solved whole; leave symmetry out")
 
 
 def _check_external(spec: External) -> None:

@@ -13,7 +13,6 @@ from math import prod
 from comparisons.external import memory
 from comparisons.models.context import context
 from comparisons.models.spec import Spec
-from comparisons.models.symmetry import cut_axes
 from comparisons.pictures import work
 from sheetbench.answers.size import Size
 from sheetbench.errors import BadInput
@@ -23,12 +22,9 @@ MOST = 10**6  # masses or elements along a side
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
-    """Of what is solved, a half or a quarter of the sheet where symmetry is requested; of a pair the finer
-    lattice, for they are solved one after the other; None of a plug-in."""
+    """Of what is solved; of a pair the finer lattice, for they are solved one after the other; None of a
+    plug-in."""
     counts = spec.counts(scene)
-    if spec.settings.get("symmetry"):
-        for axis in cut_axes(scene, counts[:2], masses=spec.MASSES):
-            counts[axis] = (counts[axis] + spec.MASSES) // 2
     return _estimate(spec, counts) if counts else None
 
 

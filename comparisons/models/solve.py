@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from math import ceil
 from typing import Any, Literal
 
 from comparisons.external import plugins
@@ -19,21 +18,16 @@ from comparisons.models.pair import extrapolated
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice, LatticePair
-from comparisons.models.symmetry import by_parts, cut_axes
-from comparisons.pictures.work import Pace, Work, silent
+from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
-from sheetbench.answers.size import Size
 from sheetbench.answers.solution import FieldMesh, Iteration, Solution
 from sheetbench.choices import REFERENCES
 from sheetbench.clock import now
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
-from sheetbench.scenes.objects.grading import mirrored
 
 Watch = Callable[[Iteration], None]  # called once an iteration
-STEPS_PER_PERIOD = 100, 900  # of the lowest mode, with dampers of the springs and without
-SOLVES = 0.08  # of a static solve's time that a step takes
 EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
 COARSE = (Lattice((3, 3, 2)), LatticePair((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
@@ -88,7 +82,10 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
         rough = _lattice(model.coarse, model.coarse.spec, watch)
         return extrapolated(rough, _lattice(model, spec.lattice(spec.grid), watch))
     if isinstance(spec, Elements):
-        return _elements(scene, spec, watch)
+        import fem_reference
+
+        elements = tuple(spec.counts(scene)[:2])
+        return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
     outside = plugins.plugin(spec.model)
     return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
 
@@ -98,32 +95,8 @@ def _lattice(model: Resolved[Any], spec: Lattice, watch: Watch | None) -> Soluti
 
     springs, scene = model.springs, model.scene
     branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
-    cut = spec.symmetry and spec.branch == "path"
-    axes = cut_axes(scene, springs.grid, masses=True) if cut else []
-    axes = [axis for axis in axes if mirrored(springs.grading, axis)]
-    for axis in axes:
-        springs = springs.halved(axis)
-
-    def answer(part: Scene) -> Solution:
-        return lumped.solve(part, springs, linear=spec.linear, branch=branch, progress=watch)
-
-    solution = by_parts(scene, axes, answer)
+    solution = lumped.solve(scene, springs, linear=spec.linear, branch=branch, progress=watch)
     return replace(solution, settings={**solution.settings, **model.reasons})
-
-
-def _elements(scene: Scene, spec: Elements, watch: Watch | None) -> Solution:
-    import fem_reference
-
-    counts = spec.counts(scene)
-    axes = cut_axes(scene, counts, masses=False) if spec.symmetry else []
-    for axis in axes:
-        counts[axis] //= 2
-
-    def answer(part: Scene) -> Solution:
-        elements = (counts[0], counts[1])
-        return fem_reference.solve(part, spec.kind, elements=elements, progress=watch, **spec.options)
-
-    return by_parts(scene, axes, answer)
 
 
 def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings: Any) -> History:
@@ -134,7 +107,7 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
     """
     spec, scene, progress = model.spec, model.scene, context().progress
     doing, pace = doing or f"simulating {plugins.shown_name(spec.model)}", Pace(duration)
-    progress(Work(doing, None if progress is silent else _size_of_motion(model, duration)))
+    progress(Work(doing))
 
     def reached(time: float) -> None:
         soon = pace.remaining(time) if time >= EVEN * duration else ""
@@ -152,18 +125,6 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
         return replace(history, settings={**history.settings, **model.reasons})
     outside = plugins.moving(spec.model)
     return outside.simulate(scene, plugins.settings_of(outside, spec.settings), duration, **settings)
-
-
-def _size_of_motion(model: Resolved[Any], duration: float) -> Size | None:
-    """Return what the motion of a reference takes, its steps by the period of its lowest mode."""
-    scene, size = model.scene, model.size
-    if size is None or not isinstance(model.spec, Elements):
-        return None
-    import fem_reference
-
-    lowest = float(fem_reference.modes(scene, "plate", 2, count=1).frequencies[0])
-    steps = STEPS_PER_PERIOD[scene.material.dashpot_time == 0.0] * max(duration * lowest, 0.5)
-    return replace(size, seconds=ceil(steps) * SOLVES * size.seconds)
 
 
 @cache

@@ -118,8 +118,8 @@ class OnGrid(Spec):
 class Lattice(OnGrid):
     """A lattice: grid, as `comparisons.models.grids` reads it; calibration, a name or "auto"; k [N/m];
     layer_distance [m]; grading, a number, towards some edges, or "auto". linear: one step with the flat
-    sheet's tangent; symmetry: solve a half or a quarter where scene and grid allow it; branch: one of
-    `choices.BRANCHES`; masses: how modes share out the mass, one of `choices.MASSES`."""
+    sheet's tangent; branch: one of `choices.BRANCHES`; masses: how modes share out the mass, one of
+    `choices.MASSES`."""
 
     NAME: ClassVar = "lumped"
     calibration: str | None = None
@@ -127,7 +127,6 @@ class Lattice(OnGrid):
     layer_distance: float | None = None
     grading: GradingLike = None
     linear: bool = False
-    symmetry: bool = False
     branch: str = "path"
     masses: str | None = None
 
@@ -142,19 +141,16 @@ class LatticePair(OnGrid):
     calibration: str | None = None
     layer_distance: float | None = None
     grading: GradingLike = None
-    linear: bool = False
-    symmetry: bool = False
 
     def lattice(self, grid: GridLike) -> Lattice:
         """Return one of the two lattices."""
-        own = (self.layer_distance, self.grading, self.linear, self.symmetry)
-        return Lattice(grid, self.calibration, None, *own)
+        return Lattice(grid, self.calibration, None, self.layer_distance, self.grading)
 
 
 @dataclass(frozen=True)
 class Elements(Spec):
     """A finite-element reference: kind, "plate", "shell" or "solid"; count: of elements along the shorter
-    side, or (nx, ny); law: of strain, of `choices.STRAIN_LAWS`; symmetry and branch as of a lattice; the
+    side, or (nx, ny); law: of strain, of `choices.STRAIN_LAWS`; branch as of a lattice; the
     others as `fem_reference` has them (`fem_reference.options`)."""
 
     kind: str = "shell"
@@ -166,7 +162,6 @@ class Elements(Spec):
     grading: str | None = None
     hard_edges: tuple[str, ...] | None = None
     branch: str | None = None
-    symmetry: bool = False
 
     @property
     def model(self) -> str:
@@ -174,16 +169,10 @@ class Elements(Spec):
 
     @classmethod
     def given(cls, reference: Elements | str, keywords: Mapping[str, Any]) -> Elements:
-        """Return the reference that a function is called with, changed by what flat keywords say; solids,
-        which are solved whole, are not cut, and "path" is the usual branch."""
+        """Return the reference that a function is called with, changed by what flat keywords say; "path" is
+        the usual branch."""
         spec = reference if isinstance(reference, Elements) else cls(reference)
-        known = {
-            name: value
-            for name, value in keywords.items()
-            if value not in (None, "path") and value is not False
-        }
-        if spec.kind == "solid":
-            known.pop("symmetry", None)
+        known = {name: value for name, value in keywords.items() if value not in (None, "path")}
         return spec.but(**{"count" if name == "elements" else name: value for name, value in known.items()})
 
     @property
@@ -193,7 +182,7 @@ class Elements(Spec):
     @property
     def options(self) -> dict[str, Any]:
         """What the reference's own solver takes, beside the number of elements."""
-        return {name: v for name, v in self.settings.items() if name not in ("elements", "symmetry")}
+        return {name: v for name, v in self.settings.items() if name != "elements"}
 
     @property
     def elements(self) -> Count:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -29,8 +29,7 @@ FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a 
 @dataclass(frozen=True)
 class Spectrum:
     """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out; shapes: plan points
-    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale; expected: the
-    relative error to expect of each, where that is estimated."""
+    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale."""
 
     model: str
     label: str
@@ -40,7 +39,6 @@ class Spectrum:
     unknowns: int
     seconds: float
     shapes: Callable[[np.ndarray], np.ndarray]
-    expected: tuple[float | None, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -52,15 +50,7 @@ class Spectrum:
             "rigid_modes": self.rigid,
             "unknowns": self.unknowns,
             "solve_seconds": self.seconds,
-            **({"expected_errors": list(self.expected)} if self.expected else {}),
         }
-
-
-BUCKLED = (NUMBER("d", "mode"), NUMBER(".5g", "load factor"))
-AGAINST = (
-    *(NUMBER("d", "reference's mode"), NUMBER(".5g", "reference"), PERCENT("+.2f", "difference")),
-    NUMBER(".3f", "MAC"),
-)
 
 
 @dataclass(frozen=True, repr=False)
@@ -154,48 +144,18 @@ class Spectra(Answer):
             "pairs": [pair.as_dict() for pair in self.buckling_pairs],
         }
 
-    def _buckling_tables(self) -> Iterator[Table]:
-        for first in self.buckling[:1]:
-            factors, others = first.load_factors.tolist(), self.buckling[1:]
-            if not others:
-                yield Table.listed("Buckling: times the loads", BUCKLED, enumerate(factors, 1), "buckling")
-            for one in others:
-                rows = []
-                for pair in self.buckling_pairs:
-                    if pair.against == one.model:
-                        theirs = pair.is_ and float(one.load_factors[pair.is_ - 1])
-                        ours = (pair.number, factors[pair.number - 1])
-                        rows.append((*ours, pair.is_, theirs, pair.relative, pair.mac))
-                caption = f"Buckling: times the loads, lattice and {one.model}"
-                yield Table.listed(caption, (*BUCKLED, *AGAINST), rows, f"buckling-{one.model}")
-
     def tables(self) -> tuple[Table, ...]:
-        references = [(spectrum, self.against(spectrum.model)) for spectrum in self.found[1:]]
-        count = len(self.frequencies)
-        columns: list[tuple[Column, Sequence[Any]]] = [(NUMBER("d", "mode"), range(1, count + 1))]
-        if any(self.kinds):
-            columns.append((Column("kind"), self.kinds))
-        columns.append((HERTZ(".4g", self[0].model), self.frequencies.tolist()))
-        for spectrum, pairs in references:
-            found = [pair.is_ for pair in pairs]
-            theirs = [is_ and spectrum.frequencies[is_ - 1] for is_ in found]
-            columns.append((NUMBER("d", f"{spectrum.model}'s mode"), found))
-            columns.append((HERTZ(".4g", spectrum.model), theirs))
-        for _, pairs in references[:1]:
-            columns.append((PERCENT("+.2f", "difference"), [pair.relative for pair in pairs]))
-            columns.append((NUMBER(".3f", "MAC"), [pair.mac for pair in pairs]))
-        if self[0].expected:
-            columns.append((PERCENT("+.2f", "expected"), self[0].expected))
-        heads, values = zip(*columns, strict=True)
+        found = [(one.model, one.frequencies.tolist()) for one in self.found]
         caption = f"Natural frequencies about the {self.about} sheet"
-        listed = Table.listed(caption, heads, zip(*values, strict=True), "modes")
-        return (
-            listed,
-            *self._buckling_tables(),
-            *(
-                damping_table(modes, f"Damping of the modes: {one.model}", f"damping-{one.model}")
-                for one, modes in zip(self.found, self.damping, strict=False)
-            ),
+        shown = [_paired(caption, "modes", HERTZ(".4g"), found, self.pairs, self.kinds)]
+        if self.buckling:
+            buckled = [(one.model, one.load_factors.tolist()) for one in self.buckling]
+            caption, factor = "Buckling: load factors, times the loads", NUMBER(".5g")
+            shown.append(_paired(caption, "buckling", factor, buckled, self.buckling_pairs))
+        damped = zip(self.found, self.damping, strict=False)
+        return *shown, *(
+            damping_table(modes, f"Damping of the modes: {one.model}", f"damping-{one.model}")
+            for one, modes in damped
         )
 
     def figures(self) -> tuple[Picture, ...]:
@@ -239,13 +199,6 @@ class Spectra(Answer):
     def notes(self) -> list[str]:
         """Return what the table does not say: labels, rigid motions left out, actuators left out."""
         notes = [" · ".join(spectrum.label for spectrum in self.found), *choice_notes(self[0].settings)]
-        known = [100.0 * error for error in self[0].expected if error is not None]
-        if known:
-            of, low, high = self[0].model, number(min(known), "+.2g"), number(max(known), "+.2g")
-            notes.append(
-                f"{of}: expected grid error of the frequencies {low} to {high} %, from a second solve "
-                "on a finer grid"
-            )
         for spectrum in self.found[1:]:
             notes += _pairing_notes(self.against(spectrum.model))
         if len(self) > 1:
@@ -262,6 +215,32 @@ class Spectra(Answer):
         if self.scene.actuators:
             notes.append("these modes are the sheet's alone, without its actuators")
         return notes
+
+
+def _paired(
+    caption: str,
+    name: str,
+    value: Column,
+    found: Sequence[tuple[str, list[float]]],
+    pairs: Sequence[Pair],
+    kinds: Sequence[str | None] = (),
+) -> Table:
+    """Return a row per mode of the first model: its value, and number and value of the mode of the same shape
+    of each other; difference and MAC from the second."""
+    (first, own), *others = found
+    columns: list[tuple[Column, Sequence[Any]]] = [(NUMBER("d", "mode"), range(1, len(own) + 1))]
+    columns += [(Column("kind"), kinds)] if any(kinds) else []
+    columns.append((replace(value, name=first), own))
+    beside = [[pair for pair in pairs if pair.against == model] for model, _ in others]
+    for (model, values), theirs in zip(others, beside, strict=True):
+        columns.append((NUMBER("d", f"{model}'s mode"), [pair.is_ for pair in theirs]))
+        same = [pair.is_ and values[pair.is_ - 1] for pair in theirs]
+        columns.append((replace(value, name=model), same))
+    for theirs in beside[:1]:
+        columns.append((PERCENT("+.2f", "difference"), [pair.relative for pair in theirs]))
+        columns.append((NUMBER(".3f", "MAC"), [pair.mac for pair in theirs]))
+    heads, rows = zip(*columns, strict=True)
+    return Table.listed(caption, heads, zip(*rows, strict=True), name)
 
 
 def _pairing_notes(pairs: Sequence[Pair]) -> list[str]:

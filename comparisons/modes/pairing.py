@@ -30,7 +30,6 @@ from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.objects.grid import near_square
 from sheetbench.scenes.objects.supports import place
 
-Modes = tuple[np.ndarray, np.ndarray]  # frequencies (count,) and shapes (count, n, 3) on equal plan cells
 Shaped = tuple[str, np.ndarray, np.ndarray]  # a model, its frequencies or load factors, rising, and shapes
 CELLS = 32  # plan cells along the shorter side; the tenth mode has some five half-waves
 SAME = 1e-6  # relative difference of frequencies that are one: above the eigensolvers' error
@@ -116,21 +115,6 @@ def matched(mac: np.ndarray) -> list[int | None]:
         if mac[row, column] >= LEAST:
             found[row] = int(column)
     return found
-
-
-def expected_errors(coarse: Modes, fine: Modes, ratio: float) -> list[float | None]:
-    """Return the relative error to expect of every frequency of a lattice, from those of the same lattice on
-    a finer grid, with `ratio` times as many cells in plan; None without a counterpart.
-
-    With f on the grid requested and g on the finer one, an error that falls with the square of the cells is
-    (f/g − 1)/(1 − 1/ratio); which lattices have it: `comparisons.models.expected_error`.
-    """
-    (of, shapes), (against, others) = coarse, fine
-    pairs = matched(assurance(shapes, others, against))
-    return [
-        None if match is None else float(of[i] / against[match] - 1.0) / (1.0 - 1.0 / ratio)
-        for i, match in enumerate(pairs)
-    ]
 
 
 def _normalised(shapes: np.ndarray) -> np.ndarray:

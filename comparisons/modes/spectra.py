@@ -9,25 +9,21 @@ Modes are listed lowest first; those of two models are paired by shape (`compari
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from math import prod
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from comparisons.models.context import context
-from comparisons.models.expected_error import converges, finer_grid
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
-from comparisons.modes.pairing import expected_errors, on_cells
 from comparisons.pictures.work import Work
 from sheetbench.answers.modes import Buckling
 from sheetbench.answers.solution import About
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
 from sheetbench.scenes.objects.grading import as_settings
 
@@ -64,8 +60,7 @@ def spectra(
         context().progress(Work(f"modes of {model.spec.model}", model.size))
 
     starting(own)
-    first = _lattice(own, count, about)
-    found = [first if about == "flat" else _with_expected(own, first)]
+    found = [_lattice(own, count, about)]
     for model in models:
         starting(model)
         found.append(_reference(model, count, about))
@@ -122,22 +117,6 @@ def _lattice(model: Resolved[Lattice], count: int, about: About) -> Spectrum:
     )
 
 
-def _with_expected(model: Resolved[Lattice], first: Spectrum) -> Spectrum:
-    """Return the lattice's spectrum about its equilibrium, with the errors to expect of it where they are
-    known."""
-    finer = finer_grid(model.grid)
-    if not converges(model.spec, finer):
-        return first
-    spec = model.spec.but(grid=finer, masses=first.settings["masses"])
-    try:
-        fine = _lattice(resolve(model.scene, spec, "modes"), len(first.frequencies), "deformed")
-    except NoEquilibrium:
-        return first
-    cells = [prod(n - 1 for n in g[:2]) for g in (finer, model.grid)]
-    both = [(one.frequencies, on_cells(model.scene, one.shapes)) for one in (first, fine)]
-    return replace(first, expected=tuple(expected_errors(both[0], both[1], cells[0] / cells[1])))
-
-
 def _reference(model: Resolved[Elements], count: int, about: About) -> Spectrum:
     import fem_reference
 
@@ -147,8 +126,8 @@ def _reference(model: Resolved[Elements], count: int, about: About) -> Spectrum:
         label=modes.label,
         settings=modes.settings,
         frequencies=modes.frequencies,
-        rigid=modes.rigid_modes,
+        rigid=modes.rigid,
         unknowns=modes.unknowns,
         seconds=modes.solve_seconds,
-        shapes=lambda plan: np.stack([modes.displacement(mode, plan) for mode in range(count)]),
+        shapes=modes.displacement,
     )

@@ -15,7 +15,7 @@ from comparisons.models.spec import Lattice
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.pictures.work import Work
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.report import Write
 from sheetbench.answers.solution import About
 from sheetbench.answers.table import HERTZ, MILLIMETRES, PERCENT, Table, TableUnit
 from sheetbench.errors import BadInput
@@ -28,7 +28,6 @@ MODES = 20
 BALANCED = "balanced"
 UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
 UNITS |= dict.fromkeys(("kxx", "kyy", "kxy"), "1/m")
-ROUNDING = 1e-6  # of what an input moves most
 EXPLANATION = (
     "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
     "load or gravity",
@@ -128,17 +127,13 @@ class Linearisation(Answer):
         return self.scene.name, self.scene.title, lead
 
     def tables(self) -> tuple[Table, ...]:
-        inputs = zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True)
-        columns = [
-            "input",
-            "unit",
-            *(MILLIMETRES("z.4g", name) for name in self.matrices.outputs),
-        ]
-        rows = ((name, unit_of(name), *moved) for name, moved in inputs)
-        return self._poles(), Table.listed("Static displacement per unit of input", columns, rows, "jacobian")
-
-    def printed(self) -> tuple[Table, ...]:
-        return self._poles(), self._heights()
+        """Return the poles, and what inputs do at rest: on terminals along z alone."""
+        of = self.matrices
+        moved = (MILLIMETRES("z.4g", name, detail=not name.endswith(" uz")) for name in of.outputs)
+        inputs = zip(of.inputs, of.jacobian.T, strict=True)
+        rows = ((name, unit_of(name), *column) for name, column in inputs)
+        caption = "Static displacement per unit of input"
+        return self._poles(), Table.listed(caption, ("input", "unit", *moved), rows, "jacobian")
 
     def _poles(self) -> Table:
         """Return a row per pair of poles: the slowest first."""
@@ -147,26 +142,6 @@ class Linearisation(Answer):
         undamped = not any(self.damping_ratios)
         columns = [replace(one, detail=undamped and one.name in ("damping ratio", "real")) for one in POLES]
         return Table.listed("Poles (undamped)" if undamped else "Poles", columns, rows, "poles")
-
-    def _heights(self) -> Table:
-        """Along z alone, of loads, commands and moved edges, these per millimetre; rounding as 0."""
-        up = [i for i, name in enumerate(self.matrices.outputs) if name.endswith(" uz")]
-        columns = [
-            "input",
-            "unit",
-            *(MILLIMETRES("z.3g", self.matrices.outputs[i]) for i in up),
-        ]
-        rows = []
-        for name, column in zip(self.matrices.inputs, self.matrices.jacobian.T, strict=True):
-            unit = unit_of(name)
-            scale, shown = (1e-3, "mm") if unit == "m" else (1.0, unit)
-            values = scale * np.where(np.abs(column) > ROUNDING * np.abs(column).max(), column, 0.0)
-            if unit != "N":
-                rows.append((name, shown, *values[up]))
-        return Table.listed("Static uz per unit of input", columns, rows)
-
-    def figures(self) -> tuple[Picture, ...]:
-        return (Picture("responses", "comparisons.modes.figure:responses", (self,)),)
 
     def files(self) -> dict[str, Write]:
         """Return the matrices; in MATLAB and Octave ss(ss_A, ss_B, ss_C, ss_D)."""

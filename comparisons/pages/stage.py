@@ -18,13 +18,11 @@ import numpy as np
 
 from comparisons.pages.sheets import displaced, eye, field, outline, viewer_sheet
 from comparisons.pages.studies import Study
-from comparisons.pictures.plan import PLAN_CELLS
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 
 FRAMES, MOVED = 60, 400_000  # moments of a motion on a page; numbers in all of them
-CELLS = 32  # a side of a plan grid on a page
 Options = dict[str, Any]
 
 
@@ -36,8 +34,6 @@ def stage(study: Study) -> Options | None:
     views: list[Options] = []
     models = _models(study.document)
     for name, frames in moving.items():
-        if "difference" in frames[-1][1].point_data:  # moves as the reference does
-            continue
         model = Path(name).stem if Path(name).stem in models else ""
         key = model or name
         sheet = study.attempt(name, partial(_moving, key, frames, study.scene))
@@ -76,7 +72,7 @@ def _parts(name: str, mesh: FieldMesh, study: Study) -> list[tuple[Options, Opti
 
 
 def _one(name: str, mesh: FieldMesh, label: str, scene: Scene | None) -> tuple[Options, Options]:
-    sheet = viewer_sheet(name, coarser(mesh), label, scene=scene)
+    sheet = viewer_sheet(name, mesh, label, scene=scene)
     return sheet, {"name": name, "label": label, "sheets": [name], "field": _coloured(mesh)}
 
 
@@ -90,16 +86,14 @@ def _difference(
     name: str, mesh: FieldMesh, vector: np.ndarray, of: str, scene: Scene | None
 ) -> tuple[Options, Options]:
     """Return the reference's sheet, coloured by how far a model is from it."""
-    small = coarser(FieldMesh(mesh.points, mesh.cells, {**mesh.point_data, "off": vector}))
-    off = small.point_data["off"]
     fields = [
         {
-            **field("difference", "Distance from the reference", np.linalg.norm(off, axis=1), "mm", 1e3),
+            **field("difference", "Distance from the reference", np.linalg.norm(vector, axis=1), "mm", 1e3),
             "kind": "difference",
         },
-        {**field("offz", "Difference in uz", off[:, 2], "mm", 1e3), "kind": "signed"},
+        {**field("offz", "Difference in uz", vector[:, 2], "mm", 1e3), "kind": "signed"},
     ]
-    sheet = viewer_sheet(name, small, f"{of} − reference", fields, scene)
+    sheet = viewer_sheet(name, mesh, f"{of} − reference", fields, scene)
     sheet["fields"] = [*fields, displaced()]
     return sheet, {"name": name, "label": f"Difference: {of}", "sheets": [name], "field": "difference"}
 
@@ -155,22 +149,3 @@ def _series(path: Path) -> list[tuple[float, FieldMesh]]:
         found.append((float(entry.attrib["timestep"]), place))
     kept = np.unique(np.linspace(0, len(found) - 1, min(FRAMES, len(found))).astype(int))
     return [(found[i][0], _mesh(found[i][1])) for i in kept]
-
-
-def coarser(mesh: FieldMesh) -> FieldMesh:
-    """Return a plan grid with every other line left out until it has at most CELLS cells a side; others
-    whole."""
-    kinds = [kind for kind, _ in mesh.cells]
-    lines = [np.unique(np.round(mesh.points[:, axis], 9)) for axis in (0, 1)]
-    nx, ny = (len(line) - 1 for line in lines)
-    regular = kinds == ["quad"] and (nx + 1) * (ny + 1) == len(mesh.points)
-    if not regular or min(nx, ny) <= CELLS or nx % 2 or ny % 2 or max(nx, ny) > 8 * PLAN_CELLS:
-        return mesh
-    i, j = (np.searchsorted(lines[a], np.round(mesh.points[:, a], 9)) for a in (0, 1))
-    kept = np.flatnonzero((i % 2 == 0) & (j % 2 == 0))
-    kept = kept[np.lexsort((i[kept], j[kept]))]
-    across = nx // 2 + 1
-    corner = (np.arange(ny // 2)[:, None] * across + np.arange(nx // 2)).ravel()
-    quads = np.column_stack([corner, corner + 1, corner + across + 1, corner + across])
-    data = {key: values[kept] for key, values in mesh.point_data.items()}
-    return coarser(FieldMesh(mesh.points[kept], [("quad", quads)], data))

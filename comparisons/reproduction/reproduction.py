@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.comparison.frames import write_frames
 from comparisons.models.grids import Elements
 from comparisons.pictures.array_files import write_mesh
 from comparisons.reproduction import findings, printed_errors
@@ -93,11 +92,6 @@ class Reproduction(Answer):
         moved = all(run.status is Status.CONVERGED for run in runs)
         return moved and all(one.comparison.succeeded for one in self.answers)
 
-    @property
-    def folders(self) -> list[str]:
-        """Folders of files that are written beside the others: frames of the settling runs."""
-        return [f"settling-{model}/" for model in (self.settling.runs if self.settling is not None else ())]
-
     def document(self) -> dict[str, Any]:
         document: dict[str, Any] = {
             "parts": list(self.parts),
@@ -167,7 +161,6 @@ class Reproduction(Answer):
                 files[f"{one.name}-{solution.model}.vtu"] = partial(write_mesh, mesh=solution.mesh)
         for model, run in self.settling.runs.items() if self.settling is not None else ():
             files[f"settling-{model}.csv"] = partial(write_text, text=run.series().to_csv())
-            files[f"settling-{model}.pvd"] = partial(write_frames, history=run)
         return files
 
     def choices(self) -> dict[str, Any]:

@@ -76,11 +76,6 @@ class Place:
     refused: Annotated[int, NUMBER("d")] = 0
     on_the_front: bool = False
 
-    @property
-    def foreign(self) -> bool:
-        """Whether it is neither the answers' nor ours."""
-        return self.whose == OTHERS
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Score(ShownAnswer):

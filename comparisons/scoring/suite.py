@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -12,7 +10,6 @@ import numpy as np
 
 from comparisons.scoring.answers import HEADERS, PLACES
 from comparisons.scoring.reference import Reference, document, references
-from comparisons.scoring.score import Place, own_models
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
@@ -46,21 +43,8 @@ class Suite(Answer):
         return {**self._whole, "cases": kept}
 
     def tables(self) -> list[Table]:
-        cases = Table.of(Reference, self.cases.values(), "Cases of the reference set", "cases", fields=CASE)
-        return [cases, *([self._leaderboard()] if self.suite in (None, "statics") else [])]
-
-    def _leaderboard(self) -> Table:
-        """How our own models and other programs fare on the statics, the best first."""
-        ours = own_models([case for case in self.cases.values() if case.suite == "statics"])
-        rows = sorted(ours, key=lambda one: one.score)
-        machine = self._whole["made_with"]["machine"].get("processor", "the machine that made the set")
-        text = (
-            "score: geometric mean of the errors on the statics, 100 % for a case that is refused; worst: of "
-            f"those answered; time: of a solve, geometric mean, on {machine}"
-        )
-        fields = ("model", "score", "worst_error", "worst", "refused", "seconds")
-        caption = "Our models and other programs on the statics"
-        return Table.of(Place, rows, caption, "standing", fields=fields, text=text)
+        caption = "Cases of the reference set"
+        return [Table.of(Reference, self.cases.values(), caption, "cases", fields=CASE)]
 
     def notes(self) -> tuple[str, ...]:
         return (
@@ -108,7 +92,7 @@ def _values(cases: Sequence[Reference]) -> str:
     names, numbers = _columns(cases[0].suite)
     places, bars = (("x", "y"), ("bar_x", "bar_y", "bar_z")) if len(numbers) == 3 else ((), ("bar",))
     rows = ([case.name, *named, *at, *u, *by] for case in cases for named, u, by, at in _places(case))
-    return _csv([*names, *places, *numbers, *bars], rows)
+    return Table.listed("", [*names, *places, *numbers, *bars], rows).to_csv()
 
 
 def _form(cases: Sequence[Reference]) -> str:
@@ -118,16 +102,10 @@ def _form(cases: Sequence[Reference]) -> str:
     rows = (
         [case.name, *named, *[""] * len(u), "", *at] for case in cases for named, u, _, at in _places(case)
     )
-    return _csv([*names, *numbers, "seconds", *places], rows)
+    return Table.listed("", [*names, *numbers, "seconds", *places], rows).to_csv()
 
 
 def _columns(suite: str) -> tuple[list[str], list[str]]:
     """Return the columns that say where, and those of numbers."""
     where = [name for name in HEADERS[suite] if name in PLACES]
     return where, [name for name in HEADERS[suite] if name not in PLACES]
-
-
-def _csv(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([header, *rows])
-    return text.getvalue()

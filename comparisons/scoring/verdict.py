@@ -15,7 +15,7 @@ from statistics import median
 import numpy as np
 
 from comparisons.scoring.answers import Answer
-from sheetbench.answers.table import number
+from sheetbench.answers.table import percent
 
 SHARE, LEAST = 0.8, 0.005  # of the cases; of the stiffness
 
@@ -34,8 +34,8 @@ def verdict(answers: Sequence[Answer], errors: Sequence[float], faults: Sequence
     if stiffer is not None:
         side = "stiff" if stiffer > 0.0 else "soft"
         which = _all(cases) if within == 0 else "most cases"
-        sentence = f"{which} too {side} by about {_percent(abs(stiffer))}; {sentence}"
-    return f"Verdict: {sentence}; worst {worst.reference.name}, {_percent(off)} off."
+        sentence = f"{which} too {side} by about {percent(abs(stiffer))}; {sentence}"
+    return f"Verdict: {sentence}; worst {worst.reference.name}, {percent(off)} off."
 
 
 def stiffness(answers: Sequence[Answer]) -> float | None:
@@ -61,7 +61,3 @@ def _stiffer(answer: Answer) -> float:
 
 def _all(cases: int) -> str:
     return "the one case" if cases == 1 else f"all {cases} cases"
-
-
-def _percent(share: float) -> str:
-    return f"{number(100 * share, '.0f' if share >= 0.995 else '.2g')} %"

@@ -28,8 +28,8 @@ HOLDS = (
     PERCENT(".2g", "largest error where it holds"),
 )
 STEPS = (
-    *("integrator", "damping", MICROSECONDS(".4g", "largest step"), MICROSECONDS(".4g", "measured")),
-    *(MICROSECONDS(".4g", "default step"), "a run with it"),
+    *("integrator", "damping", MICROSECONDS(".4g", "largest step"), MICROSECONDS(".4g", "default step")),
+    "a run with it",
 )
 RUNS = (
     *("status", PERCENT(".3g", "error"), NUMBER("d", "iterations")),
@@ -120,13 +120,13 @@ def _ranges(rows: Iterable[Row], end: str) -> str:
 
 
 def limits(maps: Stability) -> Table:
-    """Return a row per explicit integrator and damping: its largest stable step, computed and measured."""
+    """Return a row per explicit integrator and damping: its largest stable step and the default one."""
     known = [row for row in maps.rows if row["study"] == "damping" and row.get("computed") is not None]
     order = _order(maps)
     rows = []
     for row in sorted(known, key=lambda row: order[who(row)]):
         ratio = "the scene's" if place(row) is None else f"ratio {number(place(row), 'g')}"
-        rows.append((who(row), ratio, *map(row.get, ("computed", "measured", "advised", "status"))))
+        rows.append((who(row), ratio, *map(row.get, ("computed", "advised", "status"))))
     return Table.listed("Largest stable steps", STEPS, rows, "steps", grouped=True)
 
 

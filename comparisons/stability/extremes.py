@@ -6,7 +6,7 @@ young        Young's modulus, times a factor
 obstacle     the distance of obstacles from the flat sheet, times a factor
 grid         the cells of the lattice, the elements of the references, along the shorter side
 damping      the damping time, such that the lowest mode has a share of critical damping: how runs of every
-             integrator end, and the largest stable step of the explicit ones
+             integrator with its default steps end, and the largest stable step of the explicit ones
 time-step    the steps of every integrator: shares of the largest of explicit ones, else of the lowest period
 
 At rest, an error is the one at the probes against the reference on the same sheet, on the grid study against
@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, Unpack
 
@@ -27,9 +28,8 @@ import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.stability.answer import Stability
-from comparisons.stability.limit import DefaultSteps
 from comparisons.stability.rows import Row
-from comparisons.sweep.campaign import CampaignKeywords
+from comparisons.sweep.campaign import CampaignKeywords, Run
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.sweep.store import Store
@@ -42,7 +42,6 @@ from sheetbench.scenes.meaning.parameters import put
 from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.orthotropy import MODULI
 from sheetbench.scenes.objects.patches import Patch
-from sheetbench.scenes.objects.tables import FactorTable, Loading
 
 Cell = tuple[Ask, Ask | str | None]  # a run, and what its error is against, or why it is refused
 FACTORS = {
@@ -58,6 +57,17 @@ DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps a period
 FINE, SAMPLES = 400, 40  # steps of the midpoint rule and samples, a period
 PERIODS = 3.0  # of a run
 PARTS = ("patches", "layers")
+RUN_STEPS, RUN_PERIODS = 500, 2.0  # of a run with default steps: explicit steps, lowest periods, at most
+
+
+@dataclass(frozen=True)
+class DefaultSteps(Ask):
+    """A run of an integrator with its default steps about the lowest `period` [s], and its largest step."""
+
+    @property
+    def task(self) -> Run:
+        arguments = {"scene": self.scene.document(), "lattice": self.spec.settings, **self.run}
+        return Run(f"{__name__}:run", arguments, self.label)
 
 
 def stability(
@@ -142,6 +152,24 @@ def _damped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
             yield DefaultSteps(there, lattice, run=run, tags=tags, label=label), None
 
 
+def run(scene: dict[str, Any], lattice: dict[str, Any], integrator: str, period: float) -> dict[str, Any]:
+    """Run an integrator with its default steps, a task; of an explicit one the largest stable step [s] from
+    the lattice's highest frequency (`computed`) and the default one (`advised`) too."""
+    parsed = Scene.model_validate(scene)
+    springs = resolve(parsed, Lattice(**lattice), "springs").springs
+    duration, limits = RUN_PERIODS * period, dict[str, float]()
+    if lumped.INTEGRATORS[integrator].explicit:
+        flat = parsed.replace(gravity=None, loads=())
+        equations = lumped.System(flat, lumped.build_problem(flat, springs))
+        limit = lumped.INTEGRATORS[integrator].limit(equations, np.zeros_like(equations.problem.loads.dead))
+        assert limit is not None
+        limits = {"computed": limit.step, "advised": limit.advised}
+        duration = min(duration, RUN_STEPS * limit.advised)
+    history = lumped.simulate(parsed, springs, duration, integrator=integrator, every=duration)
+    ended = {"status": str(history.status), "message": history.message, "iterations": history.steps}
+    return {**limits, **ended}
+
+
 def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
     def ask(name: str, step: float) -> Ask:
         return Ask(
@@ -179,8 +207,8 @@ def scaled(scene: Scene, name: str, factor: float) -> Scene:
             return put(scene, "thickness", factor * scene.sheet.thickness).replace(patches=tuple(patches))
         if name == "obstacle":
             return scene.replace(obstacles=tuple(farther(scene, one, factor) for one in scene.obstacles))
-        acting = {"loads": tuple(_times(load, factor) for load in scene.loads)}
-        return scene.replace(gravity=scene.gravity and _times(scene.gravity, factor), **acting)
+        acting = {"loads": tuple(load.times(factor) for load in scene.loads)}
+        return scene.replace(gravity=scene.gravity and scene.gravity.times(factor), **acting)
 
 
 def _stiffer(part: Patch | Layer, factor: float) -> Patch | Layer:
@@ -189,16 +217,10 @@ def _stiffer(part: Patch | Layer, factor: float) -> Patch | Layer:
     return part.replace(**own) if own else part
 
 
-def _times(acting: Loading, factor: float) -> Any:
-    """Return a load or gravity, times a factor."""
-    table = acting.history or FactorTable(time=(0.0,), factor=(1.0,))
-    return acting.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))
-
-
 def _row(found: Solved, truth: Solved | None) -> Row:
     """Return a cell's row: how it ended, and its error where its reference has an answer too."""
     steps = found.row.get("iterations") or found.row.get("steps")
-    known = {name: found.row[name] for name in ("computed", "measured", "advised") if name in found.row}
+    known = {name: found.row[name] for name in ("computed", "advised") if name in found.row}
     row: Row = {**found.ask.tags, "error": None, "iterations": steps, "seconds": found.run_seconds}
     row |= {"status": found.status, "message": found.message, **known}
     if truth is None or not found.stable or not truth.stable:

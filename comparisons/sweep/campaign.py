@@ -36,17 +36,12 @@ from sheetbench.errors import BadInput
 from sheetbench.files import only_writer
 from sheetbench.sources import source, version
 
-# Tasks by the names that rows are kept under, so that moving a file loses no result.
-TASKS = {
-    "solve": "comparisons.sweep.task:solve",
-    "stability.run": "comparisons.stability.limit:run",
-}
 GOING = "going on"
 
 
 @dataclass(frozen=True)
 class Run:
-    """The function that `task` names, in `TASKS` or as "module:function", called with `arguments`.
+    """The function that `task` names, as "module:function", called with `arguments`.
 
     The arguments are plain JSON data, and so is the dictionary that the function returns; its "status" and
     "message", if any, become those of the run. label: what people read while it runs.
@@ -228,9 +223,8 @@ def _submit(executor: Executor, run: Run) -> Future[Finished]:
 
 
 def function(task: str) -> Callable[..., dict[str, Any]]:
-    """Return what a task is carried out by: of a name in `TASKS`, or of "module:function" for one of your
-    own."""
-    module, _, name = TASKS.get(task, task).partition(":")
+    """Return what a task is carried out by."""
+    module, _, name = task.partition(":")
     carried_out: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
     return carried_out
 

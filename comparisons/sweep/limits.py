@@ -30,13 +30,12 @@ DIGITS = 1e-5  # of the largest displacement
 
 
 def limit(
-    rows: Iterable[Solved], of: str = "probes", size: Callable[[Solved], float] = lambda row: row.size
+    rows: Iterable[Solved], size: Callable[[Solved], float] = lambda row: row.size
 ) -> Uncertainty | None:
     """Return limit and bar of a model's finest answers, three of them if there are, None below two.
 
-    of: what the bar is of, "probes" or a column; size: of a row's cells, or of its steps. Quadratic elements
-    miss some of the layer along edges; of others an order of 2 at most counts; in motion the layer counts for
-    nothing.
+    size: of a row's cells, or of its steps. Quadratic elements miss some of the layer along edges; of others
+    an order of 2 at most counts; in motion the layer counts for nothing.
     """
     from fem_reference.edge_layer import missed_by
     from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, estimate
@@ -49,7 +48,7 @@ def limit(
     if ask.layered and ask.duration is None:
         layers = [missed_by(row.ask.scene, row.row["settings"]) for row in usable]
     order = OWN_ORDER if ask.layered else ASSUMED_ORDER
-    return estimate([row.values(of) for row in usable], sizes, layers, order)
+    return estimate([row.u for row in usable], sizes, layers, order)
 
 
 def motion_bar(meshes: Sequence[Solved], longer: Solved) -> dict[str, float | None]:

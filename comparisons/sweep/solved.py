@@ -22,6 +22,8 @@ from sheetbench.answers.history import History
 from sheetbench.answers.solution import Status, comparable
 from sheetbench.scenes import Scene
 
+TASK = "comparisons.sweep.task:solve"
+
 
 @dataclass(frozen=True)
 class Ask:
@@ -53,7 +55,7 @@ class Ask:
         arguments = {"scene": self.scene.document(), "model": self.spec.model, "settings": self.spec.settings}
         if (digest := plugins.digest(self.spec.model)) is not None:
             given["digest"] = digest
-        return Run("solve", arguments | given, self.label or self.spec.label, self.repeats > 0)
+        return Run(TASK, arguments | given, self.label or self.spec.label, self.repeats > 0)
 
     @property
     def layered(self) -> bool:
@@ -108,10 +110,6 @@ class Solved:
         """Displacement (n, 3) [m] at the probes, in motion at all samples."""
         probes = [np.array(values, dtype=float) for values in self.row["probes"].values()]
         return np.array(probes) if self.ask.duration is None else np.concatenate(probes)
-
-    def values(self, column: str) -> np.ndarray:
-        """Return `u`, or what a column of `comparisons.sweep.columns` holds."""
-        return self.u if column == "probes" else np.array(self.row["columns"][column], dtype=float)
 
     @property
     def counts(self) -> list[int]:

@@ -32,16 +32,8 @@ COLUMNS = {
     "seconds": "real not null",
     "digest": "text not null",
 }
-_REMEDIES = {
-    sqlite3.SQLITE_FULL: "free some space and run the same command again",
-    sqlite3.SQLITE_BUSY: "another program uses it: close that and run the same command again",
-    sqlite3.SQLITE_LOCKED: "another program uses it: close that and run the same command again",
-    sqlite3.SQLITE_READONLY: "make it writable, or choose another folder",
-    sqlite3.SQLITE_PERM: "make it writable, or choose another folder",
-    sqlite3.SQLITE_CANTOPEN: "a folder stands there, or it may not be read: choose another folder",
-    sqlite3.SQLITE_IOERR: "the disk is full or at fault: mend that and run the same command again",
-}
 _MOVE = "move it away to start over"
+_MEND = "make it readable and writable, with room on the disk and no other program at it, or move it away"
 
 
 @dataclass(frozen=True)
@@ -126,12 +118,11 @@ class Store:
 
     @contextmanager
     def _database_errors(self) -> Iterator[None]:
-        """What SQLite complains of, as a BadInput that names the file and the remedy."""
+        """What SQLite complains of, as a BadInput that names the file."""
         try:
             yield
         except sqlite3.Error as error:
-            remedy = _REMEDIES.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, _MOVE)
-            raise BadInput(f"{self.path}: {error}; {remedy}") from None
+            raise BadInput(f"{self.path}: {error}; {_MEND}") from None
 
 
 def _digest(values: Sequence[Any]) -> str:

@@ -14,23 +14,17 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from math import isfinite
-from typing import Any
+from collections.abc import Sequence
 
-from comparisons.comparison import strain_law
 from comparisons.comparison.comparison import load_static
-from comparisons.models.resolve import resolve
-from comparisons.models.spec import Lattice, Spec, items
-from comparisons.sweep import load
+from comparisons.models.spec import Lattice, Spec
 from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import left_for_grid
-from comparisons.tradeoff.advice import Advice, TrialRow
+from comparisons.tradeoff.advice import Advice
 from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene
-from sheetbench.scenes.language.units import amount
 from sheetbench.scenes.objects.grid import MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
@@ -40,28 +34,32 @@ STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
 
 def advise(
     scene: AnyScene,
-    tolerance: float | str | None = None,
-    budget: float | str | None = None,
+    tolerance: float | None = None,
+    budget: float | None = None,
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     *,
-    models: Sequence[str] | str | None = None,
+    models: Sequence[str] | None = None,
     calibration: str | None = None,
 ) -> Advice:
-    """Return the cheapest model predicted to meet `tolerance` (a fraction, or text as "1 %"; 0.01 unless a
-    budget alone is given), or the most accurate in `budget` [s].
+    """Return the cheapest model predicted to meet `tolerance` (a fraction; 0.01 unless a budget
+    alone is given), or the most accurate in `budget` [s].
 
     models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
     tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
-    lattice, calibration: springs of lattices that may be chosen beside the usual ones, "auto" as in
-    `comparisons.models.method`; its grading: of further lattices, which with "auto" makes the calibration
-    "auto" too. Models that take more memory than there is are left out. Raises SceneError for a scene without
-    a static answer; BadInput where not even the coarsest reference fits into memory, for a grid, and for
-    springs and grading that contradict each other.
+    lattice, calibration: springs and grading of the lattices that may be chosen. Models that take more memory
+    than there is are left out. Raises SceneError for a scene without a static answer; BadInput where not even
+    the coarsest reference fits into memory, for a grid, and for springs and grading that contradict each
+    other.
     """
     scene = load_static(scene)
-    tolerance, budget = _limits(tolerance, budget)
+    if budget is not None and not budget > 0.0:
+        raise BadInput(f"budget = {budget:g}: seconds, more than 0")
+    if tolerance is None and budget is None:
+        tolerance = 0.01
+    if tolerance is not None and not 0.0 < tolerance < 1.0:
+        raise BadInput(f"tolerance = {tolerance:g}: a fraction between 0 and 1, as 0.01 for one percent")
     own = lattice if calibration is None else lattice.but(calibration=calibration)
-    trials = TrialSolves(scene, own, items(models) if isinstance(models, str) else models)
+    trials = TrialSolves(scene, own, models)
     for _ in range(3):
         trials.refine()
     while not trials.reference.stable and trials.refine():
@@ -98,20 +96,6 @@ def advise(
     elif chosen is None:
         chosen = _nearest(trials, candidates)
     return _advice(trials, tolerance, budget, chosen, message)
-
-
-def _limits(tolerance: float | str | None, budget: float | str | None) -> tuple[float | None, float | None]:
-    """Return tolerance and budget [s] as numbers. Raises BadInput unless the first is a fraction above 0 and
-    below 1 and the second above 0."""
-    seconds = None if budget is None else amount("budget", budget, "s")
-    if seconds is not None and not seconds > 0.0:
-        raise BadInput(f"budget = {seconds:g}: seconds, more than 0")
-    if tolerance is None:
-        return (0.01 if seconds is None else None), seconds
-    share = amount("tolerance", tolerance, "")
-    if not 0.0 < share < 1.0:
-        raise BadInput(f"tolerance = {share:g}: a fraction between 0 and 1, as 0.01 for one percent")
-    return share, seconds
 
 
 def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> SolvedHere | None:
@@ -173,76 +157,11 @@ def _advice(
     message: str,
 ) -> Advice:
     needs, left_out = _effects(trials, chosen, tolerance or 0.01)
-    rows = list(trials.rows.values())
-    added = trials.uncertainty + (trials.model_error.value if trials.model_error else 0.0)
-    tried = tuple(
-        TrialRow(
-            trial.ask.spec,
-            trial.status,
-            trials.error(trial) if trial.stable else None,
-            trials.error(trial) + added if trial.stable and isfinite(added) else None,
-            trial.seconds,
-            trial is chosen,
-        )
-        for trial in rows
-    )
-    return Advice(
-        scene=trials.scene,
-        tolerance=tolerance,
-        budget=budget,
-        choice=chosen.ask.spec if chosen is not None else None,
-        error=trials.error(chosen) if chosen is not None else None,
-        bar=trials.uncertainty,
-        seconds=chosen.seconds if chosen is not None else None,
-        needs=needs,
-        left_out=left_out,
-        scales=trials.scales,
-        probing_seconds=trials.seconds,
-        tried=tried,
-        message=message,
-        grading=_grading(trials, chosen),
-        calibration=_calibration(trials, chosen),
-        limit=_limit(trials, chosen),
-        model=trials.model_error,
-        warnings=(
-            *load.warnings([row.load_average for row in rows], [row.samples for row in rows]),
-            *(f"{one.model} {one.size} left out: {reason}" for one, reason in trials.refused.items()),
-        ),
-    )
-
-
-def _lattice(trials: TrialSolves, chosen: SolvedHere | None, springs: Mapping[str, Any]) -> Lattice:
-    """Return the choice, or the usual grid with some springs where that is no lattice."""
     spec = None if chosen is None else chosen.ask.spec
-    return spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1).but(**springs)
-
-
-def _grading(trials: TrialSolves, chosen: SolvedHere | None) -> str:
-    """Return what was made of graded lattices: of the choice, or of the usual grid where that is no
-    lattice."""
-    if trials.grading is None:
-        return ""
-    lattice = _lattice(trials, chosen, {})
-    value, why = trials.grading_of(lattice)
-    masses = " × ".join(lattice.size.split("×")[:2])
-    text = f"grading {value:g} {'taken' if lattice.grading else 'not taken'}" if value else "no grading"
-    return f"{text}, {masses} masses" + (f": {why}" if why else "")
-
-
-def _calibration(trials: TrialSolves, chosen: SolvedHere | None) -> str:
-    """Return what was made of the springs that were requested."""
-    if not (trials.springs or trials.because):
-        return ""
-    settings = {} if chosen is None else chosen.ask.spec.settings
-    taken = settings.items() >= {"calibration": trials.method, **trials.springs}.items()
-    text = f"calibration {trials.method} {'taken' if taken else 'not taken'}"
-    return f"{text}: {trials.because}" if trials.because else text
-
-
-def _limit(trials: TrialSolves, chosen: SolvedHere | None) -> str:
-    """From which stretch on the lattice chosen, or else the usual one, is no rubber, if this sheet is."""
-    lattice = _lattice(trials, chosen, trials.springs)
-    return strain_law.limit(resolve(trials.scene, lattice, "springs"), trials.reference.answer.stretch or 0.0)
+    grid = (spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1)).grid
+    lattice = trials.resolved(trials.springs.but(grid=grid))
+    reasons = tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in lattice.reasons.items())
+    return Advice(trials, tolerance, budget, chosen, message, needs, left_out, reasons)
 
 
 def _effects(
@@ -269,7 +188,4 @@ def _effects(
         left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
     if trials.scene.actuators:
         needs.append("actuators")
-    if chosen is not None and trials.planes:
-        part = "a quarter" if len(trials.planes) == 2 else "half"
-        left_out.append(f"all but {part} of the sheet: the scene is symmetric")
     return tuple(needs), tuple(left_out)

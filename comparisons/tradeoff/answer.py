@@ -3,8 +3,6 @@ tradeoff`."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from typing import Any
@@ -79,21 +77,19 @@ class Priced(Answer):
 
 ORDERS = (
     *(Column("model", prose=True), NUMBER("d", "rows"), NUMBER("z.2f", "error order")),
-    *(NUMBER("z.2f", "field error order"), NUMBER("z.2f", "time order")),
+    NUMBER("z.2f", "time order"),
 )
 
 
 @dataclass(frozen=True, repr=False)
 class Tradeoff(Priced):
-    """The rows of a scene; uncertainty, field_uncertainty: None where the reference did not converge on two
-    meshes."""
+    """The rows of a scene; uncertainty: None where the reference did not converge on two meshes."""
 
     file_name, DRAWN = "tradeoff", "comparisons.tradeoff.figure:compose"
     scene: Scene
     rows: tuple[TradeoffRow, ...]
     reference: TradeoffRow
     uncertainty: float | None
-    field_uncertainty: float | None
     reasons: tuple[str, ...] = ()
 
     @property
@@ -105,10 +101,8 @@ class Tradeoff(Priced):
             rows = [self.rows[i] for i in numbers if self.rows[i].error is not None]
             sizes = [row.cell_size for row in rows]
             unknowns = [row.known.get("unknowns") or 0 for row in rows]
-            errors, fields = [row.error for row in rows], [row.field_error for row in rows]
             orders = {
-                "error_order": error_order(sizes, errors, self.uncertainty),
-                "field_error_order": error_order(sizes, fields, self.field_uncertainty),
+                "error_order": error_order(sizes, [row.error for row in rows], self.uncertainty),
                 "time_order": order(unknowns, [row.seconds or 0.0 for row in rows]),
             }
             found.append({"series": name, "rows": len(rows), **orders})
@@ -125,7 +119,6 @@ class Tradeoff(Priced):
                 **self.reference.as_dict(),
                 "uncertainty": self.uncertainty,
                 "model_error": self.reference.model_error,
-                "field_uncertainty": self.field_uncertainty,
             },
         }
 
@@ -144,8 +137,7 @@ class Tradeoff(Priced):
         explained = (
             f"errors against {truth.label} ({truth.known.get('unknowns')} unknowns), whose own "
             f"uncertainty is {self.known}: the grid convergence index of n, ¾ n and ½ n elements. error: at "
-            "the probes; field error: root mean square over the sheet. One thread; times on warm code; "
-            "memory: growth of the process."
+            "the probes. One thread; times on warm code; memory: growth of the process."
         )
         taken = share_of_tolerance(STATED, truth.model_error, self.uncertainty, truth.ask.spec.model)
         return [*self.reasons, *self.cheapest(), *filter(None, [taken]), explained, *self.warnings]
@@ -239,8 +231,9 @@ class DynamicTradeoff(Priced):
             *self.warnings,
         ]
 
-    def complaints(self) -> tuple[str, ...]:
-        return folded([*self.rows, self.reference])
+    def complaints(self) -> list[str]:
+        ended = [row for row in (*self.rows, self.reference) if row.status != Status.CONVERGED]
+        return [f"{row.name}: {row.status}: {row.message}" for row in ended]
 
     def choices(self) -> dict[str, Any]:
         return {"duration": self.duration}
@@ -249,18 +242,3 @@ class DynamicTradeoff(Priced):
     def succeeded(self) -> bool:
         """Whether there is a reference to measure against."""
         return comparable(self.reference.status, 1.0)
-
-
-def folded(rows: Sequence[MotionRow]) -> tuple[str, ...]:
-    """A line for all steps of a model that ended alike."""
-    ends: dict[tuple[str, str, str], list[MotionRow]] = {}
-    for row in rows:
-        if row.status != Status.CONVERGED:
-            why = re.sub(r"^(at [\d.e+-]+ s:|from [\d.e+-]+ s on) ", "", row.message)
-            ends.setdefault((row.run, row.status, why), []).append(row)
-    found = []
-    for (name, status, why), alike in ends.items():
-        fixed = [f"{1e3 * row.step:.3g}" for row in alike if row.step is not None]
-        steps = f", step{'s' * (len(fixed) > 1)} {', '.join(fixed)} ms" if fixed else ""
-        found.append(f"{name}{steps}: {status}: {why}")
-    return tuple(found)

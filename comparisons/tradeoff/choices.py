@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from comparisons.models.grids import Elements as Count
-from comparisons.models.grids import parse_elements
 from comparisons.models.resolve import resolve_each
-from comparisons.models.spec import Elements, Lattice, Spec, items, lattices, pairs, references
+from comparisons.models.spec import Lattice, Spec, items, lattices, pairs, references
 from comparisons.tradeoff.usual import GRIDS, PAIRS, SPRINGS
-from sheetbench.choices import AUTO, CALIBRATION, REFERENCE
-from sheetbench.errors import BadInput
+from sheetbench.choices import AUTO, CALIBRATION
 from sheetbench.scenes import Scene
 
 
@@ -38,23 +35,7 @@ def moving_lattices(lattice: Lattice, grid: str | None, calibration: str | None)
     return [lattice.but(grid=size, calibration=name) for name in methods for size in grids]
 
 
-def of_references(
-    meshes: Mapping[str, str | None], usual: Mapping[str, str], symmetry: bool = False
-) -> list[Spec]:
-    """Return references on meshes by name, the usual ones where nothing is listed; symmetry: of all but
-    solids."""
+def of_references(meshes: Mapping[str, str | None], usual: Mapping[str, str]) -> list[Spec]:
+    """Return references on meshes by name, the usual ones where nothing is listed."""
     sizes = {name: items(usual[name] if listed is None else listed) for name, listed in meshes.items()}
-    every = [one for name, listed in sizes.items() for one in references(name, listed)]
-    return [one.but(symmetry=True) if symmetry and one.model != "solid" else one for one in every]
-
-
-def finest(elements: Count | str | None) -> Elements | None:
-    """Return the reference that all are held against. Raises BadInput for one of a single element, for it is
-    solved on half as many too."""
-    if elements is None:
-        return None
-    found = parse_elements(elements) if isinstance(elements, str) else elements
-    if min([found] if isinstance(found, int) else found) < 2:
-        text = f"--elements = {elements}"
-        raise BadInput(f"{text}: at least 2, for the reference is solved on half as many too")
-    return Elements(REFERENCE, found)
+    return [one for name, listed in sizes.items() for one in references(name, listed)]

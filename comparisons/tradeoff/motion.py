@@ -10,9 +10,8 @@ Period and damping are those of `comparisons.comparison.measures`; cost is the s
 second. The reference's uncertainty is by n, ¾ n and ½ n elements a side and by steps twice as long
 (`comparisons.sweep.limits.motion_bar`). Steps of a lattice are the period over
 `divisions`, the period being the lowest mode's about the flat sheet or about its equilibrium, the shorter of
-the two: a sheet that hangs is stiffer than it was flat. Where an integrator converges with none of them its
-steps are halved until it does, down to the midpoint rule's. Explicit integrators take shares of their
-stability limit instead. Plate, shell and solid keep their steps to an error.
+the two: a sheet that hangs is stiffer than it was flat. Explicit integrators take shares of their stability
+limit instead. Plate, shell and solid keep their steps to an error.
 """
 
 from __future__ import annotations
@@ -35,7 +34,6 @@ from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
 from comparisons.tradeoff.statics import finest_shell
 from fem_reference.uncertainty import coarser
-from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.quantities import require_positive
@@ -102,10 +100,6 @@ def dynamic_tradeoff(
     found = sweep([*finer, *own, *asks], store, **how)
     finer_rows, found = found[: len(finer)], found[len(finer) :]
     truths, halves, found = found[: len(meant)], found[len(meant) : len(own)], found[len(own) :]
-    halved = 2 * max(divisions)
-    while halved <= fine and (unsolved := _unsolved(found)):
-        found += sweep([of_lattice(i, name, periods[i] / halved) for i, name in unsolved], store, **how)
-        halved *= 2
     found.sort(key=lambda row: _place(row.ask, integrators))
     reasons = (why for one in meant for why in one.reasons.items())
     return DynamicTradeoff(
@@ -134,15 +128,3 @@ def _off(one: Solved, other: Solved) -> float:
     """The largest difference of two runs, 0 where one of them has not ended."""
     ours, theirs = one.history, other.history
     return 0.0 if ours is None or theirs is None else largest(ours, theirs)
-
-
-def _unsolved(rows: Sequence[Solved]) -> list[tuple[int, str]]:
-    """Numbers of lattices and the implicit integrators that came to their end there with no step so far."""
-    import lumped
-
-    ended: dict[tuple[int, str], bool] = {}
-    for row in rows:
-        if row.ask.tags:
-            case = row.ask.tags["lattice"], row.ask.run["integrator"]
-            ended[case] = ended.get(case, False) or row.usable or row.status == Status.REFUSED
-    return [case for case, some in ended.items() if not some and not lumped.INTEGRATORS[case[1]].explicit]

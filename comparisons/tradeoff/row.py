@@ -16,7 +16,7 @@ from sheetbench.scenes.language.summary import milliseconds
 
 MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column("front", words=("yes", ""))
-OWN = ("label", "status", "message", "cell_size", "started", "finished", "error", "field_error")
+OWN = ("label", "status", "message", "cell_size", "started", "finished", "error")
 MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes", "bar")
 # in the JSON where they are known
 _OF_AN_ANSWER = ("load_factor", "model_error", "load_average", "probes", "machine", "versions", "traceback")
@@ -25,18 +25,17 @@ TRADED = (
     *(NUMBER("d", "factorisations", detail=True), MILLISECONDS(".1f", "set-up", detail=True)),
     *(MILLISECONDS(".2f", "solve"), MILLISECONDS(".2f", "from", detail=True)),
     *(MILLISECONDS(".2f", "to", detail=True), MEMORY(".1f", "memory"), PERCENT(".3g", "error")),
-    *(PERCENT(".2g", "own bar", detail=True), PERCENT(".3g", "field error"), FRONT),
+    *(PERCENT(".2g", "own bar", detail=True), FRONT),
     Column("status", detail=True),
 )
 
 
 @dataclass(frozen=True)
 class TradeoffRow(Solved):
-    """A row of the table of solves, at rest, with its errors, fractions, None where there is nothing to
+    """A row of the table of solves, at rest, with its error, a fraction, None where there is nothing to
     measure."""
 
     error: float | None = None
-    field_error: float | None = None
 
     @property
     def known(self) -> dict[str, Any]:
@@ -78,7 +77,6 @@ class TradeoffRow(Solved):
             memory,
             self.error,
             bar,
-            self.field_error,
         )
 
     def as_dict(self) -> dict[str, Any]:
@@ -171,7 +169,7 @@ class MotionRow:
     @property
     def name(self) -> str:
         """The run and its steps."""
-        return f"{self.run} with steps of {milliseconds(self.step or 0.0)}"
+        return f"{self.run} with steps of {milliseconds(self.step)}" if self.step else self.run
 
     @property
     def cost(self) -> float | None:

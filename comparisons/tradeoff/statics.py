@@ -1,8 +1,7 @@
 """Error against cost: many models of one scene, measured alike, beside the finest reference.
 
     error        at the probes, as `comparisons.comparison.comparison` defines it
-    field error  (∫ |u − u_ref|² dA / ∫ |u_ref|² dA)^½ over the undeformed sheet
-    uncertainty  of the reference, in both measures: its bar by the grid convergence index, from meshes of
+    uncertainty  of the reference: its bar by the grid convergence index, from meshes of
                  n, ¾ n and ½ n elements a side (`fem_reference.uncertainty`)
     cost         see `comparisons.sweep.task`
 
@@ -13,14 +12,13 @@ rows of a family whose errors are well above the uncertainty.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Unpack
+from typing import Unpack
 
 import numpy as np
 
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Spec
 from comparisons.sweep.campaign import CampaignKeywords
-from comparisons.sweep.columns import field_points
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import limit
 from comparisons.sweep.solved import Ask, Solved, sweep
@@ -31,7 +29,7 @@ from fem_reference.uncertainty import coarser
 from sheetbench.scenes import Scene, require_static
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
-TRADED = ("field", "bar", "model_error")  # columns
+TRADED = ("bar", "model_error")  # columns
 
 
 def tradeoff(
@@ -59,14 +57,13 @@ def tradeoff(
     asks = [Ask(scene, candidate, repeats, TRADED) for candidate in candidates]
     found = sweep([*meshes, *asks], store, **how)
     finer, rows = found[: len(meshes)], found[len(meshes) :]
-    truth, shares = finer[0], field_points(scene)[1]
-    at_probes, field = (limit(finer, of) if truth.usable else None for of in ("probes", "field"))
+    truth = finer[0]
+    bar = limit(finer) if truth.usable else None
     return Tradeoff(
         scene,
-        tuple(TradeoffRow(**vars(row), **_errors(row, truth, shares)) for row in rows),
+        tuple(TradeoffRow(**vars(row), error=_error(row, truth)) for row in rows),
         TradeoffRow(**vars(truth)),
-        None if at_probes is None else at_probes.error,
-        None if field is None else _ratio(field.bar, field.answer, shares),
+        None if bar is None else bar.error,
         reasons,
     )
 
@@ -77,14 +74,5 @@ def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
     return Elements("shell", max([least, *(2 * int(n) for n in shells)]))
 
 
-def _errors(row: Solved, truth: Solved, shares: np.ndarray) -> dict[str, Any]:
-    if not (row.usable and truth.usable):
-        return {}
-    field, known = row.values("field"), truth.values("field")
-    return {"error": error(row.u, truth.u), "field_error": _ratio(field - known, known, shares)}
-
-
-def _ratio(off: np.ndarray, known: np.ndarray, shares: np.ndarray) -> float | None:
-    """Return the root mean square of one field (n, 3) over another's; shares (n,): of the area."""
-    part, whole = (float(shares @ np.sum(u**2, axis=1)) for u in (off, known))
-    return float(np.sqrt(part / whole)) if whole > 0.0 and np.isfinite(part) else None
+def _error(row: Solved, truth: Solved) -> float | None:
+    return error(row.u, truth.u) if row.usable and truth.usable else None

@@ -15,11 +15,10 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from comparisons.models.grading import fixed
-from comparisons.models.resolve import resolve
+from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.scales import scales
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.spec import Elements, Lattice, Spec, counted
-from comparisons.models.symmetry import planes
 from comparisons.sweep.differences import error
 from comparisons.sweep.here import SolvedHere, here
 from comparisons.sweep.limits import limit
@@ -27,8 +26,7 @@ from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene
-from sheetbench.scenes.objects.grading import Graded, amount
-from sheetbench.scenes.objects.grid import MASSES, near_square
+from sheetbench.scenes.objects.grid import near_square
 
 MESHES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
 FIRST = 3  # of them are always solved
@@ -47,21 +45,14 @@ class TrialSolves:
         lattice: Lattice = Lattice(),  # noqa: B008  # frozen
         models: Sequence[str] | None = None,
     ) -> None:
-        """lattice: springs that lattices may have too, and by how much they may be graded too; models: that
-        may be chosen, all unless some are named. Raises BadInput for a grid, where springs and grading are
-        none or contradict each other, and where the first references take too much memory; otherwise the
-        larger models are left out."""
+        """lattice: springs and grading of all lattices; models: that may be chosen, all unless some are
+        named. Raises BadInput for a grid, where springs and grading are none or contradict each other, and
+        where the first references take too much memory; otherwise the larger models are left out."""
         if lattice.grid is not None:
             raise BadInput(f"grid = {counted(lattice.grid)}: is chosen here; leave it out")
         for name in models or ():
             require_choice("models", name, CELLS)
-        self.scene, self.models = scene, models
-        resolved = resolve(scene, lattice.but(grid=MASSES), "springs", own=False)
-        self.grading, self.method = lattice.grading, resolved.spec.calibration or CALIBRATION
-        own = {"calibration": self.method, "k": lattice.k, "layer_distance": lattice.layer_distance}
-        self.springs = {name: value for name, value in own.items() if value not in (None, CALIBRATION)}
-        self.because = resolved.reasons.get("calibration_reason", "")
-        self.planes = planes(scene)
+        self.scene, self.models, self.springs = scene, models, lattice
         self.scales = scales(scene)
         self.rows: dict[Spec, SolvedHere] = {}
         self.refused: dict[Spec, str] = {}  # and why
@@ -70,41 +61,31 @@ class TrialSolves:
         require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
-        """Return a lattice of that many cells along the shorter side, cut where the scene is symmetric."""
-        nx, ny = self._along(cells)
-        return Lattice((nx + 1, ny + 1, 2), CALIBRATION, linear=linear, symmetry=bool(self.planes))
+        """Return a lattice of that many cells along the shorter side; linear: of the usual springs."""
+        nx, ny = near_square(self.scene.sheet, cells)
+        grid = (nx + 1, ny + 1, 2)
+        if linear:
+            return Lattice(grid, CALIBRATION, linear=True)
+        found = self.resolved(self.springs.but(grid=grid)).spec
+        return found.but(grading=fixed(found.grading) or None)
+
+    def resolved(self, lattice: Lattice) -> Resolved[Lattice]:
+        """Return a lattice with its springs, the scene's own left aside, and the reasons for these."""
+        return resolve(self.scene, lattice, "springs", own=False)
 
     def elements(self, kind: str, cells: int) -> Elements:
-        """Return a reference of that many elements along the shorter side, cut likewise."""
-        return Elements(kind, self._along(cells), symmetry=bool(self.planes))
-
-    def _along(self, cells: int) -> tuple[int, int]:
-        along = list(near_square(self.scene.sheet, cells))
-        for axis in self.planes:
-            along[axis] += along[axis] % 2
-        return along[0], along[1]
+        """Return a reference of that many elements along the shorter side."""
+        return Elements(kind, near_square(self.scene.sheet, cells))
 
     def candidates(self, linear: bool) -> list[Spec]:
         """Return what may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
-        usual = [self.lattice(n) for n in CELLS["lumped"]]
-        others = [one.but(**self.springs) for one in usual] if self.springs else []
-        specs: list[Spec] = [*usual, *others, *self.graded(others or usual)]
+        specs: list[Spec] = [self.lattice(n) for n in CELLS["lumped"]]
         specs += [self.elements("shell", n) for n in CELLS["shell"]]
         if linear:
             specs += [self.lattice(n, linear=True) for n in CELLS["lumped"]]
             specs += [self.elements("plate", n) for n in CELLS["plate"]]
         chosen = [one for one in specs if self.models is None or one.model in self.models]
         return [one for one in chosen if has_room(self.scene, one)]
-
-    def graded(self, lattices: list[Lattice]) -> list[Lattice]:
-        """Those of these lattices that are to be graded too, as requested or by the scene's layers."""
-        gradings = [(one, self.grading_of(one)[0]) for one in lattices]
-        return [one.but(grading=value) for one, value in gradings if value and amount(value)]
-
-    def grading_of(self, lattice: Lattice) -> tuple[Graded | None, str]:
-        """Return the grading that a lattice may have, and why where that is chosen."""
-        resolved = resolve(self.scene, lattice.but(grading=self.grading), "springs")
-        return fixed(resolved.spec.grading), resolved.reasons.get("grading_reason", "")
 
     def row(self, candidate: Spec, repeats: int = REPEATS) -> SolvedHere:
         """Return the candidate's row; solved once, whoever wants it."""

@@ -8,14 +8,16 @@ are the scene's own (see `surface.balance`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple, cast
 
 import numpy as np
+from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
+from fem_reference.discrete.sheet import Discrete
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
@@ -27,6 +29,7 @@ from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Inspect, Path
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
+from sheetbench.scenes import Scene
 
 EPSILON = float(np.finfo(float).eps)
 EXACT = Limits(first_reach=np.inf, farthest=np.inf, smallest_step=1.0)  # of linear sheets: one step is all
@@ -86,8 +89,22 @@ def judge(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
     return Status.STRAIN_OUTSIDE_MODEL, [outside, *path.notes]
 
 
-def answered(runs: Sequence[Traced], label: str, settings: dict[str, Any], fallback: str = "") -> Solution:
-    """Return the answer of the first of these runs, which took the others too, the last of them first."""
+def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
+    """Return the equilibrium on any flat mesh of quadrilaterals [m], of the shell also biquadratic ones.
+
+    Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
+    anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
+    """
+    kind: Any = model
+    found = traced(lambda: kind(mesh, scene))
+    found.sheet.own, found.sheet.label = True, found.sheet.model
+    found.sheet.settings = {"elements": mesh.nelements}
+    return answered(found)
+
+
+def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
+    """Return the answer of the first of these runs, which took the others too, the last of them first.
+    settings: beside those of the sheet."""
     path = runs[0].path
     shape, share = shape_of(path), path.load_factor
     sheet, forces = shape.sheet, path.structure.forces(path.state, share)
@@ -120,8 +137,8 @@ def answered(runs: Sequence[Traced], label: str, settings: dict[str, Any], fallb
         contacts={name: state for name, (state, _) in contacts.items()},
         actuators=wrenches,
         balance=left_over(scene, surface, edges, reactions, held, forces.size, allowed, share),
-        label=label,
-        settings=settings,
+        label=sheet.label,
+        settings=sheet.settings | settings,
         status=status,
         iterations=sum(one.path.factorisations for one in runs),
         setup_seconds=sum(one.setup_seconds for one in runs),
@@ -130,6 +147,6 @@ def answered(runs: Sequence[Traced], label: str, settings: dict[str, Any], fallb
         load_factor=share,
         snaps=tuple(path.snaps),
         fallback=fallback,
-        remarks=(*notes, *limit_notes(settings.get("law"), scene.material, status)),
+        remarks=(*notes, *limit_notes(sheet.settings.get("law"), scene.material, status)),
         stretch=shape.stretch,
     )

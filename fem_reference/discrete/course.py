@@ -13,7 +13,7 @@ from sheetbench.scenes import Chain, Scene
 from sheetbench.scenes.meaning.motion import let_go
 from sheetbench.scenes.objects.actuators import CurvatureTable
 from sheetbench.scenes.objects.sheet import Gravity
-from sheetbench.scenes.objects.tables import PiecewiseLinear
+from sheetbench.scenes.objects.tables import PiecewiseCurve
 
 Factor = Callable[[float], Any] | None  # of a time [s] or load factor; None: constant
 
@@ -36,7 +36,7 @@ def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
             constant = load.replace(history=None)
             alone = {"gravity": constant} if isinstance(load, Gravity) else {"loads": (constant,)}
             table = load.history
-            yield bare.replace(**alone), PiecewiseLinear(table.time, table.factor).at if table else None
+            yield bare.replace(**alone), PiecewiseCurve(table.time, table.factor).at if table else None
 
 
 def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
@@ -44,17 +44,12 @@ def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
     if not moving:
         yield scene, float  # the load factor itself
         return
-    still = slack(scene)
+    still = [a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators]
+    # one commanded, the others straight
     for number, chain in enumerate(scene.actuators):
         if isinstance(chain, Chain):
             over_time = chain.curvature if isinstance(chain.curvature, CurvatureTable) else None
             bent = chain.replace(curvature=1.0) if over_time else chain
-            actuators = (*still.actuators[:number], bent, *still.actuators[number + 1 :])
-            factor = PiecewiseLinear(over_time.time, over_time.value).at if over_time else None
-            yield still.replace(actuators=actuators), factor
-
-
-def slack(scene: Scene) -> Scene:
-    """The scene with chains that no command bends."""
-    straight = (a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators)
-    return scene.replace(actuators=tuple(straight))
+            actuators = (*still[:number], bent, *still[number + 1 :])
+            factor = PiecewiseCurve(over_time.time, over_time.value).at if over_time else None
+            yield scene.replace(actuators=actuators), factor

@@ -59,21 +59,17 @@ class DiscreteElements(Discrete):
     def onto_rods(self, shape: SheetShape) -> np.ndarray:
         """∂Q/∂(unknowns) of the rods' sides (k, 3 a, b)."""
 
-    @abstractmethod
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         """Zᵀ f (unknowns,) of forces (N,)."""
+        return np.asarray(self.basis(shape.q, shape.at).T @ force)
 
-    @abstractmethod
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         """Z x (N,) of a step (unknowns,)."""
+        return np.asarray(self.basis(shape.q, shape.at) @ step)
 
     @abstractmethod
     def of_held_positions(self, force: np.ndarray) -> np.ndarray:
         """Those of forces (N,) on what is held of positions, (N,) or fewer."""
-
-    @abstractmethod
-    def short(self, shape: SheetShape) -> np.ndarray:
-        """The step (N,) to what is prescribed and onto the constraints, linear in both."""
 
     def fault(self, shape: SheetShape) -> Fault | None:
         """Why an equilibrium is given up: an element that has turned inside out."""
@@ -140,7 +136,7 @@ class DiscreteElements(Discrete):
             sides, onto = body.tangent(shape, own, by_a, by_v), self.onto_rods(shape)
             add_blocks(data, slots[1], onto.swapaxes(1, 2) @ sides @ onto)
             if move is not None:
-                product += body.scatter(body.elements.product(sides, body.gather(move)))
+                product += body.scatter(sides @ move[body.rows][:, :, None])
         return self.pattern.with_data(data), product
 
     def constraining(

@@ -1,6 +1,10 @@
 """The chains of a sheet: the elastic rods of `surface.rod` with their inertia, dampers and commands.
 
+    e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀,     energy ½ Σ S (e − λ e₀)²,     δe = B δQ,  B = H Q
     ½ ρ_l ∫ |φ̇ + c ḋ|² + ¼ a² (|ḋ|² + |ṁ|²) ds,     s = S (e − e₀) + τ S_elastic ė
+
+with Q the vectors of a side of the edge, e₀ the intrinsic curvature and λ the load factor: the force is Bᵀ s,
+its tangent Bᵀ S B + Σ s H.
 
 A chain's cross-section is round, of radius a; c is the height of its axis, τ its `damping_time`, which acts
 on what bends freely alone. e₀ follows the command; its change is work. The solid's third director t has
@@ -20,7 +24,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from copy import copy
-from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -28,8 +31,7 @@ from scipy.sparse import csr_matrix
 from fem_reference.discrete.course import Factor, factor_at
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import SIDE_MASS
-from fem_reference.surface.rod import INPLANE, NORMAL, BoundRods
-from fem_reference.surface.rod_elements import RodElements
+from fem_reference.surface.rod import INPLANE, NORMAL, BoundRods, RodElements
 from sheetbench.scenes import Scene
 
 LIGHT = 1e-3
@@ -73,7 +75,7 @@ class Rods:
 
     def mass(self) -> csr_matrix:
         """The rods' mass (N, N)."""
-        return self.matrix(self._inertia())
+        return self.matrix(_by_axis(self._mass))
 
     def stress(self, shape: SheetShape) -> np.ndarray:
         """Elastic and viscous stresses (k, s)."""
@@ -84,7 +86,7 @@ class Rods:
 
     def pull(self, q: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Bᵀ s (k, a, 3) on the sides' vectors at q (N,)."""
-        return self.elements.force(self._gradient(self.gather(q)), stress)
+        return np.einsum("es,esic->eic", stress, self._gradient(self.gather(q)))
 
     def extrapolated(self, shape: SheetShape, stress: np.ndarray, move: np.ndarray) -> np.ndarray:
         """Stresses (k, s) linear in a step (N,) from a shape with these."""
@@ -94,9 +96,11 @@ class Rods:
         self, shape: SheetShape, stress: np.ndarray, by_a: float = 0.0, by_v: float = 0.0
     ) -> np.ndarray:
         """by_a M + by_v C + K of the sides under stresses, (k, 3 a, 3 a)."""
-        stiff = replace(self.elements, stiffness=self.elements.stiffness + by_v * self._viscous)
-        gradient = self._gradient(self.gather(shape.q))
-        return stiff.tangent(gradient, 0.0 * stress if self._linear else stress) + by_a * self._inertia()
+        gradient, stiff = self._gradient(self.gather(shape.q)), self.elements.stiffness + by_v * self._viscous
+        flat, form = gradient.reshape(*stiff.shape, 3 * gradient.shape[2]), by_a * self._mass
+        if not self._linear:
+            form = form + np.einsum("es,esij->eij", stress, self.elements.forms)
+        return flat.swapaxes(1, 2) @ (stiff[:, :, None] * flat) + _by_axis(form)
 
     def inertial(self, a: np.ndarray) -> np.ndarray:
         """M a of accelerations (N,) on the sides' vectors, (k, a, 3)."""
@@ -125,7 +129,7 @@ class Rods:
         """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from strains e_n of a shape."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)
-        slow.elements = replace(self.elements, stiffness=(1.0 + drag) * self.elements.stiffness)
+        slow.elements = self.elements._replace(stiffness=(1.0 + drag) * self.elements.stiffness)
         slow._commands = [(past / (1.0 + drag), None)]
         return slow
 
@@ -143,21 +147,17 @@ class Rods:
         """Sums (N,) of the sides' (k, a, 3)."""
         return np.bincount(self.rows.ravel(), of_sides.ravel(), self._size)
 
-    def _inertia(self) -> np.ndarray:
-        k, a = self._mass.shape[:2]
-        return np.einsum("eij,cd->eicjd", self._mass, np.eye(3)).reshape(k, 3 * a, 3 * a)
-
     def _gradient(self, change: np.ndarray) -> np.ndarray:
-        return self.elements.gradient(np.zeros_like(change) if self._linear else change)
+        """B = H Q (k, s, a, 3) at Q₀ + change (k, a, 3)."""
+        at = self.elements.reference + (0.0 if self._linear else change)
+        return np.einsum("esij,ejc->esic", self.elements.forms, at)
 
     def _step(self, gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
         found: np.ndarray = np.einsum("esic,eic->es", gradient, self.gather(step))
         return found
 
     def _strain(self, change: np.ndarray) -> np.ndarray:
-        if self._linear:
-            return np.einsum("esic,eic->es", self._gradient(change), change)
-        return self.elements.strain(change)
+        return np.einsum("esic,eic->es", self._gradient(0.5 * change), change)
 
     def _intrinsic(self, at: float) -> np.ndarray:
         total = np.zeros_like(self.elements.intrinsic)
@@ -195,3 +195,9 @@ class Rods:
                 mass[:, third[:, None], third] += LIGHT * side[:, 6:, 6:][:, : len(third), : len(third)]
             out.append(mass)
         return np.concatenate(out)
+
+
+def _by_axis(of_vectors: np.ndarray) -> np.ndarray:
+    """Matrices of vectors (k, a, a), the same of each component, (k, 3 a, 3 a)."""
+    k, a = of_vectors.shape[:2]
+    return np.einsum("eij,cd->eicjd", of_vectors, np.eye(3)).reshape(k, 3 * a, 3 * a)

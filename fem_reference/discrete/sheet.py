@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
@@ -32,7 +32,7 @@ from fem_reference.surface import loads, rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Plan
+from fem_reference.surface.mesh import Elements, Plan, divisions
 from fem_reference.surface.rod import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
@@ -77,9 +77,20 @@ class Discrete(ABC):
         self.contacts: list[Touching] = []
         self._weights: list[tuple[np.ndarray, Factor]] = []
 
+    def named(self, elements: Elements, through: str = "", **settings: Any) -> Self:
+        """The sheet with its label, and with the settings it was made by, but for those that are nothing."""
+        counts, sheet = divisions(self.scene.sheet, elements), self.scene.sheet
+        if sheet.mesh is not None and "graded" in settings:
+            settings["graded"] = False
+        self.label = f"{self.model} {counts[0]} × {counts[1]}{through}"
+        own = {name: value for name, value in settings.items() if value is not None}
+        self.settings = {"elements": list(counts), **own}
+        return self
+
     def rods_of(self, scene: Scene) -> BoundRods:
         """The rods of a scene on the sheet."""
-        return rod.on_surface(rod.of_scene(scene, self.plan), self.nodes)
+        rods, n = rod.of_scene(scene, self.plan), self.nodes
+        return rod.bound(rods, 9, 2 * n, lambda one: (one.elements, np.hstack([one.nodes, n + one.nodes])))
 
     def bind(self, bound: BoundRods, places: np.ndarray | None = None) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
@@ -157,8 +168,12 @@ class Discrete(ABC):
         return turned or self.supports.jumps(time)
 
     @abstractmethod
+    def short(self, shape: SheetShape) -> np.ndarray:
+        """The step (N,) to what is prescribed and onto the constraints, linear in both."""
+
     def placed(self, q: np.ndarray, at: float) -> np.ndarray:
         """q (N,) with what is prescribed, on the constraints."""
+        return self.moved(q, self.short(self.shape(q, at)))
 
     @abstractmethod
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
@@ -228,9 +243,10 @@ class Discrete(ABC):
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         """Coordinates (N,) of displacements and changes of the directors of the plan's nodes, (n, 3)."""
 
-    @abstractmethod
     def on_surface(self, q: np.ndarray) -> np.ndarray:
         """Position φ and director d at the nodes of the plan's elements, (m, 18, 3)."""
+        surface, on = self.surface(q), self.plan.elements
+        return np.concatenate([surface.position[on], surface.director[on]], axis=1)
 
     @abstractmethod
     def surface_change(self, change: np.ndarray) -> np.ndarray:

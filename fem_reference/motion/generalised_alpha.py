@@ -105,20 +105,12 @@ class ConstrainedAlpha:
     def start(self) -> Advance[SheetMotion]:
         """Return the motion at t = 0, with the work of what moves at once."""
         q = start(self._model)
-        return self._begun(0.0, q, np.zeros_like(q))
+        return self.begin(0.0, q, np.zeros_like(q))
 
     def _branches(self, motion: SheetMotion, time: float) -> BranchStep | None:
         """The step of the branches from a motion to a time [s], if there are any."""
         branches = self._model.branches
         return branches.step(motion.memory, time - motion.time) if branches.times else None
-
-    def _begun(
-        self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
-    ) -> Advance[SheetMotion]:
-        """The motion from a time on, with the work of what changes its velocity at once."""
-        motion, mass = self.begin(time, q, v, branches), self._model.mass
-        work = 0.5 * float(motion.v @ (mass @ motion.v) - v @ (mass @ v))
-        return Advance(motion, 0.0, work)
 
     def go(self, motion: SheetMotion, at_most: float) -> Advance[SheetMotion]:
         """Return a step, begun anew where what is prescribed changes its velocity at once. Raises
@@ -127,7 +119,7 @@ class ConstrainedAlpha:
         for kink in self.kinks[np.abs(self.kinks - motion.time) < 1e-9 * self.kinks].tolist():
             if model.jumps(kink):
                 branches = self._branches(motion, kink)
-                begun = self._begun(kink, model.placed(motion.q, kink), motion.v, branches)
+                begun = self.begin(kink, model.placed(motion.q, kink), motion.v, branches)
                 motion, work = begun.state, begun.work
         after = self.advance(motion, at_most)
         self._step = motion, spent(model, motion, after, self.late), work
@@ -158,9 +150,10 @@ class ConstrainedAlpha:
 
     def begin(
         self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
-    ) -> SheetMotion:
+    ) -> Advance[SheetMotion]:
         """The motion from a time on, its velocities as motions have them and with the accelerations of its
-        forces. branches: their step until then; at rest without one."""
+        forces, and the work of what changes its velocity at once. branches: their step until then; at rest
+        without one."""
         model = self._model
         basis = model.basis(q)
         rate = model.rate_placed(q, v, time)
@@ -175,11 +168,13 @@ class ConstrainedAlpha:
             fastest = float(np.abs(model.displacement(a)).max())
             allowed = self._error * self._largest
             self._control.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
+        before, after = (float(u @ (model.mass @ u)) for u in (v, rate))  # twice the kinetic energy
         if self.adapts and self._euler:
-            twice_kinetic = max(float(u @ (model.mass @ u)) for u in (v, rate))
-            taken = float(a @ (model.mass @ a))  # h² times half of it
-            self._control.step = min(self._control.step, np.sqrt(TAKEN * twice_kinetic / max(taken, 1e-30)))
-        return SheetMotion(time, q, rate, a, a, model.mass @ a + forces, self._remembered(q, branches))
+            taken = max(float(a @ (model.mass @ a)), 1e-30)  # h² times half of it
+            self._control.step = min(self._control.step, np.sqrt(TAKEN * max(before, after) / taken))
+        memory = self._remembered(q, branches)
+        motion = SheetMotion(time, q, rate, a, a, model.mass @ a + forces, memory)
+        return Advance(motion, 0.0, 0.5 * (after - before))
 
     def advance(self, motion: SheetMotion, at_most: float) -> SheetMotion:
         """One step of at most so long [s]. Raises StepFailed."""

@@ -25,7 +25,7 @@ from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.runs.record import Recipe, parted, record
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
-from sheetbench.scenes import AnyScene, Scene, scene_of
+from sheetbench.scenes import AnyScene, EdgeMotion, Scene, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.quantities import require_positive
 
@@ -95,3 +95,6 @@ def require_moving(scene: Scene, model: str) -> None:
     """Raise BadInput for a model that does not move, or a scene with what no reference moves."""
     if model not in SHEETS:
         raise BadInput(f"reference = '{model}': {listed(SHEETS)} can move")
+    for name, actuator in scene.named_actuators().items() if model != "shell" else ():
+        if isinstance(actuator, EdgeMotion):
+            raise BadInput(f"actuator {name}: the {model} in motion has no edge motions; the shell has")

@@ -97,9 +97,6 @@ class DiscretePlate(DiscreteShell):
     def of_unit_directors(self, change: np.ndarray) -> np.ndarray:
         return change.ravel()
 
-    def on_surface(self, q: np.ndarray) -> np.ndarray:
-        return self.element.reference
-
     def position(self, q: np.ndarray) -> np.ndarray:
         return self.flat
 

@@ -19,17 +19,35 @@ Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 
 from __future__ import annotations
 
-from typing import Any
-
-from skfem import MeshQuad
+from functools import partial
 
 from fem_reference.discrete.answer import answered, traced
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import Elements, divisions, mesh_of
+from fem_reference.surface.mesh import Elements, mesh_of
 from sheetbench.answers.solution import Solution
+from sheetbench.numerics.continuation.path import Progress
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.rigid_motions import require_static
+
+
+def plate(
+    scene: Scene,
+    elements: Elements = 16,
+    section: Section | None = None,
+    graded: bool | None = None,
+    hard_edges: tuple[str, ...] = (),
+    *,
+    moving: bool = False,
+    reach: float = 1.0,
+) -> DiscretePlate:
+    """Return the discrete plate; options: as of `solve`; reach: of the grading (`mesh.mesh_of`)."""
+    if graded is None:
+        graded = not scene.twisting_edges() <= set(hard_edges)
+    made = DiscretePlate(mesh_of(scene, elements, graded, reach), scene, section, hard_edges, moving)
+    return made.named(
+        elements, graded=graded, hard_edges=list(hard_edges) or None, section=section and section._asdict()
+    )
 
 
 def solve(
@@ -38,30 +56,17 @@ def solve(
     hard_edges: tuple[str, ...] = (),
     section: Section | None = None,
     graded: bool | None = None,
+    *,
+    progress: Progress | None = None,
 ) -> Solution:
     """The linear static answer; elements along the shorter side (near-square), or (nx, ny).
 
     graded: finer towards the edges, or equal elements; unless given, where an edge lets twist go. hard_edges:
     edges on which the tilt along the edge is held as well. A hinged support is soft; with its edge hard it is
     the simple support of the published Mindlin benchmarks. section: stiffness per width, from material and
-    thickness unless given. Raises SceneError if the supports leave a rigid motion free.
+    thickness unless given; progress: called once an iteration. Raises SceneError if the supports leave a
+    rigid motion free.
     """
     require_static(scene, "the plate, which is linear,")
-    along_x, along_y = divisions(scene.sheet, elements)
-    if graded is None:
-        graded = not scene.twisting_edges() <= set(hard_edges)
-    settings: dict[str, Any] = {"elements": [along_x, along_y], "graded": graded}
-    if hard_edges:
-        settings["hard_edges"] = list(hard_edges)
-    if section is not None:
-        settings["section"] = section._asdict()
-    mesh = mesh_of(scene, (along_x, along_y), graded)
-    found = traced(lambda: DiscretePlate(mesh, scene, section, hard_edges))
-    return answered([found], f"plate {along_x} × {along_y}", settings)
-
-
-def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
-    """Return the linear answer on any flat mesh of straight-sided quadrilaterals [m], its edges named."""
-    found = traced(lambda: DiscretePlate(mesh, scene))
-    found.sheet.own = True
-    return answered([found], "plate", {"elements": mesh.nelements})
+    make = partial(plate, scene, elements, section, graded, hard_edges)
+    return answered(traced(make, progress=progress))

@@ -26,22 +26,22 @@ from fem_reference.discrete.shape import SheetShape
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.hyperelastic import elements_of
-from fem_reference.shell.mass import mass_matrix, products
 from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.balance import Surface
-from fem_reference.surface.biquadratic import cross
-from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import field_mesh, plan_of
+from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from fem_reference.surface.carried import add_carried
+from fem_reference.surface.materials import Section, constants_of
+from fem_reference.surface.mesh import plan_of, quarters
 from fem_reference.surface.rod import block_diagonal
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.numerics.sparsity import add_blocks, pattern_of
+from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
@@ -113,12 +113,21 @@ class DiscreteShell(DiscreteElements):
         return DirectSolver(self.symmetric, lambda: self.pattern.fronts)
 
     @cached_property
-    def _products(self) -> tuple[np.ndarray, np.ndarray]:
-        return products(self.scene, self.plan, self.element.areas)
+    def _inertia(self) -> np.ndarray:
+        """∫ ρh N N dA of φ, ∫ ρh³/12 N N dA of d, and payloads (m, 18, 3, 18, 3) [kg, kg m²]."""
+        value, of = AT_GAUSS[0], constants_of(self.scene, self.plan.corners)
+        parts = np.array([self.element.areas * part for part in (of.per_area, of.rotary_per_area)])
+        masses = np.einsum("peg,gi,gj->peij", parts, value, value)
+        out = np.einsum("peij,pr,cd->epicrjd", masses, np.eye(2), np.eye(3)).reshape(-1, 18, 3, 18, 3)
+        add_carried(self.scene, self.plan, out)
+        return out
 
     @cached_property
     def sheet_mass(self) -> csr_matrix:
-        return mass_matrix(self.plan, self._products, self.size)
+        pattern = Pattern(self._components.reshape(-1, 54), size=self.size)
+        mass = pattern.matrix(self._inertia.reshape(-1, 54, 54)).copy()
+        mass.eliminate_zeros()
+        return mass
 
     # what is prescribed, and the unknowns
 
@@ -137,9 +146,6 @@ class DiscreteShell(DiscreteElements):
         nodes, along = np.nonzero(self.supports.tilt & ~self.supports.director[:, None])
         axes[nodes] = along
         return axes
-
-    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
-        return self.of_unit_directors(np.where(self._held, self._target(at), q.reshape(-1, 3)))
 
     def change(self, at: float) -> np.ndarray:
         """Prescribed change (2, n, 3) of positions [m] and directors."""
@@ -162,10 +168,8 @@ class DiscreteShell(DiscreteElements):
         return np.where(self._held, self._target(shape.at) - shape.q.reshape(-1, 3), free).ravel()
 
     def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        n, tilt = self.nodes, self.supports.tilt
-        leaning = np.column_stack([tilt, np.zeros(n, dtype=bool)])
         on = self._held.copy()
-        on[n : 2 * n] |= leaning
+        on[self.nodes : 2 * self.nodes, :2] |= self.supports.tilt
         return vectors[on.ravel()]
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
@@ -211,9 +215,8 @@ class DiscreteShell(DiscreteElements):
         return np.repeat(rows, widths) + within, starts, turning, node[field >= 3], field[field >= 3] - 3
 
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
-        n = self.nodes
-        couple = np.einsum("nc,nck->nk", force[3 * n :].reshape(-1, 3), shape.frame)
-        return self._of_unknowns(force[: 3 * n], couple)
+        couple = np.einsum("nc,nck->nk", force[3 * self.nodes :].reshape(-1, 3), shape.frame)
+        return self._of_unknowns(force[: 3 * self.nodes], couple)
 
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         every, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
@@ -268,13 +271,8 @@ class DiscreteShell(DiscreteElements):
     def with_mass(self, data: np.ndarray, shape: SheetShape, by_a: float) -> np.ndarray:
         """The data of a matrix with so many times the elements' M."""
         if by_a:
-            (by_place, by_turn), of_elements = self._products, shape.frame[self.plan.elements]
-            blocks = np.zeros(self.pattern.slots[0].shape)
-            blocks[:, :27, :27] = by_a * np.einsum("eij,ab->eiajb", by_place, np.eye(3)).reshape(-1, 27, 27)
-            weighed = np.einsum("ceij,ejcb->eicjb", by_turn, of_elements)
-            turned = by_a * np.einsum("eica,eicjb->eiajb", of_elements, weighed)
-            blocks[:, 27:, 27:] = turned.reshape(-1, 18, 18)
-            add_blocks(data, self.pattern.slots[0], blocks)
+            blocks = self.fold(shape, np.arange(len(self.plan.elements)), self._inertia)
+            add_blocks(data, self.pattern.slots[0], by_a * blocks)
         return data
 
     def constraining(
@@ -302,9 +300,6 @@ class DiscreteShell(DiscreteElements):
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         return self.on_coordinates(np.concatenate([displacement, turn]))
 
-    def on_surface(self, q: np.ndarray) -> np.ndarray:
-        return self.element.reference + self.gather(q)
-
     def surface_change(self, change: np.ndarray) -> np.ndarray:
         return self.gather(change)
 
@@ -327,7 +322,8 @@ class DiscreteShell(DiscreteElements):
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
         directors = (q[3 * self.nodes :].reshape(-1, 3) + self._upright)[: self.nodes]
-        return field_mesh(self.plan.nodes, self.plan.elements, self.displacement(q), directors, **fields)
+        fields |= {"displacement": self.displacement(q), "director": directors}
+        return FieldMesh(self.flat, [("quad", quarters(self.plan.elements.T))], fields)
 
     def surface(self, q: np.ndarray) -> Surface:
         return Surface(self.plan, self.position(q), self.directors(q)[: self.nodes], self.own)

@@ -122,13 +122,12 @@ class Element:
     def sides(self) -> np.ndarray:
         """Lengths along r and s, (m, 2) [m]."""
         across = self.reference[:, [5, 6], :2] - self.reference[:, [7, 4], :2]
-        found: np.ndarray = np.linalg.norm(across, axis=2)
-        return found
+        return np.asarray(np.linalg.norm(across, axis=2))
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
         their derivatives half way, which keeps the digits of a small one."""
-        return strain_of(self.reference + 0.5 * change, change)
+        return self.step(self.reference + 0.5 * change, change)
 
     def operator(self, change: np.ndarray) -> np.ndarray:
         """Nodal vectors Q (m, 18, 3), which B = H Q is made of, at a change q (m, 18, 3)."""
@@ -136,20 +135,19 @@ class Element:
 
     def step(self, operator: np.ndarray, step: np.ndarray) -> np.ndarray:
         """B δq (m, 54) of a step (m, 18, 3)."""
-        return strain_of(operator, step)
+        return np.asarray(sampling.strain_of(operator, np.ascontiguousarray(step), TABLES))
 
     def forces(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Bᵀ s (m, 18, 3) of stresses (m, 54)."""
-        return forces_of(operator, stress)
+        return np.asarray(sampling.forces_of(np.ascontiguousarray(operator), stress, TABLES))
 
     def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Σ s_k H_k δq (m, 18, 3) of a step (m, 18, 3) under stresses (m, 54)."""
-        return forces_of(step, stress)
+        """Σ s_k H_k δq (m, 18, 3) of a step (m, 18, 3) under stresses (m, 54): B is linear in the vectors."""
+        return self.forces(step, stress)
 
     def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Σ |B| |s| (18,) by nodal vector, of stresses (m, 54)."""
-        found: np.ndarray = sampling.magnitudes(operator, stress, TABLES)
-        return found
+        return np.asarray(sampling.magnitudes(operator, stress, TABLES))
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
@@ -182,20 +180,8 @@ class Element:
 
 
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
-    """D e (m, 54) of moduli (m, 54, 54) and strains (m, 54)."""
-    return (moduli @ strain[:, :, None])[:, :, 0]
-
-
-def strain_of(vectors: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """B δQ (m, 54) of a step from nodal vectors Q, both (m, 18, 3)."""
-    found: np.ndarray = sampling.strain_of(vectors, np.ascontiguousarray(step), TABLES)
-    return found
-
-
-def forces_of(vectors: np.ndarray, stress: np.ndarray) -> np.ndarray:
-    """Bᵀ s (m, 18, 3) at nodal vectors (m, 18, 3); of a step in their place, Σ s_k H_k times it."""
-    found: np.ndarray = sampling.forces_of(np.ascontiguousarray(vectors), stress, TABLES)
-    return found
+    """D e (…, k) of moduli (…, k, l) and strains (…, l)."""
+    return np.asarray((moduli @ strain[..., None])[..., 0])
 
 
 def add_tangents(

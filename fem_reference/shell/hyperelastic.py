@@ -18,8 +18,8 @@ from typing import Self
 
 import numpy as np
 
-from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, cartesian
-from fem_reference.shell.laws import LAWS, Law, Response
+from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, cartesian, weighed
+from fem_reference.shell.laws import LAWS, Law, Response, outer
 from fem_reference.shell.natural import grown
 from fem_reference.shell.slant import Slant, linear, slant
 from fem_reference.surface.biquadratic import integrated
@@ -72,7 +72,7 @@ class HyperelasticElement(Element):
         force += np.sum(moment * curvature, axis=-1)[..., None] * slope
         shear, leaning = self._shear[..., None], self._slant(stretch, strain)
         force += shear * leaning.by_strain
-        out = self.drag * (self.stiffness @ (strain - self.past)[:, :, None])[:, :, 0]
+        out = self.drag * weighed(self.stiffness, strain - self.past)
         out[:, MEMBRANE] += np.einsum("egak,ega->ek", self.membrane, force, optimize=True)
         out[:, BENDING] += np.einsum("egak,ega->ek", self.bending, t[..., None] * moment, optimize=True)
         out[:, SHEAR] += np.einsum("egak,ega->ek", self.slanted, shear * leaning.by_slant, optimize=True)
@@ -93,15 +93,15 @@ class HyperelasticElement(Element):
         stretch, curvature = self._strains(strain)
         t, slope, bend = self.law.thickness(self.material, stretch)
         _, stress, tangent = self._response(stretch, t[..., None] * curvature)
-        weighed = tangent * self.weights[:, None, None]
-        force, mixed, turn = (np.einsum("egzab,z->egab", weighed, self.heights**n) for n in range(3))
+        by_height = tangent * self.weights[:, None, None]
+        force, mixed, turn = (np.einsum("egzab,z->egab", by_height, self.heights**n) for n in range(3))
         moment = np.einsum("egza,z->ega", stress, self.weights * self.heights)
-        by_thinning, turned = _applied(mixed, curvature), _applied(turn, curvature)
-        force += _outer(by_thinning, slope) + _outer(slope, by_thinning)
-        force += np.sum(turned * curvature, axis=-1)[..., None, None] * _outer(slope, slope)
+        by_thinning, turned = weighed(mixed, curvature), weighed(turn, curvature)
+        force += outer(by_thinning, slope) + outer(slope, by_thinning)
+        force += np.sum(turned * curvature, axis=-1)[..., None, None] * outer(slope, slope)
         force += np.sum(moment * curvature, axis=-1)[..., None, None] * bend
         t, areas = t[..., None, None], self.areas
-        mixed = t * (mixed + _outer(slope, turned)) + _outer(slope, moment)
+        mixed = t * (mixed + outer(slope, turned)) + outer(slope, moment)
         out = self.drag * self.stiffness
         out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, force, areas)
         coupled = integrated(self.membrane, mixed, areas, self.bending)
@@ -156,14 +156,6 @@ class HyperelasticElement(Element):
     def _volumes(self) -> np.ndarray:
         """(m, 9, 3) [m³]."""
         return self.areas[:, :, None] * self.weights
-
-
-def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return a[..., :, None] * b[..., None, :]
-
-
-def _applied(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    return np.asarray((matrix @ vector[..., None])[..., 0])
 
 
 def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:

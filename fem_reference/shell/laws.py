@@ -67,7 +67,7 @@ def biot(material: Material, strain: np.ndarray) -> Response:
     rest = (area_change[..., None] * _ONE - strain @ _COFACTOR) / area[..., None]  # 1 − P
     bare = (rest - excess[..., None] * by_area) / trace[..., None]  # g − P
     nu, stiffness = material.poisson, material.young / (1.0 - material.poisson**2)
-    both = _outer(slope, slope)
+    both = outer(slope, slope)
     curving = (second - both) / trace[..., None, None]
     energy = 0.5 * excess**2 - (1.0 - nu) * (area_change - excess)
     stress = excess[..., None] * slope + (1.0 - nu) * bare
@@ -93,14 +93,14 @@ def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Response:
     by_first = away - thinning[..., None] * inverse
     by_second = c[..., None] * away + (change - thinning - c * trace)[..., None] * inverse
     stress = 2.0 * (energy.c10 + rise)[..., None] * by_first + 2.0 * c01 * by_second
-    both = _outer(inverse, inverse)
+    both = outer(inverse, inverse)
     pull = bulk * of_volume - 2.0 * at_rest  # Λ ln J − m
     of_inverse = _COFACTOR / (1.0 + change)[..., None, None] - 2.0 * both
-    tangent = 4.0 * second[..., None, None] * _outer(_ONE, _ONE) + 2.0 * c01 * _COFACTOR + bulk * both
+    tangent = 4.0 * second[..., None, None] * outer(_ONE, _ONE) + 2.0 * c01 * _COFACTOR + bulk * both
     tangent = tangent + pull[..., None, None] * of_inverse
     mixed = 2.0 * (second + c01)[..., None] * _ONE + (0.5 * bulk / c)[..., None] * inverse
     across = second + (0.25 * bulk - 0.5 * pull) / c**2
-    return Response(value, stress, tangent - _outer(mixed, mixed) / across[..., None, None])
+    return Response(value, stress, tangent - outer(mixed, mixed) / across[..., None, None])
 
 
 def _thinning(energy: Energy, bulk: float, trace: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
@@ -127,7 +127,7 @@ def _area(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     with np.errstate(invalid="ignore"):  # inside out: not a number, which ends the step
         area = np.sqrt(1.0 + _change_of_determinant(strain))
     first = (_ONE + strain @ _COFACTOR) / area[..., None]
-    return area, first, (_COFACTOR - _outer(first, first)) / area[..., None, None]
+    return area, first, (_COFACTOR - outer(first, first)) / area[..., None, None]
 
 
 def _change_of_determinant(strain: np.ndarray) -> np.ndarray:
@@ -136,8 +136,9 @@ def _change_of_determinant(strain: np.ndarray) -> np.ndarray:
     return np.asarray(2.0 * (xx + yy) + 4.0 * xx * yy - twice_xy**2)
 
 
-def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return a[..., :, None] * b[..., None, :]
+def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """a ⊗ b (…, k, l) of vectors (…, k) and (…, l)."""
+    return np.asarray(a[..., :, None] * b[..., None, :])
 
 
 def _power(strain: np.ndarray, power: float) -> Response:
@@ -145,7 +146,7 @@ def _power(strain: np.ndarray, power: float) -> Response:
     area, first, second = _area(strain)
     value = area**power
     slope = (power * value / area)[..., None]
-    bent = second + ((power - 1.0) / area)[..., None, None] * _outer(first, first)
+    bent = second + ((power - 1.0) / area)[..., None, None] * outer(first, first)
     return Response(value, slope * first, slope[..., None] * bent)
 
 
@@ -161,7 +162,7 @@ class Law(NamedTuple):
         at small strains, and at any where ν = ½; 1 of a law that is not for large strains."""
         if not self.stands_any_strain:
             none = np.zeros_like(strain)
-            return Response(1.0 + none[..., 0], none, _outer(none, none))
+            return Response(1.0 + none[..., 0], none, outer(none, none))
         return _power(strain, -material.poisson / (1.0 - material.poisson))
 
     def shear(self, material: Material, strain: np.ndarray) -> tuple[Response, Response]:

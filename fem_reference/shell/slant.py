@@ -18,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fem_reference.shell.laws import Response
+from fem_reference.shell.laws import Response, outer
+from fem_reference.surface.materials import times
 
 
 class Slant(NamedTuple):
@@ -45,21 +46,21 @@ def slant(square: Response, area: Response, strain: np.ndarray, leaning: np.ndar
     a2, q2, a3, q3 = a / left**2, q / left**2, a / left**3, q / left**3
     tan = q / left
     tan_by = a2[..., None] * q_by - q2[..., None] * a_by
-    tan_strains = _times(2.0 * a3, _outer(q_by, q_by)) + _times(2.0 * q3, _outer(a_by, a_by))
-    tan_strains -= _times(a3 + q3, _outer(q_by, a_by) + _outer(a_by, q_by)) + _times(q2, a_twice)
+    tan_strains = times(2.0 * a3, outer(q_by, q_by)) + times(2.0 * q3, outer(a_by, a_by))
+    tan_strains -= times(a3 + q3, outer(q_by, a_by) + outer(a_by, q_by)) + times(q2, a_twice)
     tan_turn = 2.0 * a2[..., None] * turned
     by_left = a_by / left[..., None] ** 2 - 2.0 * a3[..., None] * (a_by - q_by)
-    tan_mixed = 2.0 * (_outer(by_left, turned) + _times(a2, turned_by))
-    tan_turns = _times(2.0 * a2, matrix) + _times(8.0 * a3, _outer(turned, turned))
+    tan_mixed = 2.0 * (outer(by_left, turned) + times(a2, turned_by))
+    tan_turns = times(2.0 * a2, matrix) + times(8.0 * a3, outer(turned, turned))
     t2, t2_by, t2_twice = square
-    both = _outer(t2_by, tan_by)
+    both = outer(t2_by, tan_by)
     return Slant(
         0.5 * t2 * tan,
         0.5 * (tan[..., None] * t2_by + t2[..., None] * tan_by),
         0.5 * t2[..., None] * tan_turn,
-        0.5 * (_times(tan, t2_twice) + both + both.swapaxes(-1, -2) + _times(t2, tan_strains)),
-        0.5 * (_outer(t2_by, tan_turn) + _times(t2, tan_mixed)),
-        0.5 * _times(t2, tan_turns),
+        0.5 * (times(tan, t2_twice) + both + both.swapaxes(-1, -2) + times(t2, tan_strains)),
+        0.5 * (outer(t2_by, tan_turn) + times(t2, tan_mixed)),
+        0.5 * times(t2, tan_turns),
     )
 
 
@@ -75,11 +76,3 @@ def linear(leaning: np.ndarray) -> Slant:
         none[..., None] * np.ones(2),
         none[..., :1, None] + one,
     )
-
-
-def _outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.asarray(a[..., :, None] * b[..., None, :])
-
-
-def _times(number: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    return np.asarray(number[..., None, None] * matrix)

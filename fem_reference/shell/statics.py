@@ -11,8 +11,6 @@ from __future__ import annotations
 from functools import partial
 from typing import Any, cast
 
-from skfem import MeshQuad
-
 from fem_reference.discrete.answer import Traced, answered, inspected, traced
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
@@ -30,6 +28,21 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.rigid_motions import require_static
 
 LIMITS = Limits()
+
+
+def shell(
+    scene: Scene,
+    elements: Elements = 16,
+    section: Section | None = None,
+    graded: bool = True,
+    law: str = STRAIN_LAW,
+    *,
+    moving: bool = False,
+    reach: float = 1.0,
+) -> DiscreteShell:
+    """Return the discrete shell; options: as of `solve`; reach: of the grading (`mesh.mesh_of`)."""
+    made = DiscreteShell(mesh_of(scene, elements, graded, reach), scene, section, law, moving)
+    return made.named(elements, graded=graded, law=law, section=section and section._asdict())
 
 
 def solve(
@@ -65,25 +78,9 @@ def solve(
         runs = [_run(scene, counts, graded, of_sheet, near=begin, progress=progress)]
     fallback = ""
     if runs[0].path.fault is STRETCHED:
-        fallback, graded = "divided evenly, for it bends much", False
-        runs = [_run(scene, counts, graded, of_sheet, **options), *runs]
-    settings: dict[str, Any] = {"elements": list(counts), "graded": graded, "law": law}
-    if section is not None:
-        settings["section"] = section._asdict()
-    if branch == "buckled":
-        settings["branch"] = branch
-    return answered(runs, f"shell {counts[0]} × {counts[1]}", settings, fallback)
-
-
-def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
-    """Return the equilibrium on any flat mesh of quadrilaterals [m], straight-sided or biquadratic.
-
-    Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
-    anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
-    """
-    found = traced(lambda: DiscreteShell(mesh, scene))
-    found.sheet.own = True
-    return answered([found], "shell", {"elements": mesh.nelements})
+        fallback = "divided evenly, for it bends much"
+        runs = [_run(scene, counts, False, of_sheet, **options), *runs]
+    return answered(*runs, fallback=fallback, **({"branch": branch} if branch == "buckled" else {}))
 
 
 def _runs(
@@ -104,6 +101,6 @@ def _run(
     scene: Scene, counts: tuple[int, int], graded: bool, of_sheet: dict[str, Any], **options: Any
 ) -> Traced:
     """The run on one mesh; options: as of `discrete.answer.traced`."""
-    mesh = mesh_of(scene, counts, graded)
     inspect = stretched if graded else inspected
-    return traced(lambda: DiscreteShell(mesh, scene, **of_sheet), inspect, **{"limits": LIMITS, **options})
+    make = partial(shell, scene, counts, graded=graded, **of_sheet)
+    return traced(make, inspect, **{"limits": LIMITS, **options})

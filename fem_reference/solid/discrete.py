@@ -24,11 +24,12 @@ from fem_reference.solid.element import Bricks, at_rest, tangent
 from fem_reference.solid.materials import LAWS
 from fem_reference.solid.mesh import columns_of
 from fem_reference.solid.rods import DIRECTORS, on_columns
-from fem_reference.solid.supports import components, from_forces, into_forces, of_scene, vectors
-from fem_reference.surface import carried, rod
+from fem_reference.solid.supports import applied, of_scene
+from fem_reference.surface import rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
+from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
@@ -88,9 +89,10 @@ class DiscreteSolid(DiscreteElements):
     @cached_property
     def _inertia(self) -> np.ndarray:
         """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
-        payloads = carried.of_scene(self.scene, self.plan)
         blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
-        blocks[payloads.elements] += self._of_columns(payloads.on_surface())
+        if self.scene.masses:
+            add_carried(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))
+            blocks += self._of_columns(payloads)
         return blocks
 
     @cached_property
@@ -109,9 +111,6 @@ class DiscreteSolid(DiscreteElements):
     def _turned_fully(self) -> np.ndarray:
         return self.column_supports.bases(1.0)
 
-    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
-        return q + self._to_supports(self.frame(q, at), q, self.column_supports.target(*self.instant(at)))
-
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         rate = self.column_supports.spread(self.supports.rate(time))
         return v + self._to_supports(self.frame(q, time), v, rate)
@@ -122,17 +121,18 @@ class DiscreteSolid(DiscreteElements):
 
     def _to_supports(self, bases: np.ndarray, q: np.ndarray, target: np.ndarray) -> np.ndarray:
         """The step (N,) of q (N,) to the held components of a target (n, levels, 3)."""
-        gap = components(bases, target - self._on_columns(q))
-        step = vectors(bases, np.where(self.free, 0.0, gap))
+        gap = applied(np.linalg.inv(bases), target - self._on_columns(q))
+        step = applied(bases, np.where(self.free, 0.0, gap))
         return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
 
     def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        bases, shape = self.frame(vectors, at), self.columns.positions.shape
-        own = [components(bases, vector[: self._cut].reshape(shape))[~self.free] for vector in vectors.T]
+        inverse = np.linalg.inv(self.frame(vectors, at))
+        own = [applied(inverse, self._on_columns(vector))[~self.free] for vector in vectors.T]
         return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
-        return self._constant_basis if self.moving else self._basis(self.frame(q, at))
+        bases = self.frame(q, at)
+        return self._constant_basis if bases is self._turned_fully else self._basis(bases)
 
     @cached_property
     def _constant_basis(self) -> csc_matrix:
@@ -143,16 +143,6 @@ class DiscreteSolid(DiscreteElements):
         of_columns = bsr_matrix((bases, blocks[:-1], blocks)).tocsc()
         aside = identity(len(self._held_aside), format="csc")
         return block_diag([of_columns, aside], format="csc")[:, self._free]
-
-    def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
-        on_components = into_forces(shape.frame, self._on_columns(force))
-        found: np.ndarray = np.append(on_components, force[self._cut :])[self._free]
-        return found
-
-    def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
-        every = np.zeros(self.size)
-        every[self._free] = step
-        return np.append(vectors(shape.frame, self._on_columns(every)), every[self._cut :])
 
     def _on_columns(self, q: np.ndarray) -> np.ndarray:
         """The columns' part (n, levels, 3)."""
@@ -240,15 +230,12 @@ class DiscreteSolid(DiscreteElements):
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         return self._padded(self.column_supports.spread(np.array([displacement, turn])))
 
-    def on_surface(self, q: np.ndarray) -> np.ndarray:
-        return self._averages(self.columns.positions + self._on_columns(q))
-
     def surface_change(self, change: np.ndarray) -> np.ndarray:
-        return self._averages(self._on_columns(change))
+        return np.concatenate([*self._averages(self._on_columns(change))[:, self.plan.elements]], axis=1)
 
     def _averages(self, positions: np.ndarray) -> np.ndarray:
-        averages = np.einsum("pl,nlc->pnc", self.columns.averages, positions)[:, self.plan.elements]
-        return np.concatenate([averages[0], averages[1]], axis=1)
+        """Means and directors (2, n, 3) of columns at positions (n, levels, 3)."""
+        return np.einsum("pl,nlc->pnc", self.columns.averages, positions)
 
     def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
         out = np.zeros_like(self.columns.positions)
@@ -283,8 +270,7 @@ class DiscreteSolid(DiscreteElements):
         return self.columns.field_mesh(self._on_columns(q))
 
     def surface(self, q: np.ndarray) -> Surface:
-        position = self.columns.positions + self._on_columns(q)
-        mean, director = np.einsum("pl,nlc->pnc", self.columns.averages, position)
+        mean, director = self._averages(self.columns.positions + self._on_columns(q))
         return Surface(self.plan, mean, director, self.own)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
@@ -306,10 +292,10 @@ class DiscreteSolid(DiscreteElements):
         return found
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
-        bases, on_columns = self.frame(q, at), self._on_columns(exerted)
-        held = np.where(self.free, 0.0, into_forces(bases, on_columns))
+        turned = self.frame(q, at).swapaxes(1, 2)
+        held = np.where(self.free, 0.0, applied(turned, self._on_columns(exerted)))
         aside = np.where(self._held_aside, exerted[self._cut :], 0.0).reshape(-1, 3)
         return [
-            (self.columns.positions + self._on_columns(q), from_forces(bases, held)),
+            (self.columns.positions + self._on_columns(q), applied(np.linalg.inv(turned), held)),
             (q[self._cut :].reshape(-1, 3) + self.rods.bound.own, aside),
         ]

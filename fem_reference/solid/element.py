@@ -156,8 +156,7 @@ class Bricks:
 
     def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Σ s_k H_k ⊗ I δu (m, 27, 3) [N] of a step (m, 27, 3) under stresses (m, k)."""
-        forms = reference().forms
-        return (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES) @ step
+        return _under(stress) @ step
 
     def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
         """Σ |B| |s| (27,) by node, of stresses (m, k)."""
@@ -267,12 +266,17 @@ def at_rest(plain: Bricks, scene: Scene) -> tuple[Bricks, NaturalState | None]:
 
 def tangent(gradient: np.ndarray, moduli: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Bᵀ D B + Σ s_k H_k ⊗ I (m, 27, 3, 27, 3) [N/m] of B (m, k, 27, 3), D (m, k, k) and stresses (m, k)."""
-    flat, forms = gradient.reshape(*stress.shape, 3 * NODES), reference().forms
+    flat, geometric = gradient.reshape(*stress.shape, 3 * NODES), _under(stress)
     out = (flat.swapaxes(1, 2) @ (moduli @ flat)).reshape(-1, NODES, 3, NODES, 3)
-    geometric = (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES)
     for axis in range(3):
         out[:, :, axis, :, axis] += geometric
     return out
+
+
+def _under(stress: np.ndarray) -> np.ndarray:
+    """Σ s_k H_k (m, 27, 27) of stresses (m, k)."""
+    forms = reference().forms
+    return (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES)
 
 
 def _kept(jacobian: np.ndarray) -> np.ndarray:

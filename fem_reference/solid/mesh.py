@@ -16,16 +16,15 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from skfem import Basis, ElementHex2, ElementQuad2, MeshQuad
+from skfem import ElementHex2, ElementQuad2, MeshQuad
 
 from fem_reference.solid.materials import LAWS
-from fem_reference.surface.location import interpolate
-from fem_reference.surface.mesh import Plan, quarters, require_upright
+from fem_reference.surface.mesh import Plan, on_boundary, plan_of, quarters, require_upright
 from fem_reference.surface.rubber import require_law
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, Sheet, require_uniform
+from sheetbench.scenes import Constants, EdgeLoad, Material, Pressure, Scene, require_uniform
 from sheetbench.scenes.meaning.composition import constants_at, of_sheet
 from sheetbench.scenes.objects.orthotropy import Ply, impossible_in_space
 
@@ -34,29 +33,17 @@ MOST_BRICKS = 12  # through the thickness of a laminate
 
 @dataclass(frozen=True)
 class Columns:
-    """n plan nodes on a plan basis of `ElementQuad2`, extruded to a thickness [m] in layers; taper: by how
-    much thicker each column is than that, (n,), or 1."""
+    """n plan nodes, extruded to a thickness [m] in layers; taper: by how much thicker each column is than
+    that, (n,), or 1."""
 
-    basis: Basis
+    plan: Plan
     thickness: float
     layers: int
     taper: np.ndarray
 
-    @classmethod
-    def on(cls, mesh: MeshQuad, sheet: Sheet, layers: int) -> Columns:
-        """The columns over any flat mesh of straight-sided quadrilaterals, of a sheet's thickness."""
-        basis, taper = Basis(mesh, ElementQuad2()), np.ones(())
-        if sheet.taper_x or sheet.taper_y:
-            taper = sheet.thickness_at(*basis.doflocs) / sheet.thickness
-        return cls(basis, sheet.thickness, layers, taper)
-
     @property
     def levels(self) -> int:
         return 2 * self.layers + 1
-
-    @cached_property
-    def plan(self) -> Plan:
-        return Plan(self.basis.mesh, self.basis.element_dofs.T, self.basis.doflocs.T)
 
     @cached_property
     def heights(self) -> np.ndarray:
@@ -101,11 +88,7 @@ class Columns:
 
     def edge(self, name: str) -> np.ndarray:
         """Plan nodes on an edge."""
-        return self.basis.get_dofs(name).flatten()
-
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, levels, 3)."""
-        return interpolate(self.plan.mesh, self.plan.elements, displacement[:, self.layers], points)
+        return on_boundary(self.plan.mesh, name)
 
     def about_middle(self, displacement: np.ndarray, nodal: np.ndarray) -> np.ndarray:
         """Force and moment about the middle node (n, 6) of forces (n, levels, 3) on the displaced columns."""
@@ -115,7 +98,7 @@ class Columns:
 
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
-        plan = quarters(self.basis.element_dofs)
+        plan = quarters(self.plan.elements.T)
         a, b, _, d = (self.plan.nodes[plan[:, corner]].T for corner in range(4))
         clockwise = (b - a)[0] * (d - a)[1] < (b - a)[1] * (d - a)[0]  # as scikit-fem numbers some meshes
         base = self.levels * np.where(clockwise[:, None], plan[:, ::-1], plan)
@@ -188,7 +171,10 @@ def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Col
         raise BadInput(f"layers = {layers}: at least one through the thickness")
     _require_meshable(scene, law)
     layers = bricks_through(scene, layers)
-    columns = Columns.on(mesh, scene.sheet, layers)
+    plan, sheet, taper = plan_of(mesh), scene.sheet, np.ones(())
+    if sheet.taper_x or sheet.taper_y:
+        taper = sheet.thickness_at(*plan.nodes.T) / sheet.thickness
+    columns = Columns(plan, sheet.thickness, layers, taper)
     if scene.uniform:
         return columns, scene.material
     middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]

@@ -16,29 +16,21 @@ from collections.abc import Sequence
 import numpy as np
 
 from fem_reference.solid.mesh import Columns
-from fem_reference.surface.rod import SQUARE, BoundRods, Rod
-from fem_reference.surface.rod_elements import RodElements
+from fem_reference.surface.rod import SQUARE, BoundRods, Rod, RodElements, bound
 
 DIRECTORS = 9  # of a side: d, m and t of its three nodes
 
 
 def on_columns(rods: Sequence[Rod], columns: Columns) -> BoundRods:
     """The rods on columns of nodes; vectors: x (n · levels), then d, m and t of every node of every rod."""
-    levels, vectors = columns.levels, 3 * columns.levels + DIRECTORS
-    first = columns.positions.size // 3
-    sites, own = [np.zeros((0, vectors), dtype=int)], [np.zeros((0, 3))]
-    held, elements = [np.zeros(0, dtype=bool)], []
-    for rod in rods:
-        k, p = len(rod.nodes), len(rod.line)
-        of_columns = (levels * rod.nodes[:, :, None] + np.arange(levels)).reshape(k, -1)
-        of_directors = first + p * np.arange(3)[:, None] + rod.places[:, None]  # d, m, t one after another
-        sites.append(np.concatenate([of_columns, of_directors.reshape(k, -1)], axis=1))
-        elements.append(_elements(rod, columns))
-        own.append(np.repeat(elements[-1].reference[0, -DIRECTORS::3], p, axis=0))
-        held.append(np.tile(np.arange(p) == (-1 if rod.base is None else rod.base), 3))
-        first += 3 * p
-    joined = RodElements.joined(elements, vectors)
-    return BoundRods(tuple(rods), joined, *(np.concatenate(part) for part in (sites, own, held)))
+    levels = columns.levels
+
+    def of_columns(rod: Rod) -> tuple[RodElements, np.ndarray]:
+        return _elements(rod, columns), (levels * rod.nodes[:, :, None] + np.arange(levels)).reshape(
+            -1, 3 * levels
+        )
+
+    return bound(rods, 3 * levels + DIRECTORS, columns.positions.size // 3, of_columns, DIRECTORS // 3)
 
 
 def _elements(rod: Rod, columns: Columns) -> RodElements:

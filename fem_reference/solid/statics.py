@@ -15,13 +15,10 @@ units.
 
 from __future__ import annotations
 
-from skfem import MeshQuad
-
 from fem_reference.discrete.answer import answered, traced
 from fem_reference.solid.discrete import DiscreteSolid
-from fem_reference.solid.mesh import bricks_through
 from fem_reference.surface.borders import borders_of
-from fem_reference.surface.mesh import Elements, divisions, has_lines, mesh_of
+from fem_reference.surface.mesh import Elements, has_lines, mesh_of
 from sheetbench.answers.solution import Solution
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import BadInput
@@ -30,6 +27,27 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.rigid_motions import require_static
 
 GRADINGS = ("edges", "uniform")
+
+
+def solid(
+    scene: Scene,
+    elements: Elements = 16,
+    layers: int = 1,
+    law: str = STRAIN_LAW,
+    clamp: str = "shell-like",
+    grading: str = "edges",
+    *,
+    moving: bool = False,
+    reach: float = 1.0,
+) -> DiscreteSolid:
+    """Return the discrete solid, whose mesh is the same whatever the reach. Without lines along x and y it
+    has no rows along its rim, for thin curved bricks keep corrections from shrinking."""
+    if grading not in GRADINGS:
+        raise BadInput(f"grading = {grading!r}: known are {', '.join(GRADINGS)}")
+    mesh = mesh_of(scene, elements, graded=grading == "edges" and has_lines(borders_of(scene)))
+    made = DiscreteSolid(mesh, scene, layers, law, clamp, moving)
+    layers = made.columns.layers
+    return made.named(elements, f" × {layers}", grading=grading, layers=layers, law=law, clamp=clamp)
 
 
 def solve(
@@ -49,25 +67,4 @@ def solve(
     Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown option.
     """
     require_static(scene)
-    along_x, along_y = divisions(scene.sheet, elements)
-    mesh, layers = plan_mesh(scene, (along_x, along_y), grading), bricks_through(scene, layers)
-    found = traced(lambda: DiscreteSolid(mesh, scene, layers, law, clamp), progress=progress)
-    of_sheet = {"layers": layers, "law": law, "clamp": clamp}
-    settings = {"elements": [along_x, along_y], "grading": grading, **of_sheet}
-    return answered([found], f"solid {along_x} × {along_y} × {layers}", settings)
-
-
-def solve_on(mesh: MeshQuad, scene: Scene) -> Solution:
-    """Return the equilibrium on columns over any flat mesh of straight-sided quadrilaterals [m]."""
-    found = traced(lambda: DiscreteSolid(mesh, scene))
-    found.sheet.own = True
-    settings = {"elements": mesh.nelements, "layers": 1, "law": STRAIN_LAW, "clamp": "shell-like"}
-    return answered([found], "solid", settings)
-
-
-def plan_mesh(scene: Scene, elements: tuple[int, int], grading: str) -> MeshQuad:
-    """The plan mesh; without lines along x and y it has no rows along its rim, for thin curved bricks keep
-    corrections from shrinking. Raises BadInput for an unknown grading."""
-    if grading not in GRADINGS:
-        raise BadInput(f"grading = {grading!r}: known are {', '.join(GRADINGS)}")
-    return mesh_of(scene, elements, graded=grading == "edges" and has_lines(borders_of(scene)))
+    return answered(traced(lambda: solid(scene, elements, layers, law, clamp, grading), progress=progress))

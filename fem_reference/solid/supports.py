@@ -84,7 +84,7 @@ class ColumnSupports:
     def reactions(self, nodal: np.ndarray, load_factor: float) -> dict[str, np.ndarray]:
         """Force [N] (3,) of each support from nodal ones (n, levels, 3); what several hold they share."""
         bases = self.bases(load_factor)
-        shared = into_forces(bases, nodal) / np.maximum(sum(self.edges.values()), 1)
+        shared = applied(bases.swapaxes(1, 2), nodal) / np.maximum(sum(self.edges.values()), 1)
         levels = self.columns.levels
         rigid = np.linalg.solve(bases, np.tile(np.eye(3), (levels, 1)))  # q of the unit translations
         rigid = rigid.reshape(len(bases), levels, 3, 3)
@@ -94,26 +94,9 @@ class ColumnSupports:
         }
 
 
-def components(bases: np.ndarray, displacement: np.ndarray) -> np.ndarray:
-    """q = Z⁻¹ u, (n, levels, 3)."""
-    flat = displacement.reshape(*bases.shape[:2], 1)
-    return np.linalg.solve(bases, flat).reshape(displacement.shape)
-
-
-def vectors(bases: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """u = Z q, (n, levels, 3)."""
-    return (bases @ q.reshape(*bases.shape[:2], 1)).reshape(q.shape)
-
-
-def into_forces(bases: np.ndarray, nodal: np.ndarray) -> np.ndarray:
-    """Forces on the components, Zᵀ r, (n, levels, 3)."""
-    return (bases.swapaxes(1, 2) @ nodal.reshape(*bases.shape[:2], 1)).reshape(nodal.shape)
-
-
-def from_forces(bases: np.ndarray, on_components: np.ndarray) -> np.ndarray:
-    """Nodal forces r (n, levels, 3) of forces on the components, Z⁻ᵀ f."""
-    flat = on_components.reshape(*bases.shape[:2], 1)
-    return np.linalg.solve(bases.swapaxes(1, 2), flat).reshape(on_components.shape)
+def applied(matrices: np.ndarray, nodal: np.ndarray) -> np.ndarray:
+    """Matrices (n, 3 levels, 3 levels) times what columns have, (n, levels, 3): u = Z q, and Zᵀ r on q."""
+    return (matrices @ nodal.reshape(*matrices.shape[:2], 1)).reshape(nodal.shape)
 
 
 def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = ()) -> ColumnSupports:

@@ -19,7 +19,6 @@ from typing import ClassVar
 import numpy as np
 from skfem import MeshQuad
 
-from fem_reference.surface import carried
 from fem_reference.surface.biquadratic import (
     AT_GAUSS,
     GAUSS_WEIGHTS,
@@ -29,6 +28,7 @@ from fem_reference.surface.biquadratic import (
     shape,
     side_shape,
 )
+from fem_reference.surface.carried import weighing
 from fem_reference.surface.location import locate
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, elements_in, facets_on
@@ -210,7 +210,7 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
         acceleration = np.array(scene.gravity.last_acceleration)
         dead += area_force(weighed, plan.elements, count, acceleration)
         if scene.masses:
-            dead += np.outer(carried.of_scene(scene, plan).at_nodes(plan), acceleration)
+            dead += np.outer(weighing(scene, plan), acceleration)
     for load in scene.loads:
         factor = load.last_factor
         match load:

@@ -74,8 +74,10 @@ def section_of(material: Material | Constants, thickness: float) -> Section:
     """The section of a sheet of this material, homogeneous through its thickness, or of its plies."""
     if isinstance(material, Constants) and material.plies:
         return Section(*plies.section(material.plies, thickness))
-    laws = (membrane_stiffness, bending_stiffness, transverse_shear_stiffness)
-    return Section(*(law(material, thickness) for law in laws))
+    membrane = times(thickness, plane_stress(material))
+    return Section(
+        membrane, bending_stiffness(material, thickness), transverse_shear_stiffness(material, thickness)
+    )
 
 
 def plane_stress(material: Material | Constants) -> np.ndarray:
@@ -85,7 +87,7 @@ def plane_stress(material: Material | Constants) -> np.ndarray:
     form[..., 0, 0] = form[..., 1, 1] = 1.0
     form[..., 0, 1] = form[..., 1, 0] = nu
     form[..., 2, 2] = (1.0 - nu) / 2.0
-    return _times(material.young / (1.0 - nu**2), form)
+    return times(material.young / (1.0 - nu**2), form)
 
 
 def shear_modulus(material: Material | Constants) -> float:
@@ -93,21 +95,16 @@ def shear_modulus(material: Material | Constants) -> float:
     return material.young / (2.0 * (1.0 + material.poisson))
 
 
-def membrane_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
-    """h C (3, 3) [N/m]."""
-    return _times(thickness, plane_stress(material))
-
-
 def bending_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
     """h³/12 C (3, 3) [N·m]."""
-    return _times(thickness**3 / 12.0, plane_stress(material))
+    return times(thickness**3 / 12.0, plane_stress(material))
 
 
 def transverse_shear_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
     """k h G I (2, 2) [N/m]."""
-    return _times(SHEAR_CORRECTION * thickness * shear_modulus(material), np.eye(2))
+    return times(SHEAR_CORRECTION * thickness * shear_modulus(material), np.eye(2))
 
 
-def _times(factor: float | np.ndarray, form: np.ndarray) -> np.ndarray:
+def times(factor: float | np.ndarray, form: np.ndarray) -> np.ndarray:
     """A form (…, k, k) times numbers (…)."""
     return np.asarray(factor)[..., None, None] * form

@@ -16,10 +16,9 @@ from skfem import Dofs, ElementQuad2, MeshQuad
 
 from fem_reference.surface.borders import Borders, borders_of, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
-from sheetbench.answers.solution import FieldMesh
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
-from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseLinear, Scene, Sheet, Symmetric
+from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseCurve, Scene, Sheet, Symmetric
 from sheetbench.scenes.meaning.region import area_in, edge_length
 from sheetbench.scenes.objects.grading import is_mirrored, line_numbers
 from sheetbench.scenes.objects.grid import MESH, elements_of
@@ -222,10 +221,10 @@ def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
     if len(sides) % 2 and is_mirrored(places, length):
         count += count % 2
     at = np.arange(count + 1)
-    lines = PiecewiseLinear(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(at)
-    in_elements = PiecewiseLinear(lines.tolist(), at.tolist()).at(sides)
+    lines = PiecewiseCurve(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(at)
+    in_elements = PiecewiseCurve(lines.tolist(), at.tolist()).at(sides)
     fixed = [0, *line_numbers(in_elements.tolist(), count), count]
-    return PiecewiseLinear(lines[fixed].tolist(), [lines[0], *places, lines[-1]]).at(lines)
+    return PiecewiseCurve(lines[fixed].tolist(), [lines[0], *places, lines[-1]]).at(lines)
 
 
 def _cuts(scene: Scene) -> list[str]:
@@ -289,16 +288,3 @@ def require_upright(mesh: MeshQuad) -> None:
 def quarters(element_nodes: np.ndarray) -> np.ndarray:
     """Nine-node elements (9, m) as bilinear cells (4 m, 4) for drawing."""
     return element_nodes.T[:, _QUARTERS].reshape(-1, 4)
-
-
-def field_mesh(
-    nodes: np.ndarray,
-    element_nodes: np.ndarray,
-    displacement: np.ndarray,
-    director: np.ndarray,
-    **more: np.ndarray,
-) -> FieldMesh:
-    """Nodes and bilinear quarters of the elements, with displacement [m], director and more nodal fields."""
-    points = np.column_stack([nodes, np.zeros(len(nodes))])
-    fields = {"displacement": displacement, "director": director, **more}
-    return FieldMesh(points, [("quad", quarters(element_nodes.T))], fields)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sheetbench.scenes import PiecewiseLinear
+from sheetbench.scenes import PiecewiseCurve
 
 if TYPE_CHECKING:
     from shapely import LineString
@@ -139,7 +139,7 @@ def divided(borders: Sequence[LineString], size: SizeField, diagonal: np.ndarray
         count = max(least, int(np.ceil(steps[-1] - 1e-6)))
         if diagonal[number]:  # as `_quadtree` has them
             count = max(least, int(np.rint(steps[-1])))
-        along = PiecewiseLinear(steps.tolist(), fine.tolist()).at(np.linspace(0.0, steps[-1], count + 1))
+        along = PiecewiseCurve(steps.tolist(), fine.tolist()).at(np.linspace(0.0, steps[-1], count + 1))
         places.append(shapely.get_coordinates(shapely.line_interpolate_point(border, along)))
         first = sum(len(at) for at in places[:-1])
         ends.append(first + np.arange(count)[:, None] + [0, 1])

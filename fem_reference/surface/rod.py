@@ -25,15 +25,15 @@ Source: Antman, Nonlinear Problems of Elasticity (2005), ch. 8 (the special Coss
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from fem_reference.surface.biquadratic import TWO, lagrange, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.mesh import Plan
-from fem_reference.surface.rod_elements import RodElements
 from fem_reference.surface.supports import Supports
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Chain, Scene
@@ -46,6 +46,20 @@ SQUARE = slice(12, 15)
 _VALUE, _SLOPE = side_shape(TWO)  # (2 points, 3 nodes)
 _SHARES = np.array([1.0, 4.0, 1.0]) / 3.0  # ∫ N dξ
 _SAMPLES = 400  # of a side, for the mean of a piecewise curvature
+
+
+class RodElements(NamedTuple):
+    """k sides with s strains of a vectors each, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀ (see `discrete.rods`).
+
+    reference: Q₀ (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s); weight: dead
+    force on Q (k, a, 3) [N, N·m].
+    """
+
+    reference: np.ndarray
+    forms: np.ndarray
+    stiffness: np.ndarray
+    intrinsic: np.ndarray
+    weight: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -230,17 +244,28 @@ class BoundRods:
         return np.split(of_sides, np.cumsum([len(rod.nodes) for rod in self.rods])[:-1]) if self.rods else []
 
 
-def on_surface(rods: Sequence[Rod], count: int) -> BoundRods:
-    """The rods on a surface of `count` nodes, vectors φ (n), d (n) and then m of every rod's nodes."""
-    sites, first = [np.zeros((0, 9), dtype=int)], 2 * count
-    own, held = [np.zeros((0, 3))], [np.zeros(0, dtype=bool)]
+def bound(
+    rods: Sequence[Rod],
+    vectors: int,
+    first: int,
+    of_sheet: Callable[[Rod], tuple[RodElements, np.ndarray]],
+    directors: int = 1,
+) -> BoundRods:
+    """The rods on a sheet that has the first vectors; of_sheet: a rod's sides, of so many vectors each, and
+    where their first ones (k, …) are among the sheet's. Their last ones are so many directors, each of three
+    nodes, of the rods' own: one of all nodes of a rod after the other."""
+    shapes = (vectors, 3), (1, vectors, vectors), (1,), (1,), (vectors, 3)
+    none = np.zeros((0, vectors), dtype=int), np.zeros((0, 3)), np.zeros(0, dtype=bool)
+    parts = [(*none, *(np.zeros((0, *shape)) for shape in shapes))]
     for rod in rods:
-        sites.append(np.concatenate([rod.nodes, count + rod.nodes, first + rod.places], axis=1))
-        own.append(np.tile(rod.elements.reference[0, 6], (len(rod.line), 1)))
-        held.append(np.arange(len(rod.line)) == (-1 if rod.base is None else rod.base))
-        first += len(rod.line)
-    elements = RodElements.joined([rod.elements for rod in rods], 9)
-    return BoundRods(tuple(rods), elements, *(np.concatenate(part) for part in (sites, own, held)))
+        (elements, there), (k, p) = of_sheet(rod), (len(rod.nodes), len(rod.line))
+        aside = first + p * np.arange(directors)[:, None] + rod.places[:, None]
+        own = np.repeat(elements.reference[0, -3 * directors :: 3], p, axis=0)
+        held = np.tile(np.arange(p) == (-1 if rod.base is None else rod.base), directors)
+        parts.append((np.concatenate([there, aside.reshape(k, -1)], axis=1), own, held, *elements))
+        first += directors * p
+    sites, own, held, *of_sides = (np.concatenate(part) for part in zip(*(parts[1:] or parts), strict=True))
+    return BoundRods(tuple(rods), RodElements(*of_sides), sites, own, held)
 
 
 def block_diagonal(blocks: Sequence[np.ndarray]) -> np.ndarray:

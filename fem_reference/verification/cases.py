@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from functools import partial
 
 from fem_reference.verification import (
     elliptic_plate,
-    end_shear,
-    heavy_elastica,
-    locking,
+    large_deflections,
     manufactured_plate,
     manufactured_solid,
     mindlin_plates,
     natural_frequencies,
     orthotropic,
     patch,
-    roll_up,
     round_shapes,
     self_bending,
     settling_strip,
@@ -26,27 +25,29 @@ from fem_reference.verification.rows import Case, Row
 from sheetbench.errors import require_choice
 
 CASES: dict[str, Case] = {
-    "end-shear": Case("cantilever under an end shear", end_shear.rows),
-    "roll-up": Case("cantilever rolled up to a full circle", roll_up.rows),
+    "end-shear": Case("cantilever under an end shear", large_deflections.end_shear),
+    "roll-up": Case("cantilever rolled up to a full circle", large_deflections.roll_up),
     "slit-annulus": Case("slit annular plate, lifted", slit_annulus.rows, quick=False),
-    "heavy-elastica": Case("strip under its own weight", heavy_elastica.rows),
+    "heavy-elastica": Case("strip under its own weight", large_deflections.heavy_elastica),
     "settling-strip": Case("strip that settles under its own weight", settling_strip.rows),
     "mindlin-simple": Case("Mindlin plate, hard simple support", mindlin_plates.simply_supported),
     "mindlin-clamped": Case("Mindlin plate, clamped", mindlin_plates.clamped),
-    "nafems-fv16": Case("cantilevered square plate", natural_frequencies.fv16),
-    "nafems-fv12": Case("free square plate", natural_frequencies.fv12),
-    "leissa-one-edge": Case("thin square plate, one edge clamped", natural_frequencies.one_edge),
-    "leissa-two-edges": Case("thin square plate, two edges clamped", natural_frequencies.two_edges),
+    **{
+        name: Case(benchmark.title, partial(natural_frequencies.rows, name))
+        for name, benchmark in natural_frequencies.BENCHMARKS.items()
+    },
     "disc-bending": Case("thin disc clamped at its hub", round_shapes.bending),
     "disc-frequencies": Case("thin disc clamped at its hub, vibrating", round_shapes.frequencies),
     "strip-with-hole": Case("strip with a round hole, pulled", round_shapes.strip_with_hole, quick=False),
     "nafems-le10": Case("thick elliptic plate", elliptic_plate.rows, quick=False),
     "manufactured-plate": Case("manufactured Mindlin plate: error and order", manufactured_plate.rows),
     "manufactured-solid": Case("manufactured block: error and order", manufactured_solid.rows, quick=False),
-    "large-rotation-order": Case("order of the shell, rolled up", roll_up.order),
-    "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", locking.rows),
-    "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", locking.rows),
-    "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", locking.rows, quick=False),
+    "large-rotation-order": Case("order of the shell, rolled up", large_deflections.order),
+    "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "plate")),
+    "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "shell")),
+    "locking-solid": Case(
+        "solid on 8 × 8, ν up to 0.4999", partial(mindlin_plates.locking, "solid"), quick=False
+    ),
     "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
     "rubber": Case("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
     "orthotropic-plate": Case("plate with fibres along x, simply supported", orthotropic.plate),
@@ -73,4 +74,4 @@ def run(
 def _rows(names: tuple[str, ...], starting: Callable[[str], None]) -> Iterator[Row]:
     for name in names:
         starting(name)
-        yield from CASES[name].rows(name)
+        yield from (replace(row, case=name) for row in CASES[name].rows())

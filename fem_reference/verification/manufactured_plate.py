@@ -38,7 +38,7 @@ MATERIAL = Material(young=1e7, poisson=0.3, density=1000.0)
 MODELS: dict[str, type[DiscreteShell]] = {"plate": DiscretePlate, "shell": DiscreteShell}
 
 
-def rows(case: str) -> Iterator[Row]:
+def rows() -> Iterator[Row]:
     """Errors on the finest mesh, and the order of the last refinement, of plate and shell."""
     for model in MODELS:
         for ratio in RATIOS:
@@ -46,10 +46,8 @@ def rows(case: str) -> Iterator[Row]:
             mesh = f"{model} {ELEMENTS[-1]} × {ELEMENTS[-1]}"
             for name, (coarse, fine) in zip(LARGEST, errors[-2:].T, strict=True):
                 what = f"{name} at h/L = {ratio:g}"
-                yield absolutely(case, f"L² error, {what}", mesh, 0.0, SOURCE, fine, LARGEST[name])
-                yield absolutely(
-                    case, f"L² order, {what}", mesh, ORDER, THEORY, np.log2(coarse / fine), SLACK
-                )
+                yield absolutely(f"L² error, {what}", mesh, 0.0, SOURCE, fine, LARGEST[name])
+                yield absolutely(f"L² order, {what}", mesh, ORDER, THEORY, np.log2(coarse / fine), SLACK)
 
 
 def _square(ratio: float) -> Scene:

@@ -9,8 +9,8 @@ The free vibration of rectangular plates, J. Sound Vib. 31 (1973) 257–293.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,34 +26,62 @@ STEEL = Material(young=200e9, poisson=0.3, density=8000.0)
 NAFEMS = Sheet(length_x=10.0, length_y=10.0, thickness=0.05)
 THIN = Sheet(length_x=1.0, length_y=1.0, thickness=1e-3)
 
+COEFFICIENT = "ω a² √(ρh/D)"
+
 Values = tuple[float | None, ...]
 
 
-def _rows(
-    case: str,
-    sheet: Sheet,
-    edges: tuple[str, ...],
-    source: str,
-    unit: str,
-    converged: Values,
-    bounds: Values,
-    models: tuple[str, ...] = ("plate", "shell"),
-) -> Iterator[Row]:
-    """Six modes of every model; unit: "Hz" or "ω a² √(ρh/D)"."""
+class Benchmark(NamedTuple):
+    """A sheet clamped along edges and its first six frequencies; unit: "Hz" or COEFFICIENT."""
+
+    title: str
+    sheet: Sheet
+    edges: tuple[str, ...]
+    source: str
+    unit: str
+    converged: Values
+    bounds: Values
+    models: tuple[str, ...] = ("plate", "shell")
+
+
+BENCHMARKS = {
+    "nafems-fv16": Benchmark(
+        "cantilevered square plate", NAFEMS, ("x0",), "NAFEMS 1987, FV16", "Hz",
+        (0.4179, 1.0227, 2.5618, 3.272, 3.7214, 6.5105), (0.421, 1.029, 2.582, 3.306, 3.753, 6.555),
+        ("plate", "shell", "solid"),
+    ),
+    "nafems-fv12": Benchmark(
+        "free square plate", NAFEMS, (), "NAFEMS 1987, FV12", "Hz",
+        (None, None, None, 4.182, 4.182, None), (1.622, 2.360, 2.922, 4.233, 4.233, 7.416),
+    ),
+    "leissa-one-edge": Benchmark(
+        "thin square plate, one edge clamped", THIN, ("x0",), "Leissa 1973", COEFFICIENT,
+        (3.471, 8.506, 21.28, 27.20, 30.95, 54.18), (3.492, 8.525, 21.43, 27.33, 31.11, 54.44),
+    ),
+    "leissa-two-edges": Benchmark(
+        "thin square plate, two edges clamped", THIN, ("x0", "y0"), "Leissa 1973", COEFFICIENT,
+        (6.919, 23.90, 26.58, 47.65, 62.71, 65.53), (6.942, 24.03, 26.68, 47.79, 63.04, 65.83),
+    ),
+}  # fmt: skip
+
+
+def rows(case: str) -> Iterator[Row]:
+    """Six modes of every model of a case of `BENCHMARKS`."""
+    _, sheet, edges, source, unit, converged, bounds, models = BENCHMARKS[case]
     clamps = tuple(Clamped.model_validate({"edge": edge}) for edge in edges)
     scene = Scene(name=case, sheet=sheet, material=STEEL, supports=clamps)
     scale = 1.0 if unit == "Hz" else _coefficient(scene)
+    expected = (("converged", CONVERGED, FINER, converged), ("bound", BOUND, source, bounds))
     for model in models:
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
         found = scale * modes(scene, model, ELEMENTS, count=6).frequencies
-        expected = (("converged", CONVERGED, FINER, converged), ("bound", BOUND, source, bounds))
         for kind, tolerance, whose, values in expected:
             for number, (published, computed) in enumerate(zip(values, found, strict=True), 1):
                 if published is not None:
                     quantity = f"mode {number} [{unit}], {kind}"
-                    yield relatively(case, quantity, mesh, published, whose, computed, tolerance)
+                    yield relatively(quantity, mesh, published, whose, computed, tolerance)
         coarse = scale * modes(scene, model, ELEMENTS // 2, count=6).frequencies
-        yield mesh_change(case, mesh, coarse, found, CONVERGED)
+        yield mesh_change(mesh, coarse, found, CONVERGED)
 
 
 def _coefficient(scene: Scene) -> float:
@@ -61,43 +89,3 @@ def _coefficient(scene: Scene) -> float:
     sheet, material = scene.sheet, scene.material
     rigidity = bending_stiffness(material, sheet.thickness)[0, 0]
     return 2.0 * np.pi * sheet.length_x**2 * np.sqrt(material.density * sheet.thickness / rigidity)
-
-
-COEFFICIENT = "ω a² √(ρh/D)"
-fv16: Callable[[str], Iterator[Row]] = partial(
-    _rows,
-    sheet=NAFEMS,
-    edges=("x0",),
-    source="NAFEMS 1987, FV16",
-    unit="Hz",
-    converged=(0.4179, 1.0227, 2.5618, 3.272, 3.7214, 6.5105),
-    bounds=(0.421, 1.029, 2.582, 3.306, 3.753, 6.555),
-    models=("plate", "shell", "solid"),
-)
-fv12: Callable[[str], Iterator[Row]] = partial(
-    _rows,
-    sheet=NAFEMS,
-    edges=(),
-    source="NAFEMS 1987, FV12",
-    unit="Hz",
-    converged=(None, None, None, 4.182, 4.182, None),
-    bounds=(1.622, 2.360, 2.922, 4.233, 4.233, 7.416),
-)
-one_edge: Callable[[str], Iterator[Row]] = partial(
-    _rows,
-    sheet=THIN,
-    edges=("x0",),
-    source="Leissa 1973",
-    unit=COEFFICIENT,
-    converged=(3.471, 8.506, 21.28, 27.20, 30.95, 54.18),
-    bounds=(3.492, 8.525, 21.43, 27.33, 31.11, 54.44),
-)
-two_edges: Callable[[str], Iterator[Row]] = partial(
-    _rows,
-    sheet=THIN,
-    edges=("x0", "y0"),
-    source="Leissa 1973",
-    unit=COEFFICIENT,
-    converged=(6.919, 23.90, 26.58, 47.65, 62.71, 65.53),
-    bounds=(6.942, 24.03, 26.68, 47.79, 63.04, 65.83),
-)

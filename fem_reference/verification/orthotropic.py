@@ -53,13 +53,15 @@ def _delta(outer: float, m: int, n: int) -> float:
     return d1 * m**4 + 2.0 * d3 * m**2 * n**2 + d2 * n**4
 
 
-def _plate(case: str, layers: tuple[Layer, ...], load: float) -> Scene:
+def _plate(layers: tuple[Layer, ...], load: float) -> Scene:
     weight = Gravity(acceleration=(0.0, 0.0, load / (MATERIAL.density * THIN.thickness)))
     supports = tuple(Hinged.model_validate({"edge": edge}) for edge in EDGES)
-    return Scene(name=case, sheet=THIN, material=MATERIAL, layers=layers, supports=supports, gravity=weight)
+    return Scene(
+        name="fibres", sheet=THIN, material=MATERIAL, layers=layers, supports=supports, gravity=weight
+    )
 
 
-def _deflections(case: str, layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
+def _deflections(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
     """w D22/(q a⁴) in the middle, of the plate and of the shell under so small a load that it is linear."""
     terms = (
         sin(m * pi / 2) * sin(n * pi / 2) / (m * n * _delta(outer, m, n))
@@ -70,27 +72,27 @@ def _deflections(case: str, layers: tuple[Layer, ...], outer: float, source: str
     scale = _rigidities(outer)[2]
     for model in ("plate", "shell"):
         hard: dict[str, Any] = {"hard_edges": tuple(EDGES)} if model == "plate" else {}
-        found = solve(_plate(case, layers, load), model, elements=ELEMENTS, **hard)
+        found = solve(_plate(layers, load), model, elements=ELEMENTS, **hard)
         middle = float(found.displacement(np.array([[0.5, 0.5]]))[0, 2])
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
-        yield relatively(case, "w D22/qa⁴", mesh, unit * scale, source, middle / load * scale, STATIC)
+        yield relatively("w D22/qa⁴", mesh, unit * scale, source, middle / load * scale, STATIC)
 
 
-def plate(case: str) -> Iterator[Row]:
+def plate() -> Iterator[Row]:
     """A single ply, fibres along x: deflection and the first six frequencies."""
-    yield from _deflections(case, (), 1.0, SOURCE)
-    yield from _frequencies(case, (), 1.0)
+    yield from _deflections((), 1.0, SOURCE)
+    yield from _frequencies((), 1.0)
 
 
-def laminate(case: str) -> Iterator[Row]:
+def laminate() -> Iterator[Row]:
     """[0/90]s."""
-    yield from _deflections(case, LAYERS, 0.875, LAMINATE)
-    yield from _frequencies(case, LAYERS, 0.875)
+    yield from _deflections(LAYERS, 0.875, LAMINATE)
+    yield from _frequencies(LAYERS, 0.875)
 
 
-def _frequencies(case: str, layers: tuple[Layer, ...], outer: float) -> Iterator[Row]:
+def _frequencies(layers: tuple[Layer, ...], outer: float) -> Iterator[Row]:
     """The first six, in Hz."""
-    scene = _plate(case, layers, 0.0)
+    scene = _plate(layers, 0.0)
     inertia = MATERIAL.density * THIN.thickness
     exact = sorted(
         0.5 * pi * sqrt(_delta(outer, m, n) / inertia) for m, n in product(range(1, 12), range(1, 12))
@@ -99,10 +101,10 @@ def _frequencies(case: str, layers: tuple[Layer, ...], outer: float) -> Iterator
         found = modes(scene, model, ELEMENTS, count=6).frequencies
         for number, (expected, computed) in enumerate(zip(exact, found, strict=False), start=1):
             mesh, quantity = f"{model} {ELEMENTS} × {ELEMENTS}", f"mode {number} [Hz]"
-            yield relatively(case, quantity, mesh, expected, "Leissa 1969", float(computed), FREQUENCIES)
+            yield relatively(quantity, mesh, expected, "Leissa 1969", float(computed), FREQUENCIES)
 
 
-def off_axis(case: str) -> Iterator[Row]:
+def off_axis() -> Iterator[Row]:
     """E_x/E₂ of strips with fibres at 15, 30 and 60°, from the stretch of their middle third."""
     sheet = Sheet(length_x=1.0, length_y=0.04, thickness=1e-3)
     stations = np.array([[0.4, 0.02], [0.7, 0.02]])
@@ -112,7 +114,7 @@ def off_axis(case: str) -> Iterator[Row]:
         c, s = cos(angle), sin(angle)
         exact = 1.0 / (c**4 / E1 + (1.0 / G - 2.0 * NU / E1) * s**2 * c**2 + s**4 / E2)
         scene = Scene(
-            name=case,
+            name="off-axis",
             sheet=sheet,
             material=MATERIAL.replace(angle=angle),
             supports=(Clamped("x0"),),
@@ -121,4 +123,4 @@ def off_axis(case: str) -> Iterator[Row]:
         u = solve(scene, model, elements=(60, 4)).displacement(stations)[:, 0]
         found = pull / sheet.thickness * 0.3 / float(u[1] - u[0])
         quantity = f"E_x/E2 at {degrees}°"
-        yield relatively(case, quantity, f"{model} 60 × 4", exact / E2, "exact", found / E2, STATIC)
+        yield relatively(quantity, f"{model} 60 × 4", exact / E2, "exact", found / E2, STATIC)

@@ -26,8 +26,9 @@ from scipy.special import iv, ivp, jv, jvp, kv, kvp, yv, yvp
 from skfem import MeshQuad, MeshQuad2
 
 from fem_reference import solve
-from fem_reference.plate import statics as plate
-from fem_reference.shell import statics as shell
+from fem_reference.discrete.answer import solve_on
+from fem_reference.plate.discrete import DiscretePlate
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import Line
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import mesh_of, nodes_of, quarters
@@ -64,19 +65,20 @@ def disc(thick: float = THICK) -> Scene:
     )
 
 
-def bending(case: str) -> Iterator[Row]:
+def bending() -> Iterator[Row]:
     """The deflection of the rim, and the order in which plate and shell come to it."""
     thin, thicker = disc(), disc(THICKER)
-    for model, on in (("plate", plate.solve_on), ("shell", shell.solve_on)):
+    for model, kind in (("plate", DiscretePlate), ("shell", DiscreteShell)):
         quantity, source = "deflection of the rim [m]", "Timoshenko 1959, art. 17"
         computed, expected = _at_rim(solve(thin, model, elements=ELEMENTS)), deflection_at_rim()
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
-        yield relatively(case, quantity, mesh, expected, source, computed, TOLERANCE)
+        yield relatively(quantity, mesh, expected, source, computed, TOLERANCE)
         coarse = cut(mesh_of(thicker, UNCUT))
-        errors = [_at_rim(on(mesh, thicker)) - deflection_at_rim(THICKER) for mesh in (coarse, cut(coarse))]
+        at_rim = [_at_rim(solve_on(kind, mesh, thicker)) for mesh in (coarse, cut(coarse))]
+        errors = np.array(at_rim) - deflection_at_rim(THICKER)
         order = float(np.log2(abs(errors[0] / errors[1])))
         quantity, mesh = f"order, h/a = {THICKER / RADIUS:g}", f"{model} {UNCUT} × {UNCUT}, cut in 4 and 16"
-        yield absolutely(case, quantity, mesh, 4.0, THEORY, order, OF_ORDER)
+        yield absolutely(quantity, mesh, 4.0, THEORY, order, OF_ORDER)
 
 
 def cut(mesh: MeshQuad) -> MeshQuad2:
@@ -98,7 +100,7 @@ def _at_rim(solution: Solution) -> float:
     return float(solution.displacement(np.array([[2.0 * RADIUS, RADIUS]]))[0, 2])
 
 
-def frequencies(case: str) -> Iterator[Row]:
+def frequencies() -> Iterator[Row]:
     """The lowest of every number of nodal diameters up to 2."""
     scene, scale = disc(), np.sqrt(_rigidity() / (STEEL.density * THICK)) / (2.0 * np.pi * RADIUS**2)
     for model in ("plate", "shell"):
@@ -108,14 +110,14 @@ def frequencies(case: str) -> Iterator[Row]:
         ):
             quantity = f"λ² with {diameters} nodal diameters"
             mesh, expected = f"{model} {ELEMENTS} × {ELEMENTS}", frequency(diameters)
-            yield relatively(case, quantity, mesh, expected, "Leissa 1969, ch. 2", computed, OF_FREQUENCY)
+            yield relatively(quantity, mesh, expected, "Leissa 1969, ch. 2", computed, OF_FREQUENCY)
 
 
-def strip_with_hole(case: str) -> Iterator[Row]:
+def strip_with_hole() -> Iterator[Row]:
     """The largest stress at the hole over the mean one far away."""
     for share, published in HOWLAND.items():
         quantity, mesh = f"stress at a hole of {share:g} of the width", f"plate {ACROSS} across"
-        yield relatively(case, quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
+        yield relatively(quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
 
 
 def _rigidity() -> float:
@@ -181,7 +183,7 @@ def concentration(share: float) -> float:
         probes={"P1": (length, 0.5)},
     )
     mesh = mesh_of(scene, ACROSS, graded=True)
-    solution = plate.solve_on(mesh, scene)
+    solution = solve_on(DiscretePlate, mesh, scene)
     nodes, elements = nodes_of(mesh)
     line = Line.along(mesh, mesh.boundary_facets(), nodes[elements])
     sides = nodes[elements[line.elements[:, None], line.sides]]

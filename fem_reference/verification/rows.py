@@ -10,7 +10,7 @@ difference itself is held to the tolerance.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Annotated
 
@@ -27,7 +27,7 @@ OURS = "this project"
 class Row:
     """One expected value and whose it is, the mesh it was computed on, the tolerance it is held to.
 
-    at: where in a sweep the row stands, by name.
+    case: its key in `CASES`, known where cases are run; at: where in a sweep the row stands, by name.
     """
 
     case: str
@@ -57,12 +57,11 @@ class Case:
     """
 
     title: str
-    rows: Callable[[str], Iterator[Row]]
+    rows: Callable[[], Iterator[Row]]
     quick: bool = True
 
 
 def relatively(
-    case: str,
     quantity: str,
     mesh: str,
     published: float,
@@ -75,18 +74,40 @@ def relatively(
     """A row held to a relative difference, of `scale` where it is given and else of the published value."""
     relative = abs(computed - published) / abs(published if scale is None else scale)
     values = float(published), source, float(computed), float(relative)
-    return Row(case, quantity, mesh, *values, tolerance, bool(relative <= tolerance), at or {})
+    return Row("", quantity, mesh, *values, tolerance, bool(relative <= tolerance), at or {})
 
 
 def absolutely(
-    case: str, quantity: str, mesh: str, published: float, source: str, computed: float, tolerance: float
+    quantity: str, mesh: str, published: float, source: str, computed: float, tolerance: float
 ) -> Row:
     """A row held to a difference of its own kind."""
     passed = bool(abs(computed - published) <= tolerance)
-    return Row(case, quantity, mesh, float(published), source, float(computed), None, tolerance, passed)
+    return Row("", quantity, mesh, float(published), source, float(computed), None, tolerance, passed)
 
 
-def mesh_change(case: str, mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: float) -> Row:
+def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: float) -> Row:
     """The largest relative change of the answers from half the mesh: the case's own convergence."""
     change = np.max(np.abs(np.asarray(fine) - coarse)) / np.max(np.abs(fine))
-    return absolutely(case, "change from half the mesh", mesh, 0.0, OURS, change, tolerance)
+    return absolutely("change from half the mesh", mesh, 0.0, OURS, change, tolerance)
+
+
+def curve(
+    names: Sequence[str],
+    mesh: str,
+    published: Mapping[float, Iterable[float]],
+    source: str,
+    tolerance: float,
+    answer: Callable[[float, int], np.ndarray],
+    elements: int,
+    size: float = 0.0,
+    half_at: float | None = None,
+) -> Iterator[Row]:
+    """Rows of the values that an answer has at each load of a curve, by names with a place for the load, and
+    of its change from half as many elements at one load, the largest unless given. size: what is next to
+    nothing beside that is relative to it."""
+    for load, values in published.items():
+        for name, expected, computed in zip(names, values, answer(load, elements), strict=True):
+            scale = size if abs(expected) < 1e-9 * size else None
+            yield relatively(name.format(load), mesh, expected, source, computed, tolerance, scale)
+    load = max(published) if half_at is None else half_at
+    yield mesh_change(mesh, answer(load, elements // 2), answer(load, elements), tolerance)

@@ -45,13 +45,13 @@ def scene() -> Scene:
     )
 
 
-def rows(case: str) -> Iterator[Row]:
+def rows() -> Iterator[Row]:
     """The tip's largest difference from the values over its largest displacement, of ux and uz."""
     off = differences(1.5, ELEMENTS)
     mesh = f"shell {ELEMENTS[0]} × {ELEMENTS[1]}"
     for component, largest in zip(("ux", "uz"), off.max(axis=0), strict=True):
         quantity = f"{component} of the tip over 1.5 s, largest difference over the peak"
-        yield relatively(case, quantity, mesh, 0.0, SOURCE, float(largest), TOLERANCE, scale=1.0)
+        yield relatively(quantity, mesh, 0.0, SOURCE, float(largest), TOLERANCE, scale=1.0)
 
 
 def differences(duration: float, elements: tuple[int, int]) -> np.ndarray:

@@ -13,8 +13,9 @@ from collections.abc import Iterator
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.shell import statics as shell
-from fem_reference.verification.rows import Row, mesh_change, relatively
+from fem_reference.discrete.answer import solve_on
+from fem_reference.shell.discrete import DiscreteShell
+from fem_reference.verification.rows import Row, curve
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet
 
@@ -31,21 +32,13 @@ PUBLISHED = {
 }
 
 
-def rows(case: str) -> Iterator[Row]:
+def rows() -> Iterator[Row]:
     """Rise of both ends of the lifted side at each share of the force."""
-    mesh = f"shell {RADIAL} × {AROUND}"
-    for share, values in PUBLISHED.items():
-        found = rise(share, RADIAL, AROUND)
-        for name, published, computed in zip(("w_A", "w_B"), values, found, strict=True):
-            yield relatively(
-                case, f"{name} at P = {share:g} P_max", mesh, published, SOURCE, computed, TOLERANCE
-            )
-    smallest = min(PUBLISHED)
-    coarse, fine = rise(smallest, RADIAL // 2, AROUND // 2), rise(smallest, RADIAL, AROUND)
-    yield mesh_change(case, mesh, coarse, fine, TOLERANCE)
+    names, mesh = ("w_A at P = {:g} P_max", "w_B at P = {:g} P_max"), f"shell {RADIAL} × {AROUND}"
+    yield from curve(names, mesh, PUBLISHED, SOURCE, TOLERANCE, rise, RADIAL, half_at=min(PUBLISHED))
 
 
-def rise(share: float, radial: int, around: int) -> np.ndarray:
+def rise(share: float, radial: int) -> np.ndarray:
     """w (2,) [m] of the inner and the outer end of the lifted side."""
     scene = Scene(
         name="slit annulus",
@@ -54,8 +47,8 @@ def rise(share: float, radial: int, around: int) -> np.ndarray:
         supports=(Clamped(edge="y1"),),
         loads=(EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, FORCE * share)),),
     )
-    mesh = annulus(radial, around)
-    solution = shell.solve_on(mesh, scene)
+    mesh = annulus(radial, radial * AROUND // RADIAL)
+    solution = solve_on(DiscreteShell, mesh, scene)
     if solution.status is not Status.CONVERGED:
         return np.full(2, np.nan)
     lifted = np.unique(mesh.facets[:, mesh.boundaries["y0"]])

@@ -26,9 +26,9 @@ class Calibration(Answer):
     moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
     (A, S [N/m], D [N·m]; the target of S is MacNeal's S* of the grid), of unequal cells that of the one that
     misses it most; remarks: what the method could not meet; masses: how the sheet's mass is shared out
-    (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); half:
-    the axes along which they end at a plane of symmetry; cells: their sections, where they differ or
-    have fibres; of_material: whether those are of the material alone, without what a scene has beside.
+    (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); cells:
+    their sections, where they differ or have fibres; of_material: whether those are of the material alone,
+    without what a scene has beside.
     """
 
     file_name = "calibration"
@@ -40,7 +40,6 @@ class Calibration(Answer):
     remarks: tuple[str, ...] = ()
     masses: Distribution = "tributary"
     grading: Graded = 0.0
-    half: tuple[bool, bool] = (False, False)
     cells: CellSection | None = None
     of_material: bool = False
 
@@ -65,18 +64,6 @@ class Calibration(Answer):
         """Grid, method and grading in a few words."""
         grid = "×".join(map(str, self.grid))
         return f"{grid} {self.method}{remark(self.grading)}"
-
-    def halved(self, axis: int) -> Calibration:
-        """These springs on the half of the grid up to a plane of symmetry across the axis, 0 or 1.
-
-        A free edge opposite that plane stands for two opposite ones.
-        """
-        counts = [*self.grid]
-        counts[axis] = counts[axis] // 2 + 1
-        grid = counts[0], counts[1], counts[2]
-        springs = self.constants.halved(axis, grid[1] - 1, grid[0] - 1).table()
-        half = (self.half[0] or axis == 0, self.half[1] or axis == 1)
-        return replace(self, grid=grid, springs=springs, half=half)
 
     @cached_property
     def constants(self) -> Springs:

@@ -27,7 +27,7 @@ FROM = 5_000  # unknowns from which smaller lattices cost less than the factoris
 def halved(scene: Scene, calibration: Calibration) -> Calibration | None:
     """Springs of the lattice with half as many cells a side; None where there is none to start from."""
     nx, ny, layers = calibration.grid
-    other = calibration.method != METHOD or calibration.cells is not None or any(calibration.half)
+    other = calibration.method != METHOD or calibration.cells is not None
     if other or layers != 2 or scene.actuators:
         return None
     grid = (nx // 2 + 1, ny // 2 + 1, layers)

@@ -17,7 +17,7 @@ from lumped.actuators import Drive
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.structure import LatticeForces, LatticeStructure
 from sheetbench.answers.solution import Status
-from sheetbench.numerics.continuation.newton import Start, newton
+from sheetbench.numerics.continuation.newton import SOLVED, Start, newton
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 
@@ -63,7 +63,7 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
             except LoadStepFailed:
                 pass
         gradient = -residual.reduced
-        direction = factor.solve(-gradient)
+        direction = factor.solve(-gradient, SOLVED)
         slope = float(gradient @ direction)
         if not slope < 0.0:  # also catches nan
             raise _failed("no direction of descent: the projected tangent is not positive definite")

@@ -6,7 +6,7 @@ With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0. Displaceme
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -230,7 +230,7 @@ class Problem:
         )
         if definite:
             reached = LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
-            return BandedFactor(band, blocks, factors), step, rows, reached
+            return BandedFactor(band, factors, partial(self.system.matrix, blocks)), step, rows, reached
         factor = self.system.factor(blocks, count)
         step = factor.solve(rows, SOLVED)
         return factor, step, rows, self.advance(u, step, load_factor)

@@ -94,21 +94,23 @@ class Answer(ABC):
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
         """Return the first table, or that of a name, as a data frame in SI units. Raises BadInput where there
         is no such table, or pandas is not installed."""
-        by_name = {one.name or one.caption: one for one in self.tables()}
-        if not by_name or (table and table not in by_name):
-            raise BadInput(f"to_pandas('{table}'): tables are {', '.join(by_name) or 'none'}")
-        return (by_name[table] if table else next(iter(by_name.values()))).to_pandas()
+        return self._named("to_pandas", "tables", self.tables(), table).to_pandas()
 
     def plot(self, figure: str = "") -> Figure:
         """Return the first figure, or that of a name, for matplotlib. Raises BadInput where there is none, or
         it cannot be drawn here."""
-        by_name = {one.name: one for one in self.figures()}
-        if not by_name or (figure and figure not in by_name):
-            raise BadInput(f"plot('{figure}'): figures are {', '.join(by_name) or 'none'}")
+        picture = self._named("plot", "figures", self.figures(), figure)
         try:
-            return (by_name[figure] if figure else next(iter(by_name.values()))).figure()
+            return picture.figure()
         except NoPicture as why:
             raise BadInput(f"plot('{figure}'): {why}") from None
+
+    def _named(self, by: str, noun: str, every: Sequence[Any], name: str) -> Any:
+        """Return the one of a name, the first without one. Raises BadInput where there is none."""
+        by_name = {one.name or one.caption: one for one in every}
+        if not by_name or (name and name not in by_name):
+            raise BadInput(f"{by}('{name}'): {noun} are {', '.join(by_name) or 'none'}")
+        return by_name[name or next(iter(by_name))]
 
     def save(self, folder: Path | str, figure: str | None = None) -> tuple[str, ...]:
         """Write every file and picture into a folder, as `Report.save` does."""
@@ -116,6 +118,3 @@ class Answer(ABC):
 
     def __repr__(self) -> str:
         return self.report().text(ROWS)
-
-    def _repr_html_(self) -> str:
-        return self.report()._repr_html_()

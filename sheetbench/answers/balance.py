@@ -11,7 +11,7 @@ flat one). What is left over is compared with what the model's own tolerance and
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -61,22 +61,6 @@ class Balance:
         force, moment = (float(np.linalg.norm(part)) for part in (self.force, self.moment))
         share = f"{self.relative:.1g} of all"
         return f"forces out of balance by {force:.2g} N, moments by {moment:.2g} N·m ({share})"
-
-    def mirrored(self, axis: int, middle: float) -> Balance:
-        """Of this part of a sheet and its mirror image across the plane at `middle` [m] of an axis."""
-        flip = np.ones(3)
-        flip[axis] = -1.0
-        image, beyond = flip * self.force, np.zeros(3)
-        beyond[axis] = 2.0 * middle
-        moment = self.moment - flip * self.moment + np.cross(beyond, image)
-        return replace(
-            self,
-            force=self.force + image,
-            moment=moment,
-            size=2.0 * self.size,
-            allowed=2.0 * self.allowed,
-            arm=self.arm + 2.0 * middle,
-        )
 
     def document(self) -> dict[str, Any]:
         """For JSON: N, N·m, and what is left as a fraction of the forces."""

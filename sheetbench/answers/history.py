@@ -5,7 +5,6 @@ Part of the question's language, as `Solution` is for statics: it holds no mecha
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.solution import Status
-from sheetbench.answers.table import MILLIMETRES, PERCENT, Column, Table, number
+from sheetbench.answers.table import MILLIMETRES, Column, Table, number
 from sheetbench.errors import BadInput
 
 if TYPE_CHECKING:
@@ -28,33 +27,8 @@ UNDAMPED = (
     "damping_time or damping_rate, or [air] its drag"
 )
 COMPONENTS = ("ux", "uy", "uz")
+WRENCH = (*((f"F{axis}", "N") for axis in "xyz"), *((f"M{axis}", "N·m") for axis in "xyz"))
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
-
-
-@dataclass(frozen=True)
-class Measured:
-    """One probe's measured history: time (n,) [s], displacement (n, 3) [m], nan where not measured."""
-
-    time: np.ndarray
-    displacement: np.ndarray
-
-    def within(self, start: float, end: float) -> np.ndarray:
-        """Which times (n,) lie between two [s]."""
-        within: np.ndarray = (self.time >= start) & (self.time <= end)
-        return within
-
-    def error(self, time: np.ndarray, displacement: np.ndarray) -> float | None:
-        """The error of a simulated history, times (m,) [s] and displacements (m, 3) [m], linear between them:
-        the largest |component of (simulated − measured)| within its times over the largest |measured
-        component|; None where nothing is measured there, or nothing moves."""
-        inside = self.within(time[0], time[-1])
-        truth = self.displacement[inside]
-        if not np.isfinite(truth).any() or np.nanmax(np.abs(truth)) == 0.0:
-            return None
-        simulated = np.column_stack(
-            [np.interp(self.time[inside], time, displacement[:, i]) for i in range(3)]
-        )
-        return float(np.nanmax(np.abs(simulated - truth)) / np.nanmax(np.abs(truth)))
 
 
 @dataclass(frozen=True, repr=False)
@@ -116,24 +90,22 @@ class History(Answer):
         own = {one.name: getattr(self, one.name) for one in fields(History) if one.name != "extra"}
         return {**own, "energy": self.balance, "status": str(self.status), "energies": self.accounts}
 
-    def tables(self, measured: Mapping[str, Measured] | None = None) -> tuple[Table, ...]:
-        """A row per probe: the displacement at the end, its largest excursion and, if measured, the error."""
-        of, rows = measured or {}, []
+    def tables(self) -> tuple[Table, ...]:
+        """A row per probe: the displacement at the end and its largest excursion."""
+        rows = []
         for name, u in self.probes.items() if len(self.time) else ():
-            off = of[name].error(self.time, u) if name in of else None
-            rows.append((name, *u[-1], np.abs(u).max(), off))
+            rows.append((name, *u[-1], np.abs(u).max()))
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and its largest component during the motion"
         moved = (MILLIMETRES("z.3f", name) for name in (*COMPONENTS, "largest"))
-        columns = ("probe", *moved, PERCENT("z.2f", "difference", detail=not of))
-        return (Table.listed(caption, columns, rows, "probes"),)
+        return (Table.listed(caption, ("probe", *moved), rows, "probes"),)
 
     def figures(self) -> tuple[Picture, ...]:
         """Probes and energies over time."""
-        return (Picture("history", "sheetbench.answers.history_figure:compose", (self, self.label, {})),)
+        return (Picture("history", "sheetbench.answers.history_figure:compose", (self, self.label)),)
 
     def files(self) -> dict[str, Write]:
-        """All samples as CSV, and those of the probes a row each, as measured histories are read."""
+        """All samples as CSV, and those of the probes a row each, as `identify --measured` reads them."""
         columns = (Column("time", "s"), Column("probe"), *(Column(name, "m") for name in COMPONENTS))
         rows = tuple(
             (time, name, *u)
@@ -185,23 +157,20 @@ class History(Answer):
 
     def series(self) -> Table:
         """A row per sample: time, probes, energies, reactions and the actuators' total force."""
-        columns, values = [Column("time", "s")], [self.time]
+        found: list[tuple[str, str, np.ndarray]] = [("time", "s", self.time)]
         for name, u in self.probes.items():
-            columns += [Column(f"{name}.{component}", "m") for component in COMPONENTS]
-            values += list(u.T)
+            found += [(f"{name}.{component}", "m", of) for component, of in zip(COMPONENTS, u.T, strict=True)]
         known = {**self.accounts, "balance": self.balance} if self.energies else {}
-        for name, energy in known.items():
-            columns.append(Column(name, "J"))
-            values.append(energy)
+        found += [(name, "J", energy) for name, energy in known.items()]
         for name, force in self.reactions.items():
-            columns += [Column(f"{name}.F{axis}", "N") for axis in "xyz"]
-            values += list(force.T)
+            found += [(f"{name}.F{axis}", "N", of) for axis, of in zip("xyz", force.T, strict=True)]
         for name, wrench in self.actuators.items():
             for segment in range(wrench.shape[1]):
-                columns += [Column(f"{name}.{segment}.F{axis}", "N") for axis in "xyz"]
-                columns += [Column(f"{name}.{segment}.M{axis}", "N·m") for axis in "xyz"]
-                values += list(wrench[:, segment].T)
-        return Table("History", tuple(columns), tuple(zip(*(v.tolist() for v in values), strict=True)))
+                parts = zip(WRENCH, wrench[:, segment].T, strict=True)
+                found += [(f"{name}.{segment}.{part}", unit, of) for (part, unit), of in parts]
+        columns = tuple(Column(name, unit) for name, unit, _ in found)
+        rows = zip(*(values.tolist() for *_, values in found), strict=True)
+        return Table("History", columns, tuple(rows))
 
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
         """Return all samples in SI units, or the table of a name. Raises BadInput as `Answer.to_pandas`."""

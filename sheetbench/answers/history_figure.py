@@ -1,4 +1,4 @@
-"""The picture of a run: the probes over time, measured histories as points, the energies below."""
+"""The picture of a run: the probes over time, the energies below."""
 
 from __future__ import annotations
 
@@ -8,19 +8,18 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
-from sheetbench.answers.history import History, Measured
+from sheetbench.answers.history import History
 from sheetbench.answers.style import COMPONENTS, MOST, plain
 
 DASHES: Any = {"uy": (0, (4, 2))}  # of a symmetric sheet it lies on ux
 ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 
-def compose(
-    history: History, title: str, measured: dict[str, Measured], style: FigureStyle = PLAIN
-) -> Figure:
-    """The figure with a panel per probe, and the energies below; of many probes those that were measured, or
-    else that move most."""
-    shown = _shown(history, measured)
+def compose(history: History, title: str, style: FigureStyle = PLAIN) -> Figure:
+    """The figure with a panel per probe, and the energies below; of many probes those that move most."""
+    farthest = {name: float(np.abs(u).max(initial=0.0)) for name, u in history.probes.items()}
+    kept = sorted(farthest, key=farthest.__getitem__, reverse=True)[:MOST]
+    shown = [name for name in farthest if name in kept]
     count = len(shown)
     figure = Figure(figsize=(style.width, 1.5 * count + 1.9), layout="constrained")
     panels = figure.subplots(count + 1, 1, sharex=True, squeeze=False)[:, 0]
@@ -30,12 +29,7 @@ def compose(
             label = f"${component[0]}_{component[1]}$"
             dashes = DASHES.get(component, "-")
             axis.plot(history.time, 1e3 * u[:, i], ls=dashes, color=colour, linewidth=1.0, label=label)
-            if name in measured:
-                points = measured[name]
-                axis.plot(points.time, 1e3 * points.displacement[:, i], "o", color=colour, markersize=2.5)
-        off = measured[name].error(history.time, u) if name in measured else None
-        text = "" if off is None else f"   (points measured; off by {100 * off:.1f} %)"
-        axis.set_title(f"{plain(name, longest=60)}{text}", loc="left", fontsize=7.5, fontweight="bold")
+        axis.set_title(plain(name, longest=60), loc="left", fontsize=7.5, fontweight="bold")
         axis.set_ylabel("displacement [mm]")
     panels[0].legend(ncols=3, **ABOVE)
     for name in ("kinetic", "elastic", "potential", "dissipated"):
@@ -51,11 +45,3 @@ def compose(
     if style.titled:
         figure.suptitle(text, fontsize=8)
     return figure
-
-
-def _shown(history: History, measured: dict[str, Measured]) -> list[str]:
-    """The probes with a panel, in the order of the scene."""
-    names = list(history.probes)
-    moves = {name: (name in measured, float(np.abs(history.probes[name]).max(initial=0.0))) for name in names}
-    kept = set(sorted(names, key=lambda name: moves[name], reverse=True)[:MOST])
-    return [name for name in names if name in kept]

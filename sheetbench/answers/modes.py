@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -19,27 +18,26 @@ from sheetbench.scenes.scene import Scene
 STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move
 
 
+@dataclass(frozen=True, repr=False)
 class NaturalModes(Answer):
-    """Base of a model's modes; frequencies: (count,) [Hz]; unknowns: of the eigenproblem."""
+    """Base of a model's modes; frequencies: (count,) [Hz], rising; shapes: (count, n, 3) of its nodes; rigid:
+    how many rigid motions there are beside them; unknowns: of the eigenproblem."""
 
     file_name = "modes"
     frequencies: np.ndarray
+    shapes: np.ndarray
+    rigid: int
     unknowns: int
 
-    @property
-    @abstractmethod
-    def left_out(self) -> int:
-        """How many rigid motions there are beside them."""
-
     def document(self) -> dict[str, Any]:
-        return {"frequencies_hz": self.frequencies, "rigid_modes": self.left_out, "unknowns": self.unknowns}
+        return {"frequencies_hz": self.frequencies, "rigid_modes": self.rigid, "unknowns": self.unknowns}
 
     def tables(self) -> tuple[Table, ...]:
         columns, rows = (NUMBER("d", "mode"), HERTZ(".5g", "frequency")), enumerate(self.frequencies, start=1)
         return (Table.listed("Natural frequencies", columns, rows, "modes"),)
 
     def notes(self) -> list[str]:
-        return [f"{self.left_out} rigid motions are left out"] if self.left_out else []
+        return [f"{self.rigid} rigid motions are left out"] if self.rigid else []
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,14 +55,8 @@ class Buckling:
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return {
-            "model": self.model,
-            "label": self.label,
-            "settings": self.settings,
-            "load_factors": self.load_factors,
-            "unknowns": self.unknowns,
-            "solve_seconds": self.seconds,
-        }
+        keys = ("model", "label", "settings", "load_factors", "unknowns")
+        return {**{key: getattr(self, key) for key in keys}, "solve_seconds": self.seconds}
 
 
 def require_flat_and_dead(scene: Scene) -> None:

@@ -63,13 +63,16 @@ class Picture:
 
     def write(self, folder: Path) -> str | None:
         """Write the files into a folder; a sentence that says why there are none."""
-        from sheetbench.answers.style import save
-
         try:
-            save(self.figure(), [folder / name for name in self.names], self.description)
+            self._draw([folder / name for name in self.names])
         except NoPicture as why:
             return str(why)
         return None
+
+    def _draw(self, paths: list[Path]) -> None:
+        from sheetbench.answers.style import save
+
+        save(self.figure(), paths, self.description)
 
     def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
         """Return the picture in each of the styles, and in its formats where it names some."""
@@ -82,13 +85,8 @@ class Film(Picture):
 
     formats: tuple[str, ...] = ("gif",)
 
-    def write(self, folder: Path) -> str | None:
-        """Write the files into a folder; a sentence that says why there are none."""
-        try:
-            _function(self.compose)(*self.of, [folder / name for name in self.names])
-        except NoPicture as why:
-            return str(why)
-        return None
+    def _draw(self, paths: list[Path]) -> None:
+        _function(self.compose)(*self.of, paths)
 
     def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
         """Return the same film."""
@@ -160,11 +158,6 @@ class Report:
         title = terminal("  ".join(filter(None, [self.title, self.subtitle])))
         tables = (text(table, most) for table in self.shown)
         return "\n".join([title, "", *tables, *map(terminal, self.complaints)]).rstrip()
-
-    def _repr_html_(self) -> str:
-        heading = " ".join(filter(None, [self.title, self.subtitle]))
-        notes = "".join(f"<p>{html(line)}</p>" for line in (*self.notes, *self.complaints))
-        return f"<h3>{html(heading)}</h3>{''.join(table._repr_html_() for table in self.shown)}{notes}"
 
     def files(self, made_with: str = "") -> dict[str, Write]:
         """Return every file but the pictures, by name, with what writes it. made_with: a line under the

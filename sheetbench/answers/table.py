@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, get_args, get_orig
 
 import numpy as np
 
-from sheetbench.answers.escape import cell, csv_cell, html, markdown, terminal
+from sheetbench.answers.escape import cell, csv_cell, markdown, terminal
 from sheetbench.answers.latex import latex
 from sheetbench.errors import BadInput
 
@@ -228,18 +228,6 @@ class Table:
 
     def __repr__(self) -> str:
         return self.to_markdown()
-
-    def _repr_html_(self) -> str:
-        heads = "".join(f"<th>{html(column.header(shown=True))}</th>" for column in self.columns)
-        rows = (
-            "".join(
-                f'<td style="text-align:{"right" if column.numeric else "left"}">{html(shown)}</td>'
-                for column, shown in zip(self.columns, row, strict=True)
-            )
-            for row in self.shown_rows()
-        )
-        body = "".join(f"<tr>{row}</tr>" for row in rows)
-        return f"<table><caption>{html(self.caption)}</caption><tr>{heads}</tr>{body}</table>"
 
     def to_markdown(self) -> str:
         """Return a pipe table with shown units, its caption above it."""

@@ -42,16 +42,6 @@ class Band(NamedTuple):
 NO_BAND = Band(np.empty(0, np.intp), 0, np.empty(0, np.int32), np.empty(0, np.int32), np.empty(0))
 
 
-def sparse(matrix: np.ndarray, band: Band) -> sp.csc_array:
-    """A matrix in band storage as SciPy has it, both triangles."""
-    n = len(band.order)
-    column, below = np.nonzero(matrix[:n, : band.width + 1])
-    rows, columns, values = band.order[column + below], band.order[column], matrix[column, below]
-    aside = below > 0
-    both = (np.append(rows, columns[aside]), np.append(columns, rows[aside]))
-    return sp.csc_array(sp.coo_array((np.append(values, values[aside]), both), shape=(n, n)))
-
-
 def ordered(rows: np.ndarray, columns: np.ndarray, n: int) -> tuple[np.ndarray, int]:
     """The order (n,) of an n × n matrix with entries (row, column), both triangles, and its bandwidth: as the
     unknowns are numbered, along the rows of the grid, or reverse Cuthill–McKee where that is narrower."""
@@ -267,19 +257,6 @@ def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
         own[0], own[1], own[2], own[3], own[4], own[5] = _backward(corner, b0, b1, b2, b3, b4, b5)
 
 
-@inner(fastmath=REORDERED)
-def subtract_product(matrix: np.ndarray, n: int, width: int, x: np.ndarray, out: np.ndarray) -> None:
-    """out −= A x, all in the band's order and padded."""
-    for j in range(n):
-        own, value = matrix[j], x[j]
-        rest, below = x[j + 1 :], out[j + 1 :]
-        total = own[0] * value
-        for i in range(width):
-            total += own[i + 1] * rest[i]
-            below[i] -= own[i + 1] * value
-        out[j] -= total
-
-
 @njit(cache=True, nogil=True)
 def solve_unrefined(factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray) -> np.ndarray:
     """x with A x = b as the factors have it."""
@@ -291,31 +268,3 @@ def solve_unrefined(factors: np.ndarray, width: int, order: np.ndarray, b: np.nd
     for j in range(len(order)):
         out[order[j]] = x[j]
     return out
-
-
-@njit(cache=True, nogil=True)
-def solve(
-    matrix: np.ndarray, factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray
-) -> tuple[np.ndarray, float]:
-    """x with A x = b, refined once, and the largest residual left over ‖A‖‖x‖ + ‖b‖ (largest entries)."""
-    n, right, x = len(order), padded_vector(len(order), width), padded_vector(len(order), width)
-    for j in range(n):
-        right[j] = b[order[j]]
-    left = right.copy()
-    for _ in range(2):
-        substitute(factors, n, width, left)
-        x += left
-        left[:] = right
-        subtract_product(matrix, n, width, x, left)
-    largest = miss = of_x = of_b = 0.0
-    finite = True
-    out = np.empty(n)
-    for j in range(n):
-        largest = max(largest, matrix[j, 0])  # positive definite: the largest entry is on the diagonal
-        of_x, of_b, miss = max(of_x, abs(x[j])), max(of_b, abs(right[j])), max(miss, abs(left[j]))
-        finite = finite and np.isfinite(x[j])
-        out[order[j]] = x[j]
-    size = largest * of_x + of_b
-    if not finite:
-        return out, np.inf
-    return out, miss / size if size > 0.0 else 0.0

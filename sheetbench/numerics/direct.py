@@ -12,11 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, partial
+from math import isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, cg, onenormest, splu
+from scipy.sparse.linalg import LinearOperator, cg, splu
 
 from sheetbench.numerics import pardiso
 from sheetbench.numerics.banded import BACKWARD_ERROR
@@ -56,7 +57,8 @@ class Inertia(NamedTuple):
 
 
 class Factor:
-    """One factorisation. inertia: None where it is not known, and of unsymmetric matrices."""
+    """One factorisation. inertia: None where it is not known, and of unsymmetric matrices; solve_unrefined: x
+    with A x = b as the factors have it, neither refined nor checked."""
 
     def __init__(
         self,
@@ -66,10 +68,10 @@ class Factor:
         backward_error: float = np.inf,
         more: Count = lambda: None,
     ):
-        """solve: x with A x = b, as the factors have it; backward_error: what that is known to be below;
+        """solve: `solve_unrefined`; backward_error: what that is known to be below;
         more: called once a further factorisation that is made of the matrix."""
-        self.matrix, self.inertia = matrix, inertia
-        self._solve, self._backward_error, self._more = solve, backward_error, more
+        self.matrix, self.inertia, self.solve_unrefined = matrix, inertia, solve
+        self._backward_error, self._more = backward_error, more
 
     @cached_property
     def _largest(self) -> float:
@@ -83,7 +85,7 @@ class Factor:
     def negative_real(self) -> int | None:
         """Real eigenvalues below zero of an unsymmetric matrix (`stability`), among those nearest to zero;
         None if they are not found, or the determinant's sign tells that there are others."""
-        found = nearest_to_zero(self.matrix, self._solve)
+        found = nearest_to_zero(self.matrix, self.solve_unrefined)
         if found is None:
             return None
         count = negative_real(found)
@@ -95,18 +97,14 @@ class Factor:
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises
         SingularMatrixError if the residual stays large."""
-        x = self._solve(b)
-        if self._backward_error <= enough and np.isfinite(x).all():
+        x = self.solve_unrefined(b)
+        if self._backward_error <= enough and isfinite(x @ x):
             return x
         left, error = self._backward(x, b)
         if not error <= enough:  # also catches nan
-            x = x + self._solve(left)
+            x = x + self.solve_unrefined(left)
             left, error = self._backward(x, b)
         return checked(x, error)
-
-    def solve_unrefined(self, b: np.ndarray) -> np.ndarray:
-        """x with A x = b as the factors have it, neither refined nor checked."""
-        return self._solve(b)
 
     def _backward(self, x: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
         """b − A x (n,), and how large it is relative to ‖A‖‖x‖ + ‖b‖ (largest entries)."""
@@ -115,33 +113,15 @@ class Factor:
         gap = np.abs(left).max(initial=0.0)
         return left, float(gap / size) if gap else 0.0
 
-    def condition(self) -> float:
-        """Condition number ‖A‖₁ ‖A⁻¹‖₁, the latter estimated with the factors (Hager 1984, Higham 1988)."""
-        n = self.matrix.shape[0]
-        if n == 0:
-            return 1.0
 
-        def columns(b: np.ndarray) -> np.ndarray:
-            return np.column_stack([self._solve(column) for column in b.reshape(n, -1).T])
+class NearFactor(Factor):
+    """Of a matrix the factors of one close by: with constraints' multipliers that of `Saddle`, of an
+    unsymmetric matrix its symmetric part, which is positive definite, so that no eigenvalue has a negative
+    real part. Solutions are corrected (`saddle_point`); where that does not serve, factors of the matrix
+    itself are made, `otherwise` says how."""
 
-        # of an unsymmetric matrix the solver with the transpose is missing: its symmetric part is close by
-        inverse = LinearOperator(
-            (n, n), matvec=lambda b: self._solve(b.ravel()), rmatvec=lambda b: self._solve(b.ravel()),
-            matmat=columns, rmatmat=columns, dtype=float,
-        )  # fmt: skip
-        largest = float(abs(self.matrix).sum(axis=0).max())
-        return largest * float(onenormest(inverse, t=min(2, n)))
-
-
-class SymmetricPartFactor(Factor):
-    """Of an unsymmetric matrix the factors of its symmetric part, which is positive definite: no eigenvalue
-    then has a negative real part. They are corrected (`saddle_point`), and where that does not serve those of
-    the matrix itself are made."""
-
-    def __init__(self, matrix: Matrix, solve: Solve, otherwise: Callable[[], Factor], more: Count):
-        super().__init__(matrix, solve, more=more)
-        self._otherwise = otherwise
-        self._other: Factor | None = None
+    otherwise: Callable[[], Factor] | None = None
+    _other: Factor | None = None
 
     def negative_real(self) -> int:
         """Zero: the symmetric part is positive definite."""
@@ -150,11 +130,11 @@ class SymmetricPartFactor(Factor):
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """As of any factor."""
         if self._other is None:
-            x, miss = minimal_residual(self.matrix, self._solve, b, max(enough, ROUNDED))
-            if miss <= BACKWARD_ERROR:
-                return x
+            x, miss = minimal_residual(self.matrix, self.solve_unrefined, b, max(enough, ROUNDED))
+            if self.otherwise is None or miss <= BACKWARD_ERROR:
+                return checked(x, miss)
             self._more()
-            self._other = self._otherwise()
+            self._other = self.otherwise()
         return self._other.solve(b, enough)
 
 
@@ -197,8 +177,9 @@ class DirectSolver:
                     inertia = Inertia(n - factors.negative, factors.negative, 0)
                     return Factor(matrix, factors.solve, inertia, np.inf if factors.negative else CHOLESKY)
                 if factors.negative == 0:
-                    otherwise = partial(self._by_library, matrix, more)
-                    return SymmetricPartFactor(matrix, factors.solve, otherwise, more)
+                    near = NearFactor(matrix, factors.solve, more=more)
+                    near.otherwise = partial(self._by_library, matrix, more)
+                    return near
                 more()
             except NoFactorsError:
                 pass  # the pivots of others may do
@@ -235,20 +216,6 @@ class DirectSolver:
             inertia = Inertia(*factors.inertia) if self.symmetric else None
             return Factor(matrix, factors.solve, inertia, more=more)
         return _superlu(matrix, columns) if self.symmetric else Factor(matrix, splu(columns).solve, more=more)
-
-
-def solve_free(matrix: sp.csr_matrix, force: np.ndarray, u: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """Return u (n,) with K u = f for its free unknowns (k,), the others as they are. Raises
-    SingularMatrixError.
-
-    >>> springs = sp.csr_matrix([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])
-    >>> solve_free(springs, np.array([0.0, 0.0, 3.0]), np.zeros(3), np.array([1, 2]))
-    array([0., 3., 6.])
-    """
-    out = u.copy()
-    out[free] = 0.0
-    out[free] = DirectSolver().factor(matrix[free][:, free]).solve((force - matrix @ out)[free])
-    return out
 
 
 def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | None:

@@ -96,22 +96,17 @@ store_each: Any = constant(_store_each)
 if getattr(config, "DISABLE_JIT", False):  # the same in Python, where kernels are not compiled
 
     def load(kind: int, array: np.ndarray, i: int) -> Any:
-        return array.reshape(-1)[int(i)]
+        return load_each(kind, array, i, 0, 1)[0]
 
     def load_each(kind: int, array: np.ndarray, i: int, apart: int, count: int) -> Any:
         flat = array.reshape(-1)
         return tuple([flat[int(i) + n * int(apart)] for n in range(count)])
 
     def store(kind: int, array: np.ndarray, i: int, value: Any) -> None:
-        _flat(array)[int(i)] = value
+        store_each(kind, array, i, 0, (value,))
 
     def store_each(kind: int, array: np.ndarray, i: int, apart: int, values: Any) -> None:
-        flat = _flat(array)
+        flat: np.ndarray = array.view()  # never a copy, in which a store would be lost
+        flat.shape = (array.size,)
         for n, value in enumerate(values):
             flat[int(i) + n * int(apart)] = value
-
-    def _flat(array: np.ndarray) -> np.ndarray:
-        """The array itself, in one row; never a copy, in which a store would be lost."""
-        flat: np.ndarray = array.view()
-        flat.shape = (array.size,)
-        return flat

@@ -1,14 +1,18 @@
 """Tᵀ K T, the matrix of free unknowns of a matrix K in 3×3 blocks, from the blocks to factors.
 
 It keeps one pattern, so the map from block entries to its entries is found once and the symbolic analysis is
-done once. Small symmetric systems have banded Cholesky factors; those that are not positive definite, and
-larger ones, go to `direct`. Constraints' multipliers among the unknowns: see `saddle_point`.
+done once. The matrix has sorted rows by columns (CSC). Entry e of the map adds weight[e] times source[e] of
+the blocks, laid out one after the other, to the nonzero k with starts[k] ≤ e < starts[k + 1]. Where all
+weights are one, as without hinges and actuators, none are kept, nor starts where every nonzero has one entry.
+Small symmetric systems have banded Cholesky factors; those that are not positive definite, and larger ones,
+go to `direct`. Constraints' multipliers among the unknowns: see `saddle_point`.
 """
 
 from __future__ import annotations
 
-from functools import cached_property
-from math import isfinite
+from collections.abc import Callable
+from functools import cached_property, partial
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -20,54 +24,69 @@ from sheetbench.numerics.direct import (
     DirectSolver,
     Factor,
     Inertia,
+    NearFactor,
     SingularMatrixError,
-    checked,
 )
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
-from sheetbench.numerics.reduction import BlockPattern, Reduction, reduction
-from sheetbench.numerics.saddle_point import ROUNDED, Saddle, minimal_residual
+from sheetbench.numerics.saddle_point import Saddle
+from sheetbench.numerics.typed import njit
 
 BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
 
 
-class BandedFactor(Factor):
-    """Cholesky factors in a band: of a positive definite matrix."""
+class BlockPattern(Protocol):
+    """Blocks (b,) of a symmetric pattern over n nodes, as in BSR: rows, indices (b,), indptr (n + 1,). cells:
+    sets of nodes in the plane such that each block has both its nodes in one of them, if there are such."""
 
-    def __init__(self, band: banded.Band, blocks: np.ndarray, factors: np.ndarray):
-        """blocks (b, 3, 3): of the matrix, not to be written to any more."""
-        self._band, self._blocks, self.factors = band, blocks, factors
+    size: int
+    rows: np.ndarray
+    indices: np.ndarray
+    indptr: np.ndarray
+    cells: CoupledCells | None
+
+
+class Reduction(NamedTuple):
+    """pointers (m + 1,), rows (nonzeros,) of the matrix; starts (nonzeros + 1,), source, weight: the map."""
+
+    pointers: np.ndarray
+    rows: np.ndarray
+    starts: np.ndarray
+    source: np.ndarray
+    weight: np.ndarray
+
+    def columns(self) -> np.ndarray:
+        """Column of every nonzero."""
+        return np.repeat(np.arange(len(self.pointers) - 1), np.diff(self.pointers))
+
+    def entries(self) -> np.ndarray:
+        """How many entries every nonzero has."""
+        return np.diff(self.starts) if len(self.starts) else np.ones(len(self.rows), int)
+
+    def matrix(self, blocks: np.ndarray) -> sp.csc_array:
+        """The reduced matrix (m, m) of blocks (b, 3, 3)."""
+        size = len(self.pointers) - 1
+        data = _gathered(blocks.ravel(), self.starts, self.source, self.weight)
+        return sp.csc_array((data, self.rows, self.pointers), shape=(size, size))
+
+
+class BandedFactor(Factor):
+    """Cholesky factors in a band: of a positive definite matrix, which is made where it is needed."""
+
+    def __init__(self, band: banded.Band, factors: np.ndarray, matrix: Callable[[], sp.csc_array]):
+        self._band, self._matrix, self.factors = band, matrix, factors
         self._backward_error = CHOLESKY
         self.inertia = Inertia(len(band.order), 0, 0)
 
     @cached_property
-    def _stored(self) -> np.ndarray:
-        stored: np.ndarray = banded.stored(self._blocks, self._band)
-        return stored
-
-    @cached_property
     def matrix(self) -> sp.csc_array:  # type: ignore[override]
         """The matrix, both triangles."""
-        return banded.sparse(self._stored, self._band)
+        return self._matrix()
 
-    def _solve(self, b: np.ndarray) -> np.ndarray:
+    def solve_unrefined(self, b: np.ndarray) -> np.ndarray:
+        """x with A x = b as the factors have it, neither refined nor checked."""
         found: np.ndarray = banded.solve_unrefined(self.factors, self._band.width, self._band.order, b)
         return found
-
-    def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """x with A x = b, refined once where its backward error may exceed `enough`. Raises
-        SingularMatrixError when the residual stays large."""
-        if enough >= self._backward_error and isfinite((x := self._solve(b)) @ x):
-            return x
-        return checked(*banded.solve(self._stored, self.factors, self._band.width, self._band.order, b))
-
-
-class SaddleFactor(Factor):
-    """Factors of a matrix close by one with constraints' multipliers."""
-
-    def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """x with A x = b to rounding. Raises SingularMatrixError when the residual stays large."""
-        return checked(*minimal_residual(self.matrix, self._solve, b, max(enough, ROUNDED)))
 
 
 class ReducedSystem:
@@ -149,7 +168,7 @@ class ReducedSystem:
         if self.band is not None:
             factors, definite = banded.factored(blocks, self.band)
             if definite:
-                return BandedFactor(self.band, blocks, factors)
+                return BandedFactor(self.band, factors, partial(self.matrix, blocks))
         matrix = self.matrix(blocks)
         if self._saddle is None:
             return self._solver.factor(matrix, more)
@@ -157,7 +176,7 @@ class ReducedSystem:
             raise SingularMatrixError("an entry of the matrix is not finite")
         close_by, augmented = self._saddle.quasi_definite(matrix)
         near = self._solver.factor(close_by)
-        return SaddleFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.inertia)
+        return NearFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.inertia)
 
 
 def reduced(pattern: BlockPattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:
@@ -177,3 +196,92 @@ def _reduced(
     symmetric: bool,
 ) -> ReducedSystem:
     return ReducedSystem(pattern, sp.csr_array((values, columns, pointers), shape=shape), symmetric)
+
+
+def reduction(pattern: BlockPattern, transform: sp.csr_array) -> Reduction:
+    """Of a pattern and T (3n, m)."""
+    by_column = np.argsort(pattern.indices, kind="stable").astype(np.int32)
+    block_pointers = np.searchsorted(pattern.indices[by_column], np.arange(pattern.size + 1))
+    block_rows = pattern.rows[by_column].astype(np.int32)
+    columns = transform.tocsc()
+    across = (transform.indptr, transform.indices, transform.data)
+    down = (columns.indptr, columns.indices, columns.data)
+    arrays = (block_pointers, by_column, block_rows, *across, *down)
+    of_node = np.diff(transform.indptr[::3]).astype(np.int64)
+    count = int(of_node[pattern.rows] @ of_node[pattern.indices])
+    pointers, rows, starts, source, weight, nonzeros = _reduction(*arrays, count)
+    starts = starts[: nonzeros + 1].copy()
+    if (transform.data == 1.0).all():
+        weight = np.empty(0)
+        if nonzeros == count:
+            starts = np.empty(0, np.int32)
+    return Reduction(pointers, rows[:nonzeros].copy(), starts, source, weight)
+
+
+@njit(cache=True)
+def _reduction(
+    block_pointers: np.ndarray,
+    by_column: np.ndarray,
+    block_rows: np.ndarray,
+    t_pointers: np.ndarray,
+    t_columns: np.ndarray,
+    t_values: np.ndarray,
+    c_pointers: np.ndarray,
+    c_rows: np.ndarray,
+    c_values: np.ndarray,
+    count: int,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, int]:
+    """The map: its entries by columns, then by rows, then by columns again, which have their rows sorted."""
+    size, filled, nonzeros = len(c_pointers) - 1, 0, 0
+    given, target, weighed = np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count)
+    ends, of_row = np.empty(size + 1, np.int32), np.zeros(size + 1, np.int32)
+    for column in range(size):
+        ends[column] = filled
+        for at in range(c_pointers[column], c_pointers[column + 1]):
+            block, axis = c_rows[at] // 3, c_rows[at] % 3
+            for b in range(block_pointers[block], block_pointers[block + 1]):
+                for q in range(3):
+                    row = 3 * block_rows[b] + q
+                    for e in range(t_pointers[row], t_pointers[row + 1]):
+                        given[filled], target[filled] = 9 * by_column[b] + 3 * q + axis, t_columns[e]
+                        weighed[filled] = t_values[e] * c_values[at]
+                        of_row[t_columns[e] + 1] += 1
+                        filled += 1
+    ends[size] = filled
+    for row in range(size):
+        of_row[row + 1] += of_row[row]
+    by_row, columns = np.empty(count, np.int32), np.empty(count, np.int32)
+    for column in range(size):
+        for e in range(ends[column], ends[column + 1]):
+            place = of_row[target[e]]
+            by_row[place], columns[place] = e, column
+            of_row[target[e]] += 1
+    source, weight, to = np.empty(count, np.int32), np.empty(count), np.empty(count, np.int32)
+    at_end = ends.copy()
+    for place in range(count):
+        e, column = by_row[place], columns[place]
+        k = at_end[column]
+        source[k], weight[k], to[k] = given[e], weighed[e], target[e]
+        at_end[column] += 1
+    pointers, rows = np.zeros(size + 1, np.int32), np.empty(count, np.int32)
+    starts = np.empty(count + 1, np.int32)
+    for column in range(size):
+        for e in range(ends[column], ends[column + 1]):
+            if e == ends[column] or to[e] != to[e - 1]:
+                rows[nonzeros], starts[nonzeros] = to[e], e
+                nonzeros += 1
+        pointers[column + 1] = nonzeros
+    starts[nonzeros] = filled
+    return pointers, rows, starts, source, weight, nonzeros
+
+
+@njit(cache=True, nogil=True)
+def _gathered(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """The nonzeros of the reduced matrix."""
+    if not len(starts):
+        return entries[source]
+    out = np.zeros(len(starts) - 1)
+    for k in range(len(out)):
+        for e in range(starts[k], starts[k + 1]):
+            out[k] += (weight[e] if len(weight) else 1.0) * entries[source[e]]
+    return out

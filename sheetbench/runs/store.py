@@ -17,7 +17,6 @@ import zlib
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import Any, BinaryIO, Self
 
 import numpy as np
@@ -76,24 +75,19 @@ class FolderStore:
         self.folder, self._width, self._rows = folder, width, rows
         code = {"version": version(), "source": source()}
         self._description = json.loads(json.dumps({**description, **code}))
-        self._held = ExitStack()
         self._checksums = dict.fromkeys(APPENDED, 0)
         self.plan: dict[str, Any] | None = None
 
     def __enter__(self) -> Self:
         with writing(self.folder):
             self.folder.mkdir(parents=True, exist_ok=True)
-        self._held.enter_context(only_writer(self.folder))
-        try:
+        with ExitStack() as held:
+            held.enter_context(only_writer(self.folder))
             self.plan = self._kept()
-        except BaseException:
-            self._held.close()
-            raise
+            self._held = held.pop_all()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *ended: object) -> None:
         self._held.close()
 
     def begin(self, plan: dict[str, Any]) -> None:

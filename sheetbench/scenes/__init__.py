@@ -32,7 +32,7 @@ from sheetbench.scenes.objects.supports import (
     holds_director,
     holds_tilt,
 )
-from sheetbench.scenes.objects.tables import FactorTable, PiecewiseLinear
+from sheetbench.scenes.objects.tables import FactorTable, PiecewiseCurve
 from sheetbench.scenes.scene import Scene
 
 __all__ = [
@@ -64,7 +64,7 @@ __all__ = [
     "Motion",
     "Patch",
     "PerDirection",
-    "PiecewiseLinear",
+    "PiecewiseCurve",
     "Plane",
     "Point",
     "PointLoad",

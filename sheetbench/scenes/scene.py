@@ -117,13 +117,7 @@ class Scene(SceneFields):
         return super().replace(**values)
 
     def __repr__(self) -> str:
-        return summary.text(*self._summary())
-
-    def _repr_html_(self) -> str:
-        return summary.html(*self._summary())
-
-    def _summary(self) -> tuple[str, summary.Facts]:
-        return f"Scene {self.name}", in_words(self)
+        return summary.text(f"Scene {self.name}", in_words(self))
 
     def save(self, path: str | Path) -> None:
         """Write the scene as TOML, from which `load` reads an equal one."""

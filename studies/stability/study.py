@@ -23,7 +23,6 @@ from comparisons.models.spec import Elements, Lattice
 from comparisons.stability import tiles
 from comparisons.stability.answer import Stability, limits, summary
 from comparisons.stability.extremes import scaled, stability
-from comparisons.stability.limit import energy, measured_limit, noise, start, system
 from comparisons.stability.rows import Row, broken, percent
 from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
@@ -33,6 +32,7 @@ from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import NUMBER, PERCENT, Column, Table
 from sheetbench.scenes import Scene, load
+from studies.stability.limit import energy, measured_limit, noise, start, system
 from studies.stability.scenes import TURNS, bent, pressed, published
 
 PARTS = ("published", "pressed", "bent", "mass", "stiffness", "family")

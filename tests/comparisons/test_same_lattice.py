@@ -1,5 +1,4 @@
-"""The same words mean the same lattice, in every verb and function: its constants, caught where the
-solver gets them."""
+"""The same words mean the same lattice in every verb and function: the constants that a solver gets."""
 
 import json
 from collections.abc import Callable
@@ -64,7 +63,7 @@ def caught(monkeypatch, tmp_path):
     monkeypatch.setattr(lumped, "explicit_limit", lambda *_: 1.0)
     for module in (solvers, task):
         monkeypatch.setattr(module, "warm", lambda _: None)
-    monkeypatch.setattr(server, "run", lambda panel, *_: used(panel.scene, of_panel(panel)))
+    monkeypatch.setattr(server, "Server", lambda panel, *_: used(panel.scene, of_panel(panel)))
     monkeypatch.chdir(tmp_path)
     Path("measured.csv").write_text(FILE, encoding="utf-8")
 
@@ -85,14 +84,12 @@ def verb(words):
     return ask
 
 
-def python(function, *given, **fixed):
+def python(function):
     """A function of the package: a grid as text is a number there, or numbers."""
 
     def call(scene, grid=None, **options):
         shape = {} if grid is None else {"grid": int(grid) if str(grid).isdigit() else grid}
-        found = function(sb.load(scene), *given, **fixed, **shape, **options)
-        if isinstance(found, lumped.Calibration):
-            raise Used(found)
+        function(sb.load(scene), **shape, **options)
 
     return call
 
@@ -102,10 +99,6 @@ def of_advice(scene, **options):
     found = TrialSolves(scene, Lattice(**options), ["lumped"]).candidates(linear=False)
     (*_, last) = [c for c in found if c.settings["grid"] == [9, 9, 2]]
     return resolve(scene, last).springs
-
-
-def listed(scene, grid=9, calibration="consistent", **options):
-    return sb.tradeoff(scene, grid=[grid], calibration=[calibration], shell=(), **options)
 
 
 FILE = "x,y,uz\n0.094,0.094,-0.002\n0.188,0.188,-0.013\n"
@@ -123,17 +116,9 @@ VERBS: dict[str, tuple[Callable[..., None], frozenset[str]]] = {
     "advise": (python(of_advice), WORDS - {"grid"}),
     "live": (verb("live {} --no-browser"), GRIDS),
     "sb.solve": (python(sb.solve), WORDS),
-    "sb.compare": (python(sb.compare), WORDS),
-    "sb.compare of a motion": (python(sb.compare, duration=0.01), WORDS),
-    "sb.simulate": (python(sb.simulate, 0.01), WORDS),
-    "sb.modes": (python(sb.modes), WORDS),
-    "sb.modes of a state space": (python(sb.modes, state_space=20), WORDS),
-    "sb.identify": (python(sb.identify, "measured.csv", "thickness"), WORDS),
-    "sb.calibrate": (python(sb.calibrate), WORDS),
-    "sb.tradeoff": (python(listed), WORDS),
 }
-ANEW = {"calibrate", "sb.calibrate", "identify", "sb.identify"}  # make the springs, whatever the scene has
-NAMED = {"tradeoff", "sb.tradeoff"}  # list their calibrations, where the others leave them open
+ANEW = {"calibrate", "identify"}  # make the springs, whatever the scene has
+NAMED = {"tradeoff"}  # lists its calibrations, where the others leave them open
 CHOSEN = {*NAMED, "crosscheck", "advise"}
 UNABLE = {"live": ("5x7", "0.4:x0")}  # one number for the grid, one grading for all edges
 
@@ -159,21 +144,9 @@ def test_k_alone_is_the_uniform_lattice_of_that_k():
     assert calibration.method == "uniform" and calibration.springs.axial == 700.0
 
 
-@pytest.mark.parametrize("name", [name for name in VERBS if name.startswith("sb.") and name != "sb.solve"])
-def test_a_spec_is_what_its_flat_keywords_are(name):
-    """Flat keywords beside a spec change it."""
-    spec = sb.Lattice(grid=5, calibration="uniform", k=550.0)
-    expected = constants(resolve(sb.load(SCENE), spec.but(layer_distance=0.004)).springs)
-    listed = {"grid": 5, "calibration": "uniform"} if name in NAMED else {}
-    with pytest.raises(Used) as used:
-        VERBS[name][0](SCENE, **listed, lattice=spec, layer_distance=0.004)
-    assert constants(used) == expected
-
-
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
 def test_so_are_a_scene_s_own_springs(name):
-    """Where nothing is named the scene's own [springs] are meant, but where springs are to be made; in any
-    case their grid is the usual one."""
+    """Where nothing is named the scene's own [springs] are meant; in any case their grid is the usual one."""
     ask, words = VERBS[name]
     plain = sb.load(SCENE)
     springs = lumped.calibrate(plain.sheet, plain.material, grid=(4, 6), method="uniform", k=400.0)

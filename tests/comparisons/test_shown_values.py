@@ -13,8 +13,7 @@ from comparisons.cli import modes
 from comparisons.models.spec import Elements, spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.modes.state_space import Linearisation
-from comparisons.reproduction import figure, findings
-from comparisons.stability import tiles as stability_figure
+from comparisons.reproduction import findings
 from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import trials
@@ -22,7 +21,6 @@ from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from lumped.calibration.tables import moduli
 from sheetbench import scenes
-from sheetbench.answers.figure_style import PLAIN
 
 
 def shown(table):
@@ -42,7 +40,7 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front():
     row = TradeoffRow(Ask(scene, Elements("shell", 2)), "converged")
     table, _ = Tradeoff(scene, (), row, None, None).tables()
     assert [column.name for column in table.brief().columns] == [
-        "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
+        "row", "model", "size", "unknowns", "solve", "memory", "error", "front",
     ]  # fmt: skip
 
 
@@ -57,17 +55,6 @@ def test_time_is_predicted_by_the_models_own_family():
     found = [trials.TrialSolves.predicted_seconds(SimpleNamespace(rows=rows), one) for one in models]
     # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
     assert found == pytest.approx([0.1, 0.064, 0.1 * 4**trials.EXPONENT, trials.unknowns(plate) * 1e-5])
-
-
-def test_tiles_reach_half_way_to_their_neighbours():
-    _, axis = subplots()
-    cells = ({"x": x, "y": y} for x in (4.0, 1.0, 3.0) for y in (1.0, 100.0))
-    rows = [{"cell": cell, "status": "converged"} for cell in cells]
-    stability_figure.tiles(axis, rows, "x", "y", scale=("linear", "log"))
-    tiles = sorted(tile.get_bbox().extents.tolist() for tile in axis.patches)
-    across, up = ((0.0, 2.0), (2.0, 3.5), (3.5, 4.5)), ((0.1, 10.0), (10.0, 1000.0))
-    assert tiles == [pytest.approx([x0, y0, x1, y1]) for x0, x1 in across for y0, y1 in up]
-    assert (*axis.get_xlim(), *axis.get_ylim()) == pytest.approx((0.0, 4.5, 0.1, 1000.0))
 
 
 def test_a_tradeoffs_axis_holds_its_errors_and_the_bar_in_percent():
@@ -112,16 +99,3 @@ def test_a_fit_is_shown_in_the_tables_units(monkeypatch):
     row = shown(findings.nearest_table())
     assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
     assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "9 of 12")
-
-
-def test_the_picture_of_settling_is_in_millimetres_over_the_static_answer():
-    run = SimpleNamespace(
-        time=np.array([0.0, 1.0]), probes={"P4": np.array([[0.0, 0.0, 0.0], [1e-3, 2e-3, 3e-3]])}
-    )
-    settling = SimpleNamespace(runs={"consistent": run}, rest={"consistent": np.array([4e-3, 5e-3, 6e-3])})
-    panels = figure.motion(settling, PLAIN).axes[:3]
-    for axis, panel in enumerate(panels):
-        moved, rest = panel.lines[:2]
-        np.testing.assert_allclose(moved.get_ydata(), [0.0, 1.0 + axis])
-        np.testing.assert_allclose(rest.get_ydata(), 4.0 + axis)
-    assert [panel.get_xlabel() for panel in panels] == ["", "", "time [s]"]

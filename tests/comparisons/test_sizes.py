@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import json_of, run
+from commands import run
 from verbs import SMALL, write_inputs
 
 import lumped
@@ -116,14 +116,6 @@ def test_a_long_thin_sheet_is_refused_with_what_fits(strip, monkeypatch):
         sb.tradeoff(strip, tolerance=0.01)
 
 
-def test_half_a_sheet_takes_half(monkeypatch):
-    scene = scenes.load("one-edge-clamped")
-    for model, settings in (("lumped", {"grid": 129}), ("shell", {"elements": 64})):
-        whole, part = (sizes.size(scene, spec_of(model, settings | s)) for s in ({}, {"symmetry": True}))
-        assert whole is not None and part is not None
-        assert 0.4 < part.memory / whole.memory < 0.6
-
-
 def test_every_candidate_is_looked_at_before_the_first_run(tmp_path, monkeypatch):
     room(monkeypatch, 3 * GB)
     scene = scenes.load(SCENE)
@@ -158,12 +150,6 @@ def test_every_verb_refuses_what_does_not_fit(line, little, capsys):
     said = capsys.readouterr().err.splitlines()[-1]
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said
     assert not Path("out").exists()
-
-
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("line", LINES)
-def test_large_goes_on_all_the_same(line, little, capsys):
-    assert json_of(capsys, *line.split(), "--large")
 
 
 def written(root, files):

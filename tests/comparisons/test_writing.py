@@ -12,7 +12,7 @@ from commands import one_line, run
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import folder
 from sheetbench.answers.report import Report
-from sheetbench.files import require_file, whole, writing
+from sheetbench.files import require_file, whole
 from sheetbench.scenes import BadInput
 
 
@@ -98,11 +98,6 @@ def test_what_stands_in_the_way_is_said_with_the_remedy(tmp_path, number, said):
     with pytest.raises(BadInput, match=f"{path}: cannot be written, {said}"), whole(path):
         raise OSError(number, os.strerror(number))
     assert not list(tmp_path.iterdir())
-
-
-def test_a_fault_elsewhere_is_not_laid_at_the_files_door(tmp_path):
-    with pytest.raises(FileNotFoundError, match="font"), writing(tmp_path / "file.txt"):
-        Path("/nowhere/font.ttf").read_bytes()
 
 
 def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):

@@ -10,9 +10,10 @@ from numpy.testing import assert_allclose
 
 import fem_reference
 import lumped
+from fem_reference.discrete.answer import solve_on
 from fem_reference.surface.mesh import rectangle
 from sheetbench import face as models
-from sheetbench.answers.balance import Balance, dead_force
+from sheetbench.answers.balance import dead_force
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import SceneError, load
 
@@ -126,31 +127,6 @@ def test_without_a_load_nothing_moves_and_without_a_support_nothing_is_solved(mo
         models.solve(make_scene(supports=[]), name, **settings)
 
 
-@pytest.mark.parametrize("model", [m for m in MODELS if m != "solid"])  # which is solved whole
-def test_a_part_is_in_balance_and_so_is_the_whole(model):
-    scene = make_scene(
-        supports=[{"edge": e, "kind": "hinged"} for e in ("x0", "x1", "y0", "y1")],
-        loads=[LOADS[2], {"kind": "point", "at": [SIDE / 2, SIDE / 2], "force": [0.0, 0.0, 0.3]}],
-    )
-    name, settings = MODELS[model]
-    solution = models.solve(scene, name, symmetry=True, **settings)
-    assert solution.settings["symmetry"] == ["x", "y"]
-    assert solution.balance.holds and solution.balance.relative < 1e-8
-
-
-def test_the_image_of_a_force_is_where_a_mirror_puts_it():
-    """A force left over at a point of the part, and the same at the point's image."""
-    at, force = np.array([0.03, 0.05, 0.01]), np.array([1.0, 2.0, -3.0])
-    part = Balance(force, np.cross(at, force), size=1.0, allowed=1e-9, arm=0.2)
-    for axis in (0, 1):
-        flip = np.where(np.arange(3) == axis, -1.0, 1.0)
-        image = flip * at + 2.0 * 0.1 * (np.arange(3) == axis)
-        whole = part.mirrored(axis, 0.1)
-        assert_allclose(whole.force, force + flip * force)
-        assert_allclose(whole.moment, np.cross(at, force) + np.cross(image, flip * force))
-        assert whole.size == 2.0 and not whole.holds
-
-
 def test_no_answer_out_of_balance_is_an_equilibrium():
     solution = lumped.solve(SCENES["curved"], springs(SCENES["curved"]))
     off = replace(solution.balance, force=np.array([0.0, 0.0, 1e-3]))
@@ -181,8 +157,8 @@ def test_a_mesh_of_any_outline_is_in_balance(model):
     leaning = type(flat)(np.array([x * (1.0 - 2.0 * y), y + 0.2 * x]), flat.t).with_boundaries(
         flat.boundaries
     )
-    solve_on = resolve_name(f"fem_reference.{model}.statics").solve_on
-    found = solve_on(leaning, scene)
+    kind = resolve_name(f"fem_reference.{model}.discrete:Discrete{model.title()}")
+    found = solve_on(kind, leaning, scene)
     assert found.status is Status.CONVERGED and found.balance.allowed <= SHARP * found.balance.size
 
 

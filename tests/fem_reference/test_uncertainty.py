@@ -11,7 +11,7 @@ import fem_reference
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep import here as table
-from fem_reference.edge_layer import NOTHING, Missed, captured, missed, missed_by
+from fem_reference.edge_layer import NOTHING, Missed, captured, missed_by
 from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
@@ -239,13 +239,13 @@ def test_hinged_plates_are_too_stiff_by_two_thirds_of_what_is_missed(thickness, 
     truth, coarse = (
         fem_reference.solve(scene, "plate", elements=n).displacement(middle)[0, 2] for n in (32, elements)
     )
-    lost = missed(scene, (elements, elements), True).stiffening
+    lost = missed_by(scene, {"elements": elements}).stiffening
     assert 1.0 - coarse / truth == pytest.approx(0.63 * lost, rel=0.15)
 
 
 def test_clamps_have_no_such_layer_and_even_meshes_miss_more():
     held = sheet(0.188, 0.188, 0.003, held="x0 x1 y0 y1")
-    assert missed(held, (8, 8), True) == NOTHING
+    assert missed_by(held, {"elements": 8}) == NOTHING
     scene = hinged(0.01)
     graded, even = (missed_by(scene, {"elements": [8, 8], "graded": g}) for g in (True, False))
     assert even.share > graded.share > 0.0

@@ -7,7 +7,6 @@ import pytest
 import fem_reference
 import lumped
 from comparisons.comparison.branches import shape
-from comparisons.stability.limit import start, system
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import rectangle
 from lumped.dynamics.implicit.esdirk import Esdirk
@@ -18,11 +17,11 @@ from lumped.statics import faults
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.runs.record import width
-from sheetbench.runs.run import Run
+from sheetbench.runs.run import Run, Watch
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
-from sheetbench.runs.watch import Watch
 from sheetbench.scenes import Curved, EdgeLoad
+from studies.stability.limit import start, system
 from studies.stability.scenes import sheet
 
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not

@@ -1,11 +1,6 @@
-"""`make kills`: campaigns, runs in time and trade-offs, killed at drawn instants and resumed to their end.
+"""`make kills SEED=2`: campaigns, runs and trade-offs, killed at drawn instants and resumed to their end.
 
-    make kills SEED=2
-
-A process writes into a folder and gets SIGKILL at an instant drawn between its start and somewhat beyond the
-time that it takes undisturbed; the next process goes on in the same folder, and is killed in turn, until one
-comes to its end. What had been kept by a kill must stand there unchanged ever after, and what stands there at
-the end must be what an undisturbed process leaves: nothing lost, nothing doubled, no partial file.
+What had been kept by a kill stands unchanged ever after; the end is what an undisturbed process leaves.
 """
 
 import json
@@ -16,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -30,7 +26,7 @@ import lumped
 from comparisons.sweep.campaign import campaign, carry_out
 from comparisons.sweep.store import FILE
 from sheetbench.files import LOCK
-from sheetbench.scenes import load
+from sheetbench.scenes import Scene, load
 
 TREE = Path(__file__).resolve().parents[2]
 SEED = os.environ.get("FUZZ", "")
@@ -49,10 +45,9 @@ def run_campaign(folder: Path) -> None:
         carry_out([task("ballast", x=x, size=50_000) for x in range(40)], store, pool=Here)
 
 
-def run_in_time(folder: Path) -> None:
+def run_in_time(folder: Path, scene: Scene, grid: int, duration: float, **how: Any) -> None:
     """A motion with samples, frames and some checkpoints."""
-    scene = make_scene("one-edge-clamped", damping_time=1e-3)
-    lumped.simulate(scene, springs(scene, 4), 0.06, store=folder, every=2e-4, frames=20, integrator="verlet")
+    lumped.simulate(scene, springs(scene, grid), duration, store=folder, frames=20, **how)
 
 
 def run_of_reference(folder: Path) -> None:
@@ -60,18 +55,6 @@ def run_of_reference(folder: Path) -> None:
     fem_reference.simulate(
         "two-edges-settling", "shell", 0.04, elements=2, store=folder, every=2e-4, frames=20
     )
-
-
-def run_of_muscles(folder: Path) -> None:
-    """A motion of a lattice whose natural curvature grows, from the equilibrium in which it hangs."""
-    scene = load("muscle-bands")
-    lumped.simulate(scene, springs(scene, 5), 0.3, store=folder, every=2e-3, frames=20)
-
-
-def run_of_contact(folder: Path) -> None:
-    """A motion of a strip that falls on a table."""
-    scene = load("strip-on-table")
-    lumped.simulate(scene, springs(scene, 5), 0.15, store=folder, every=5e-4, frames=20)
 
 
 def run_tradeoff(folder: Path) -> None:
@@ -125,14 +108,24 @@ class Kind:
     kills: int
 
 
+SWINGING = make_scene("one-edge-clamped", damping_time=1e-3)
 KINDS = {
     "campaign": Kind(run_campaign, rows, answers, 45),
-    "run": Kind(run_in_time, checkpointed, contents, 30),
+    "run": Kind(
+        partial(run_in_time, scene=SWINGING, grid=4, duration=0.06, every=2e-4, integrator="verlet"),
+        checkpointed, contents, 30,
+    ),
     "reference": Kind(run_of_reference, checkpointed, contents, 15),
-    "muscles": Kind(run_of_muscles, checkpointed, contents, 15),
-    "contact": Kind(run_of_contact, checkpointed, contents, 15),
+    "muscles": Kind(  # from the equilibrium in which it hangs
+        partial(run_in_time, scene=load("muscle-bands"), grid=5, duration=0.3, every=2e-3),
+        checkpointed, contents, 15,
+    ),
+    "contact": Kind(  # a strip that falls on a table
+        partial(run_in_time, scene=load("strip-on-table"), grid=5, duration=0.15, every=5e-4),
+        checkpointed, contents, 15,
+    ),
     "tradeoff": Kind(run_tradeoff, rows, answers, 15),
-}
+}  # fmt: skip
 
 
 def started(run: Callable[[Path], None], folder: Path) -> int:

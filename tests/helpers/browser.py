@@ -1,7 +1,4 @@
-"""A browser for tests that look at pages: the system's Chromium, one for a test module, cut off from the net.
-
-Tests take the fixture `browser` by importing it; where there is no Chromium they are skipped.
-"""
+"""A browser for tests that look at pages: the system's Chromium, cut off from the net, or a skip."""
 
 import shutil
 from collections.abc import Iterator

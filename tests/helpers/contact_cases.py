@@ -8,15 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 from scipy.special import beta
 
-from sheetbench.scenes import (
-    Clamped,
-    Cylinder,
-    EdgeLoad,
-    Plane,
-    Scene,
-    Sphere,
-    Symmetric,
-)
+from sheetbench.scenes import Clamped, Cylinder, EdgeLoad, Plane, Scene, Sphere, Symmetric
 
 GRAVITY, DENSITY, THICKNESS = 9.81, 1e3, 0.005
 WEIGHT = DENSITY * THICKNESS * 0.1 * GRAVITY  # N, of the strip

@@ -23,7 +23,6 @@ OUTPUTS = (
     ("--json",),
     ("--out", "{folder}"),
     ("--out", "{folder}", "--figure", "svg:single"),
-    ("--export", "{export}"),
 )
 
 FILES = {

@@ -5,10 +5,7 @@ that brings most new pairs. It needs about as many rows as the product of the tw
 """
 
 import json
-import time
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -52,31 +49,8 @@ def named(row: Row) -> str:
     return " ".join(part for options in row for part in options) or "-"
 
 
-@dataclass
-class Tally:
-    """What the runs of a file were: how many, by exit status, and the CPU seconds."""
-
-    seconds: float = 0.0
-    ended: dict[int, int] = field(default_factory=dict)
-
-    def __str__(self) -> str:
-        ends = ", ".join(f"{count} with {status}" for status, count in sorted(self.ended.items()))
-        return f"{sum(self.ended.values())} command lines ended, {ends}; {self.seconds:.0f} s of CPU"
-
-
-@contextmanager
-def tally(monkeypatch: pytest.MonkeyPatch | None = None) -> Iterator[Tally]:
-    """Count runs, and print the sum at the end (seen with `pytest -s`)."""
-    counted = Tally()
-    began = time.process_time()
-    yield counted
-    counted.seconds = time.process_time() - began
-    print(f"\n{counted}")
-
-
 def check(
     arguments: Sequence[str],
-    counted: Tally,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> int:
@@ -92,7 +66,6 @@ def check(
     monkeypatch.setattr(Output, "show", shown)
     status = run(*arguments)
     said = capsys.readouterr()
-    counted.ended[status] = counted.ended.get(status, 0) + 1
     assert "Traceback" not in said.err, said.err[-3000:]
     assert status in (0, 2, 3), said.err
     if status == 2:

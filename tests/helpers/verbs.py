@@ -1,8 +1,4 @@
-"""A small command line of every verb but `live`, the files that some of them read, and one kept run of each.
-
-A kept run prints its JSON document and leaves its files; what a terminal shows of its answer is laid out
-again from the answer, at any width.
-"""
+"""A small command line of every verb but `live`, its files, and one kept run, laid out at any width."""
 
 import io
 import json

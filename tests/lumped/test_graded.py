@@ -34,9 +34,6 @@ def test_lines_are_even_at_0_and_chebyshevs_at_1():
     assert np.allclose(x.at, 0.1 * (1.0 - np.cos(np.pi * np.arange(6) / 5)))
     x, _ = grid_lines(OBLONG, (6, 5, 2), 0.5)
     assert np.array_equal(x.widths, x.widths[::-1]) and x.tributary.sum() == pytest.approx(0.2)
-    half, _ = grid_lines(Sheet(length_x=0.1, length_y=0.1, thickness=0.005), (4, 5, 2), 0.5, (True, False))
-    whole, _ = grid_lines(OBLONG, (7, 5, 2), 0.5)
-    assert np.allclose(half.at, whole.at[:4])
     for wrong in (-0.1, 1.1):
         with pytest.raises(BadInput, match="grading"):
             grid_lines(OBLONG, (6, 5, 2), wrong)

@@ -1,4 +1,4 @@
-"""Grids graded towards some edges only: lines, springs of either end, files, symmetry, what auto takes."""
+"""Grids graded towards some edges only: lines, springs of either end, files, what auto takes."""
 
 import numpy as np
 import pytest
@@ -73,13 +73,6 @@ def test_the_twist_of_either_edge_is_that_of_the_strip_that_begins_with_it():
         assert other[:, ::-1] == pytest.approx(one, rel=1e-9)
     alone = of_edge_cells(springs, grid, frozenset({"x1"}))[:, 2].reshape(4, 5)
     assert np.any(alone[:, -1]) and not np.any(alone[:, :-1])
-
-
-def test_a_half_is_cut_only_where_its_image_is_the_other():
-    scene = transfer_scenes()["opposite-edges-hinged"]
-    settings = {"grid": 5, "calibration": "consistent", "symmetry": True}
-    assert solve(scene, "lumped", grading=0.5, **settings).settings["symmetry"] == ["x", "y"]
-    assert solve(scene, "lumped", grading="0.5:x0", **settings).settings["symmetry"] == ["y"]
 
 
 def test_auto_grades_towards_the_one_edge_that_holds_the_sheet():

@@ -7,7 +7,7 @@ from comparisons.identification import columns
 from sheetbench.errors import FOREIGN, BadInput, foreign
 from sheetbench.process import run
 from sheetbench.scenes import SceneError, load
-from sheetbench.scenes.objects import mesh_files
+from sheetbench.scenes.objects import plan_mesh
 
 LONG = "reason " * 500
 
@@ -26,7 +26,7 @@ def test_no_refusal_passes_on_more(tmp_path):
         (lambda: plugin(f"{tmp_path / 'mine.py'}:M"), "cannot be loaded: reason"),
         (lambda: load(tmp_path / "scene.toml"), "not a TOML file"),
         (lambda: columns.read_columns(tmp_path / "m.csv"), "column uz"),
-        (lambda: mesh_files.read_cells(tmp_path / "m.off"), "meshio cannot read it"),
+        (lambda: plan_mesh.read_cells(tmp_path / "m.off"), "meshio cannot read it"),
     ):
         with pytest.raises((BadInput, SceneError, ValueError), match=said) as refused:
             refuse()

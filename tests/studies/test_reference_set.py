@@ -26,17 +26,6 @@ def test_one_command_makes_it(monkeypatch):
     assert found["standing"] == document()["standing"]
 
 
-def test_a_suite_made_anew_leaves_the_others_values(monkeypatch):
-    chosen = [case for case in regenerate.cases() if case.name in ("thick", "cantilever-1")]
-    monkeypatch.setattr(regenerate, "cases", lambda: chosen)
-    monkeypatch.setattr(regenerate, "CURVES", 3)
-    thick, curve = regenerate.regenerate(lambda text: None, "curves")["cases"]
-    kept = {case["name"]: case for case in document()["cases"]}
-    assert (
-        thick == kept["thick"] and set(curve) == set(kept["cantilever-1"]) and curve != kept["cantilever-1"]
-    )
-
-
 def test_rows_of_the_leaderboard_go_into_the_file(tmp_path, monkeypatch):
     """Of one case: its own rows anew, all others as they were; what is not installed is said."""
     file = tmp_path / "suite.json"

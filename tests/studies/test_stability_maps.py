@@ -2,20 +2,13 @@
 
 import json
 
-import numpy as np
 import pytest
 from campaigns import FEW
 from commands import json_of, run
 
-import lumped
-from comparisons.models.resolve import resolve
-from comparisons.models.solve import solve
-from comparisons.models.spec import Elements, Lattice
-from comparisons.stability import extremes, limit
-from comparisons.stability.rows import LARGE
-from sheetbench.answers.solution import Status
-from studies.stability import study
-from studies.stability.scenes import pressed, sheet
+from comparisons.stability import extremes
+from studies.stability import limit, study
+from studies.stability.scenes import sheet
 
 
 def test_uneven_masses_move_the_limit_as_computed(monkeypatch):
@@ -30,33 +23,6 @@ def test_other_units_of_force_change_nothing(model):
     """E and all loads times a factor: to rounding, of the plate to its iterations' tolerance."""
     row = study.stiffer(1e6, model)
     assert row["status"] == "converged" and row["error"] < (1e-8 if model == "plate" else 1e-12)
-
-
-def off(scene, masses, elements=12):
-    """How a lattice ended beside the shell, and its error."""
-    ours, shell = solve(resolve(scene, Lattice(masses))), solve(resolve(scene, Elements("shell", elements)))
-    return ours, shell, study._compared(scene, ours, shell)["error"]
-
-
-def test_a_thin_sheet_clamped_twice_is_said_not_to_be_unique_on_the_grid():
-    ours, _, error = off(sheet(1e-4, 10.0, edges=("x0", "y0")), 9, 8)
-    assert ours.status is Status.CONVERGED and error > LARGE and "not unique" in ours.message
-
-
-def test_single_precision_calls_nothing_converged_that_has_no_digits_left():
-    scene = sheet(1e-5, 1.0)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=17)
-    single = lumped.solve(scene, springs, precision="single")
-    assert single.status is not Status.CONVERGED and "rounding" in single.message
-    assert lumped.solve(scene, springs).status is Status.CONVERGED
-
-
-def test_lattice_and_shell_bend_to_the_side_that_a_slight_weight_chooses():
-    """At 1.5 times the Euler load."""
-    scene = extremes.scaled(pressed(), "load", 1.5)
-    ours, shell, error = off(scene, 17)
-    assert ours.status is shell.status is Status.CONVERGED and error < 0.05
-    assert np.abs(ours.displacement(scene.probe_points())).max() > 0.1 * scene.sheet.length_x
 
 
 @pytest.mark.usefixtures("in_process")

@@ -9,13 +9,9 @@ from commands import run
 import lumped  # noqa: F401  (rslab is to be imported by the thread that lives longest)
 from comparisons.sweep.campaign import campaign
 from lumped.calibration.central_table import ROWS
-from sheetbench.errors import NoEquilibrium
-from sheetbench.scenes import Clamped, EdgeLoad, Held
-from studies.transfer.drawn import Drawn
-from studies.transfer.drawn_scenes import CATALOGUE, OBLIQUE, drawn_sheets
 from studies.transfer.scenes import TRAINING, transfer_scenes
-from studies.transfer.study import _Study, transfer
-from studies.transfer.training import HELD, _displacement, _scene, trained_to_bend
+from studies.transfer.study import transfer
+from studies.transfer.training import trained_to_bend
 
 SCENES = transfer_scenes()
 SEED = list(TRAINING)
@@ -74,36 +70,9 @@ def test_command(tmp_path, in_process, capsys):
     assert "two-edges-clamped" in (tmp_path / "transfer.md").read_text(encoding="utf-8")
 
 
-def test_springs_and_grading_are_those_of_auto_where_that_is_a_method():
-    """Only the methods that take a grading have one."""
-    soft = transfer_scenes()["tenth-of-young"]
-    one = soft.replace(supports=(Clamped("x0"),))
-    study = _Study({"b": one}, ("auto", "consistent"), (9,), 8, "auto")
-    rows = {(row["scene"], row["method"]): row for row in study.static()}
-    assert rows["b", "auto"]["calibration"] == "consistent-membrane"
-    assert "calibration" not in rows["b", "consistent"]
-    chosen, reasons = _Study({"soft": soft}, ("consistent", "uniform"), (9, 513), 8, "auto").gradings("soft")
-    assert chosen == {"consistent": [0.3, 0.0], "uniform": [0.0, 0.0]}
-    assert len(reasons) == 2 and "bends the sheet within 68.6 mm" in reasons[0]
-
-
-def test_drawn_sheets_have_the_orders_of_their_errors():
-    assert len(drawn_sheets()) == 15 and set(CATALOGUE) | OBLIQUE <= {s.name for s in drawn_sheets()}
-    row = Drawn.of("notch", {"9": 0.08, "17": 0.02, "33": 0.01}, 0.001)
-    assert [*row.orders.values()] == pytest.approx([2.0, 1.0, 1.5]) and row.missed == ""
-    assert Drawn.of("notch", {"9": 0.08, "17": 0.03, "33": None}, 0.001).missed == "error, order"
-
-
 def test_the_table_of_central_is_what_its_scenes_ask_for():
     """Of one row: the numbers are as fine as the search, the errors flat about their least."""
     row = next(row for row in ROWS if row[0] == 0.45)
     a, b, worst, cauchy = trained_to_bend(0.45)
     assert (a, b) == pytest.approx(row[1:3], abs=2e-3)
     assert (worst, cauchy) == pytest.approx((row[4], row[6]), abs=1e-3)
-
-
-def test_a_scene_without_a_stable_equilibrium_trains_nothing():
-    pushed = EdgeLoad("x1", force_per_length=(-400.0, 0.0, 0.0))
-    held = (*HELD["one edge clamped"], Held("x1", ("y", "z")))
-    with pytest.raises(NoEquilibrium, match=r"shell.*unstable"):
-        _displacement(_scene(held, None, (pushed,)), "shell")

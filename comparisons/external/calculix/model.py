@@ -3,15 +3,14 @@
 A program of its own (Debian: calculix-ccx), `ccx` on the PATH, which reads a deck and writes its
 results in a temporary folder. Everything of a scene but chains and edge moments.
 
-The input deck has bricks with reduced integration (C3D20R), and one step under the whole load, static or from
-rest in time. NLGEOM makes the step geometrically nonlinear: total Lagrangian, the linear-elastic law between
+The input deck has bricks with reduced integration (C3D20R), and one static step under the whole
+load. NLGEOM makes the step geometrically nonlinear: total Lagrangian, the linear-elastic law between
 Green strain and second Piola–Kirchhoff stress (St Venant–Kirchhoff's), or *HYPERELASTIC of a rubber. Its
 usual tolerances (residual 5e-3 of the mean force, correction 1e-2 of the displacement) are far coarser than
 the differences looked for, so the deck tightens them. Pressure acts half on the lower and half on the upper
-face and follows both. Parts of different materials are element sets. In time: Hilber, Hughes and Taylor's
-method with its α of −0.05, in steps of one length.
+face and follows both. Parts of different materials are element sets.
 
-Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *DYNAMIC, *CONTROLS, *DLOAD,
+Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *CONTROLS, *DLOAD,
 *TRANSFORM, *NODE PRINT, *ELASTIC, *ORIENTATION.
 """
 
@@ -24,11 +23,11 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.external.answer import BRICK_MOMENTS, SUBSTEPS, MovingCode, Reached, Sampled, refusal
+from comparisons.external.answer import BRICK_MOMENTS, Code, Reached, refusal
 from comparisons.external.bricks import Bricks, forces, held, materials
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import Material, Pressure, Scene
@@ -49,19 +48,9 @@ NONE = 1e30  # compliance to higher powers of J − 1: none of them
 BELOW, ABOVE = "P1", "P2"  # faces of a brick
 
 
-class Steps(NamedTuple):
-    """Of a motion: their length [s], how long it lasts [s], how many of them there are in a sample, and the
-    nodes that are printed."""
-
-    length: float
-    duration: float
-    sample: int
-    nodes: np.ndarray
-
-
-def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None) -> str:
-    """Return the text of the deck; linear: without NLGEOM; motion: from rest under the load, not at rest."""
-    supports = held(scene, bricks, linear)
+def deck(scene: Scene, bricks: Bricks) -> str:
+    """Return the text of the deck."""
+    supports = held(scene, bricks)
     pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
     lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
     lines += ["*ELEMENT, TYPE=C3D20R, ELSET=EALL", *_elements(bricks.elements)]
@@ -80,24 +69,14 @@ def deck(scene: Scene, bricks: Bricks, linear: bool, motion: Steps | None = None
         terms = zip(tie.nodes + 1, tie.weights, strict=True)
         lines += ["*EQUATION", f"{len(tie.nodes)}"]
         lines += [f"{node}, {tie.axis + 1}, {weight:.12e}" for node, weight in terms]
-    printed, every = "NALL", 1000
-    if motion is not None:
-        printed, every = "PRINTED", motion.sample
-        lines += ["*NSET, NSET=PRINTED", *(f"{node + 1}" for node in motion.nodes)]
-    count = 1000 if motion is None else 2 * round(motion.duration / motion.length)
-    lines += ["*STEP" if linear else f"*STEP, NLGEOM, INC={count}, AMPLITUDE={'STEP' if motion else 'RAMP'}"]
-    if motion is not None:
-        lines += ["*DYNAMIC, DIRECT", f"{motion.length!r}, {motion.duration!r}"]
-    else:
-        lines += ["*STATIC", *([] if linear else [f"{FIRST}, 1.0, {LEAST}, {LARGEST}"])]
-    if not linear:
-        lines += ["*CONTROLS, PARAMETERS=FIELD", f"{RESIDUAL}, {CORRECTION}, , , {RESIDUAL}, 1e-9, 1e-9"]
-        lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", "8, 12, 9, 40, 20, 8"]
+    lines += ["*STEP, NLGEOM, INC=1000", "*STATIC", f"{FIRST}, 1.0, {LEAST}, {LARGEST}"]
+    lines += ["*CONTROLS, PARAMETERS=FIELD", f"{RESIDUAL}, {CORRECTION}, , , {RESIDUAL}, 1e-9, 1e-9"]
+    lines += ["*CONTROLS, PARAMETERS=TIME INCREMENTATION", "8, 12, 9, 40, 20, 8"]
     lines += ["*BOUNDARY"]
     for node, axis in zip(*np.nonzero(supports.fixed), strict=True):
         lines.append(f"{node + 1}, {axis + 1}, {axis + 1}, {supports.value[node, axis]:.12e}")
     lines += _loads(scene, pull, bricks)
-    lines += [f"*NODE PRINT, NSET={printed}, GLOBAL=YES, FREQUENCY={every}", "U", "*END STEP", ""]
+    lines += ["*NODE PRINT, NSET=NALL, GLOBAL=YES, FREQUENCY=1000", "U", "*END STEP", ""]
     return "\n".join(lines)
 
 
@@ -165,21 +144,20 @@ DRAWN = (*SHAPED, FIBRES, "sheet.taper_x", "sheet.taper_y", "patch")
 CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
 
 
-class CalculiX(MovingCode):
+class CalculiX(Code):
     """The plug-in.
 
     settings: elements along the shorter side, near-square; layers of bricks, an even number; grading "edges"
-    or "uniform"; linear: without NLGEOM; time_limit [s].
+    or "uniform"; time_limit [s].
     """
 
     name, called = "calculix", "CalculiX"
     needs = "the program ccx on the PATH (Debian: calculix-ccx)"
-    meshes, layered, integrator = (6, 8, 12), True, "HHT"
+    meshes, layered = (6, 8, 12), True
     settings: ClassVar[dict[str, Any]] = {
         "elements": 8,
         "layers": 2,
         "grading": "edges",
-        "linear": False,
         "time_limit": 600.0,
     }
 
@@ -191,30 +169,24 @@ class CalculiX(MovingCode):
         return shutil.which(PROGRAM) is not None
 
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
-        text = deck(scene, mesh, settings["linear"])
+        text, found = deck(scene, mesh), Reached(np.zeros_like(mesh.positions))
         began = perf_counter()
-        times, found, iterations, note = _carried_out(text, settings["time_limit"], mesh)
-        factor, u = (float(times[-1]), found[-1]) if len(found) else (0.0, np.zeros_like(mesh.positions))
-        return Reached(u, factor, iterations, note, perf_counter() - began)
-
-    def in_motion(
-        self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks, duration: float, count: int
-    ) -> Sampled:
-        nodes, _ = mesh.weights(scene.probe_points())
-        steps = Steps(duration / count / SUBSTEPS, duration, SUBSTEPS, np.unique(nodes))
-        text = deck(scene, mesh, False, steps)
-        began = perf_counter()
-        times, found, _, note = _carried_out(text, settings["time_limit"], mesh)
-        return Sampled(times, found, note, perf_counter() - began)
-
-    def refusal_of_motion(self, scene: Scene, settings: Mapping[str, Any]) -> str:
-        of_statics = "linear = true: is for statics" if settings["linear"] else ""
-        return self.refusal(scene, settings) or of_statics or super().refusal_of_motion(scene, settings)
+        with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
+            folder = Path(kept)
+            (folder / f"{JOB}.inp").write_text(text, encoding="ascii")
+            try:
+                output_of([shutil.which(PROGRAM) or PROGRAM, JOB], folder, settings["time_limit"])
+                factor, u = displacements(_read(folder, "dat"), len(mesh.positions))
+                found = Reached(u, factor)
+            except Failed as error:
+                found = found._replace(note=f"CalculiX: {error}")
+            count = iterations(_read(folder, "sta"))
+        return found._replace(iterations=count, seconds=perf_counter() - began)
 
     def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
         if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
             return note
-        material, linear = scene.material, settings["linear"]
+        material = scene.material
         for number, patch in enumerate(scene.patches, start=1):
             if patch.thickness not in (None, scene.sheet.thickness):
                 thickness = f"patch {number}.thickness = {patch.thickness:g} m"
@@ -223,29 +195,12 @@ class CalculiX(MovingCode):
             return f"{scene.varied_by}: it is given rubbers that are the same all over"
         if material.kind == "orthotropic":
             return impossible_in_space(material.ply)
-        if material.law is None or (material.poisson >= INCOMPRESSIBLE and not linear):
+        if material.law is None or material.poisson >= INCOMPRESSIBLE:
             return ""
-        if linear:
-            return f"linear = true: the law '{material.law}' is not linear"
         return (
             f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near "
             f"ν = ½ only; from {INCOMPRESSIBLE:g} on it is given them"
         )
-
-
-def _carried_out(deck: str, seconds: float, bricks: Bricks) -> tuple[np.ndarray, np.ndarray, int, str]:
-    """Return times and displacements as `displacements` has them, none where the run failed before
-    any, its iterations, and why it failed, "" if it did not."""
-    times, found, why = np.zeros(0), np.zeros((0, *bricks.positions.shape)), ""
-    with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
-        folder = Path(kept)
-        (folder / f"{JOB}.inp").write_text(deck, encoding="ascii")
-        try:
-            output_of([shutil.which(PROGRAM) or PROGRAM, JOB], folder, seconds)
-            times, found = displacements(_read(folder, "dat"), len(bricks.positions))
-        except Failed as error:
-            why = f"CalculiX: {error}"
-        return times, found, iterations(_read(folder, "sta")), why
 
 
 def _read(folder: Path, ending: str) -> str:
@@ -267,29 +222,24 @@ def _version(program: str | None) -> str | None:
     return match.group(1) if match else "of unknown version"
 
 
-def displacements(dat: str, nodes: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the times (s,) of the increments that were printed, of statics the load factors, and their
-    displacements (s, nodes, 3) [m], nan of nodes that were not.
-
-    Raises Failed for a file that does not have them.
-    """
+def displacements(dat: str, nodes: int) -> tuple[float, np.ndarray]:
+    """Return the load factor of the last increment, and its displacements (nodes, 3) [m], nan of nodes that
+    were not printed. Raises Failed for a file that does not have them."""
     headings = list(_HEADING.finditer(dat))
     if not headings:
         raise Failed("its .dat file has no displacements")
-    out = np.full((len(headings), nodes, 3), np.nan)
+    out, last = np.full((nodes, 3), np.nan), headings[-1]
     try:
-        for sample, heading in zip(out, headings, strict=True):
-            for line in dat[heading.end() :].split("\n\n", 2)[1].splitlines():
-                number, *components = line.split()
-                sample[int(number) - 1] = [float(c) for c in components]
-        times = [float(heading.group(1)) for heading in headings]
+        for line in dat[last.end() :].split("\n\n", 2)[1].splitlines():
+            number, *components = line.split()
+            out[int(number) - 1] = [float(c) for c in components]
+        return float(last.group(1)), out
     except (ValueError, IndexError):
         raise Failed("its .dat file cannot be read") from None
-    return np.array(times), out
 
 
 def iterations(sta: str) -> int:
-    """Equilibrium iterations, each one factorisation; a linear step has one."""
+    """Equilibrium iterations, each one factorisation."""
     rows = [line.split() for line in sta.splitlines()]
     counts = [int(row[3]) for row in rows if len(row) >= 7 and all(part.isdigit() for part in row[:4])]
     return max(sum(counts), 1)

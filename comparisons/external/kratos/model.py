@@ -25,7 +25,7 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from comparisons.external.answer import SUBSTEPS, MovingCode, Reached, Sampled, refusal, require_count
+from comparisons.external.answer import Code, Reached, refusal, require_count
 from comparisons.external.bricks import point_loads
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
@@ -102,16 +102,9 @@ class Triangles:
         nodes = np.column_stack([a, a + len(self.y), a + len(self.y) + 1, a + 1])
         return nodes, np.column_stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
 
-    def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Displacement (p, 3) [m] at plan points (p, 2) [m] of nodal ones (n, 3)."""
-        nodes, weights = self.weights(points)
-        return np.einsum("pk,pkc->pc", weights, displacement[nodes])
 
-
-def problem(
-    scene: Scene, mesh: Triangles, load_factors: np.ndarray, times: np.ndarray | None = None
-) -> dict[str, np.ndarray]:
-    """Return the arrays that `comparisons.external.kratos.process` reads; times [s] of a motion's steps."""
+def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the arrays that `comparisons.external.kratos.process` reads."""
     held, value = _held(scene, mesh, load_factors)
     material, none = scene.material, np.zeros(3)
     return {
@@ -124,7 +117,7 @@ def problem(
         "held": held,
         "value": value,
         "load_factors": load_factors,
-    } | ({} if times is None else {"times": times})
+    }
 
 
 def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -164,7 +157,6 @@ def _forces(scene: Scene, mesh: Triangles) -> np.ndarray:
 
 
 STEPS = (1, 4, 16)
-BEGINS = 1e-3  # of a motion's steps, its first: the load acts from t = 0 on, the acceleration after a step
 PACKAGES = (
     "KratosMultiphysics",
     "KratosStructuralMechanicsApplication",
@@ -175,7 +167,7 @@ CHAINS = "actuators are not supported: Kratos' shell has no joint with a rest an
 MOMENTS = "moments on Kratos' nodes do not follow the edge"
 
 
-class Kratos(MovingCode):
+class Kratos(Code):
     """The plug-in.
 
     settings: elements along the shorter side, near-square, each two triangles; time_limit [s] of every
@@ -184,7 +176,7 @@ class Kratos(MovingCode):
 
     name, called = "kratos", "Kratos' thin shell"
     needs = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
-    meshes, layered, integrator = (8, 12, 16), False, "Bossak"
+    meshes, layered = (8, 12, 16), False
     settings: ClassVar[dict[str, Any]] = {"elements": 16, "time_limit": 600.0}
     unknowns = 6
 
@@ -221,21 +213,6 @@ class Kratos(MovingCode):
             if found.load_factor == 1.0 and np.isfinite(found.displacement).all():
                 break
         return found
-
-    def in_motion(
-        self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles, duration: float, count: int
-    ) -> Sampled:
-        even = duration / (count * SUBSTEPS) * np.arange(1, count * SUBSTEPS + 1)
-        times = np.concatenate([[BEGINS * even[0]], even])
-        given = problem(scene, mesh, np.ones(len(times)), times)
-        found, seconds, note = np.zeros((0, *mesh.positions.shape)), 0.0, "Kratos: a step did not converge"
-        try:
-            answer = _solved(given, settings["time_limit"])
-            found, seconds = answer["displacement"][SUBSTEPS::SUBSTEPS], float(answer["seconds"])
-        except Failed as error:
-            note = f"Kratos: {error}"
-        reached = times[SUBSTEPS::SUBSTEPS][: len(found)]
-        return Sampled(reached, found, "" if len(found) == count else note, seconds, int(given["held"].sum()))
 
 
 def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:

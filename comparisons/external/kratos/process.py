@@ -2,11 +2,9 @@
 
 Apart from ours, for Kratos prints as it is imported, and a fault in it takes its process down. Reads arrays
 of the file PROBLEM (`comparisons.external.kratos.model`), and leaves in ANSWER displacement (n, 3) [m], the
-load factor of the last step that converged, and the number of iterations, each one factorisation; of a
-problem with `times` the displacement after every step, (steps, n, 3).
+load factor of the last step that converged, and the number of iterations, each one factorisation.
 
-Newton's method at rising load factors, from where the last one ended; in time by Wood, Bossak and
-Zienkiewicz's method from rest.
+Newton's method at rising load factors, from where the last one ended.
 """
 
 from __future__ import annotations
@@ -20,7 +18,6 @@ import numpy as np
 CORRECTION = 1e-8  # of the displacement, with which a step ends: the residual is rounding by then
 ITERATIONS = 25  # of a step
 COMPONENTS = "XYZ"
-BOSSAK = -0.05  # α of its steps in time
 
 
 def solve(problem: Any) -> dict[str, Any]:
@@ -32,10 +29,9 @@ def solve(problem: Any) -> dict[str, Any]:
     part = kratos.Model().CreateModelPart("sheet", 2)
     part.ProcessInfo[kratos.DOMAIN_SIZE] = 3
     motions = (kratos.DISPLACEMENT, kratos.ROTATION, kratos.REACTION, kratos.REACTION_MOMENT)
-    rates = (kratos.VELOCITY, kratos.ACCELERATION, kratos.ANGULAR_VELOCITY, kratos.ANGULAR_ACCELERATION)
     loads = (kratos.VOLUME_ACCELERATION, mechanics.POINT_LOAD, mechanics.SURFACE_LOAD)
     pressures = (kratos.POSITIVE_FACE_PRESSURE, kratos.NEGATIVE_FACE_PRESSURE)
-    for variable in (*motions, *rates, *loads, *pressures):
+    for variable in (*motions, *loads, *pressures):
         part.AddNodalSolutionStepVariable(variable)
     nodes = [part.CreateNewNode(i, *map(float, at)) for i, at in enumerate(problem["positions"], 1)]
     of = part.CreateNewProperties(1)
@@ -66,10 +62,7 @@ def solve(problem: Any) -> dict[str, Any]:
         nodes[node].Fix(moving[unknown])
     from KratosMultiphysics import python_linear_solver_factory as factory
 
-    times = problem.get("times")
     scheme = kratos.ResidualBasedIncrementalUpdateStaticScheme()
-    if times is not None:
-        scheme = kratos.ResidualBasedBossakDisplacementScheme(BOSSAK)
     parameters = kratos.Parameters('{"solver_type": "LinearSolversApplication.sparse_lu"}')
     criteria = kratos.DisplacementCriteria(CORRECTION, 1e-15)
     builder = kratos.ResidualBasedBlockBuilderAndSolver(factory.ConstructSolver(parameters))
@@ -80,9 +73,8 @@ def solve(problem: Any) -> dict[str, Any]:
     strategy.Initialize()
     reached, iterations, began = 0.0, 0, perf_counter()
     answer = np.zeros_like(problem["positions"])
-    moved = []
     for step, load_factor in enumerate(problem["load_factors"].tolist(), 1):
-        part.CloneTimeStep(float(step if times is None else times[step - 1]))
+        part.CloneTimeStep(float(step))
         part.ProcessInfo[kratos.STEP] = step
         acceleration = kratos.Array3([load_factor * float(c) for c in problem["acceleration"]])
         for node in nodes:
@@ -104,11 +96,8 @@ def solve(problem: Any) -> dict[str, Any]:
             break
         reached = load_factor
         answer = np.array([list(node.GetSolutionStepValue(kratos.DISPLACEMENT)) for node in nodes])
-        if times is not None:
-            moved.append(answer)
     seconds = perf_counter() - began
-    answers = answer if times is None else np.array(moved).reshape(-1, *answer.shape)
-    return {"displacement": answers, "load_factor": reached, "iterations": iterations, "seconds": seconds}
+    return {"displacement": answer, "load_factor": reached, "iterations": iterations, "seconds": seconds}
 
 
 if __name__ == "__main__":

@@ -57,11 +57,6 @@ def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
     return np.asarray(2.0 * (slope + of.c01 * m) * (stretch - w))
 
 
-def largest_x(curve: Curve) -> float:
-    """Return the largest I₁ − 3 of a curve."""
-    return float(kinematics(curve.test, curve.stretch)[2].max())
-
-
 @dataclass(frozen=True)
 class Fit:
     """A law's constants with 95 % intervals; young: of small strains [Pa]; rms and largest misfit over the
@@ -91,7 +86,7 @@ def fit(law: str, curves: Sequence[Curve]) -> Fit | None:
     if rows < len(keys) + (3 if len(keys) > 1 else 2):
         return None
     size = max(float(s / abs(c.stretch[-1] - 1.0)) for s, c in zip(scale, curves, strict=True)) / 6.0
-    most = max(map(largest_x, curves))
+    most = max(float(kinematics(c.test, c.stretch)[2].max()) for c in curves)
 
     def constants(q: np.ndarray) -> list[float]:
         if law == "gent":

@@ -14,11 +14,7 @@ from comparisons.identification.tensile.laws import (
     POISSON,
     Fit,
     chosen,
-    energy,
     fit,
-    kinematics,
-    largest_x,
-    stress,
 )
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
@@ -53,23 +49,6 @@ class TensileFit(Answer):
         return {
             kind: (float(min(s.min(), 1.0)), float(max(s.max(), 1.0))) for kind, s in sorted(each.items())
         }
-
-    @property
-    def open(self) -> tuple[float, tuple[float, float]] | None:
-        """Of one kind of test, the equibiaxial stretch of its largest I₁ and the least and largest stress
-        [Pa] that laws with at most twice the chosen one's misfit foretell there; None of several kinds."""
-        if len(self.covered) > 1 or self.law is None or "equibiaxial" in self.covered:
-            return None
-        most = max(map(largest_x, self.curves))
-        stretches = np.linspace(1.0, 10.0, 20_001)
-        at = float(np.interp(most, kinematics("equibiaxial", stretches)[2], stretches))
-        near = [f for f in self.fits if f.rms <= 2.0 * self.law.rms]
-        ends = [f.energy for f in near]
-        for f in near:  # mooney-rivlin at the ends of c2, c1 following
-            if f.law == "mooney-rivlin":
-                ends += [energy(f.law, [max(f.young / 6.0 - c2, 0.0), c2]) for c2 in f.intervals["c2"]]
-        foretold = [float(stress(e, "equibiaxial", np.array([at]))[0]) for e in ends]
-        return at, (min(foretold), max(foretold))
 
     def material(self, density: float = 1000.0, poisson: float = POISSON) -> Material:
         """Return the law as a scene's material. Raises BadInput where there is none."""
@@ -123,13 +102,6 @@ class TensileFit(Answer):
             sentences.append(
                 "mooney-rivlin is not chosen: one kind of test cannot distinguish c1 from c2 (correlation "
                 f"{number(mooney.correlation, '.3f')}); add a test in pure shear or equibiaxial tension."
-            )
-        if self.open is not None:
-            at, (low, high) = self.open
-            sentences.append(
-                "Not measured: equibiaxial tension. At an equibiaxial stretch of "
-                f"{at:.3g} (the largest I₁ of these data), laws that fit about as well predict "
-                f"{low / 1e6:.3g} to {high / 1e6:.3g} MPa."
             )
         if self.law is not None:
             material = self.material()

@@ -171,11 +171,11 @@
     sliders.get("grid").enable(calibration.value !== "scene");
   }
 
-  function question(more = {}) {
+  function question() {
     const values = {};
     for (const [name, slider] of sliders) values[name] = slider.value;
     if (sliders.get("grading").range.disabled) values.grading = 0;
-    return { number, values, calibration: calibration.value, ...more };
+    return { number, values, calibration: calibration.value };
   }
 
   function ask(since) {
@@ -314,28 +314,6 @@
   const lattices = new Model("lattice", lattice);
   const shells = new Model("shell", shell);
 
-  async function copy(text, of) {
-    const lines = text.trim().split("\n").length;
-    const box = at("text");
-    box.value = text;
-    try {
-      await navigator.clipboard.writeText(text);
-      at("copied").textContent = `Copied: the ${of}, ${lines} lines of TOML.`;
-      box.hidden = true;
-    } catch {
-      box.hidden = false;
-      box.select();
-      at("copied").textContent = "The browser does not let the page copy: take it from here.";
-    }
-  }
-
-  for (const button of document.querySelectorAll("[data-copy]")) {
-    button.addEventListener("click", async () => {
-      const of = button.dataset.copy;
-      const answer = await post("text", question({ copy: of }));
-      if (answer) copy(answer.text, of);
-    });
-  }
   at("reset").addEventListener("click", (event) => {
     for (const slider of sliders.values()) slider.put(slider.start);
     calibration.value = panel.calibration;

@@ -29,6 +29,7 @@ from lumped.dynamics.integrator import Integrator, LatticeSamples
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of, natural_power, obstacle_power
 from sheetbench.errors import BadInput
+from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
@@ -155,7 +156,7 @@ class Esdirk(Integrator):
         force = system.unbalanced(state.u, still, state.time)
         try:
             factor = problem.system.factor(system.matrix(state.u, still, state.time, 0.0, 0.0, 1.0))
-            goal = float(np.abs(problem.expand(factor.solve(problem.reduce(force)))).max())
+            goal = float(np.abs(problem.expand(factor.solve(problem.reduce(force), SOLVED))).max())
         except SingularMatrixError:  # rigid motions are free
             goal = 0.0
         goal = min(goal, problem.size)

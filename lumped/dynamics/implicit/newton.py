@@ -24,6 +24,7 @@ from lumped.dynamics.implicit.compiled_newton import (
 )
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import State, System
+from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.time.method import StepFailed
 
@@ -85,7 +86,7 @@ class Newton:
         for _ in range(CORRECTIONS):
             if self._factor is None:
                 self._factor, fresh = problem.system.factor(blocks(u)), True
-            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)))))
+            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)), SOLVED)))
             u = u + correction
             length = float(np.abs(correction[self._placed]).max())
             if not np.isfinite(length):
@@ -135,7 +136,8 @@ class Newton:
             return excess(state.u, state.v, state.a, by, system.loads([state.time])[0], *given)
         unbalanced = system.momentum(state.a) - system.unbalanced(state.u, state.v, state.time)
         left = system.problem.reduce(unbalanced)
-        return 0.5 * float(left @ self._factor.solve(left)) if self._factor and self._key == by else np.inf
+        factor = self._factor if self._key == by else None
+        return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
 
     def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
         """Inertia and internal less external forces (size, 3) [N]."""

@@ -23,7 +23,6 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 from __future__ import annotations
 
 from sheetbench.answers.solution import Status
-from sheetbench.numerics.continuation.careful import UnknownInertia, careful_budget, continuous, negatives
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Predictor, Start, newton
 from sheetbench.numerics.continuation.path import (
@@ -37,7 +36,7 @@ from sheetbench.numerics.continuation.path import (
 from sheetbench.numerics.continuation.stability import stability
 from sheetbench.numerics.continuation.stiffening import stiffened
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
-from sheetbench.numerics.direct import Factor
+from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 
 SAME_TANGENT = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has one tangent
@@ -89,7 +88,7 @@ def _traced(
     careful, reached = False, None
     if near is None or not _arrived(path, inspect, near):
         ended = _follow(path, inspect)
-        more = 0 if isinstance(ended, Fault) else careful_budget(path)
+        more = 0 if isinstance(ended, Fault) else _careful_budget(path)
         careful = more > 0
         if careful:
             reached, stuck = path.state if ended is None else None, (path.state, path.load_factor, ended)
@@ -181,8 +180,8 @@ def _follow(
             close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, found = newton(path, first, close)
             if careful:
-                negative = negatives(first.factor) if negative is None else negative
-                found, longest = continuous(path, first, state, negative, found)
+                negative = _negatives(first.factor) if negative is None else negative
+                found, longest = _continuous(path, first, state, negative, found)
         except UnknownInertia as failure:
             return failure
         except LoadStepFailed as failure:
@@ -199,7 +198,7 @@ def _follow(
         if (fault := inspect(path)) is not None:
             return fault
         if careful:
-            factor, negative = found, negatives(found)
+            factor, negative = found, _negatives(found)
             size, reach = limits.growth * grown, longest
             continue
         # of elements those of the last correction are too far off to step with: a thin sheet's path halts
@@ -261,3 +260,61 @@ def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str) -> 
         if status is not Status.CONVERGED:
             message += f"; {note} there: the answer is not unique on this grid"
     return Fault(failure.status, message)
+
+
+def _careful_budget(path: Path[State, Forces]) -> int:
+    """Return how many factorisations a second, careful run may take, which looks for a branch that large load
+    steps may have left; 0 if none is needed: the equilibrium is stable and was found quickly, or the path is
+    one linear step, without a correction, and has jumped over nothing."""
+    one_step = path.factorisations == 1 and not path.structure.prestrained
+    if not path.structure.symmetric or path.load_factor == 0.0 or one_step:
+        return 0
+    taken, limits = path.factorisations, path.limits
+    unstable = stability(path)[0] is Status.UNSTABLE
+    if unstable and path.structure.has_meaning(path.state):
+        return limits.factorisations
+    budget = min(limits.careful_budget_factor * taken, limits.factorisations)
+    return budget if unstable or taken > limits.careful_after else 0
+
+
+class UnknownInertia(LoadStepFailed):
+    """Nothing tells whether a load step has left its branch."""
+
+
+def _negatives(factor: Factor | None) -> int:
+    """Negative eigenvalues of a factorised tangent. Raises UnknownInertia where they are not known."""
+    if factor is None or factor.inertia is None:
+        reason = "the path cannot be held to its branch: the tangent's factors do not tell the inertia"
+        raise UnknownInertia(Status.STEP_LIMIT, reason, 0.0)
+    return factor.inertia.negative
+
+
+def _continuous(
+    path: Path[State, Forces],
+    first: Predictor[State, Forces],
+    state: State,
+    negative: int,
+    found: Factor | None,
+) -> tuple[Factor, float]:
+    """The factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
+    StepFailed where it is on another branch than the one that the step set out from: far from where the
+    linear step led, or past a change of stability by more than a short step, or, where a
+    natural strain loads it that may not move it, at all. negative: eigenvalues before; found: the factors,
+    where they are at hand."""
+    limits, miss = path.limits, path.structure.length(first.state, state)
+    if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
+        raise LoadStepFailed(Status.STEP_LIMIT, "the path folds", first.length)
+    try:
+        found = found or path.factored(path.tangent(state, first.target))
+    except SingularMatrixError as error:
+        raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
+    short = first.length <= limits.branching and not path.structure.prestrained
+    if _negatives(found) > negative and not short:
+        raise LoadStepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
+    longest = limits.growth * first.length
+    if miss > 0.0:  # it grows with the square of the step
+        square = first.length**2 / miss
+        longest = min(
+            longest, limits.safe * limits.continuous * square, (limits.safe * limits.miss * square) ** 0.5
+        )
+    return found, longest

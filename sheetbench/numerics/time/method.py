@@ -36,18 +36,6 @@ class Advance(Generic[AnyState]):
     steps: int = 1
 
 
-class Samples(Protocol):
-    """States at k moments, as a method gives and an observer takes them: times (k,) [s], energies (k,) [J]
-    dissipated and put in."""
-
-    @property
-    def time(self) -> np.ndarray: ...
-    @property
-    def dissipated(self) -> np.ndarray: ...
-    @property
-    def work(self) -> np.ndarray: ...
-
-
 class MotionMethod(Protocol[AnyState]):
     """An integrator of a model's motion.
 
@@ -68,8 +56,9 @@ class MotionMethod(Protocol[AnyState]):
     def go(self, state: AnyState, at_most: float) -> Advance[AnyState]:
         """Return a step, or several of one length, no longer than `at_most` [s]. Raises StepFailed."""
 
-    def at(self, times: np.ndarray, last: Advance[AnyState]) -> Samples:
-        """Return the states at times (k,) [s] within the last step; energies since that began."""
+    def at(self, times: np.ndarray, last: Advance[AnyState]) -> Any:
+        """Return the states at times (k,) [s] within the last step, as an observer takes them: `time`, and
+        the energies (k,) [J] `dissipated` and put in, `work`, since that began."""
 
     def settings(self) -> dict[str, Any]:
         """Return what a history says of its steps: `step` [s] or "adaptive", and others by name."""

@@ -103,7 +103,9 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
             keys = _keys(nodes)
             table = f"a table with the keys {', '.join(keys)}" if keys else "a table"
             return f"{key} = {shown(value)}: must be {table}"
-    return f"{key} = {shown(value)}: {_allowed(fault['type'], facts)}"
+    unnamed = f"is not allowed ({fault['type'].replace('_', ' ')})"
+    allowed = f"must {ALLOWED[fault['type']].format(**facts)}" if fault["type"] in ALLOWED else unnamed
+    return f"{key} = {shown(value)}: {allowed}"
 
 
 def _no_quantity(text: str, unit: str) -> str:
@@ -125,35 +127,20 @@ def _unit(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None
 
 
 ALLOWED = {  # by pydantic's types of fault
-    "float_type": "a number",
-    "finite_number": "finite",
-    "int_type": "a whole number",
-    "string_type": "text, in quotes",
-    "greater_than": "greater than {gt:g}",
-    "greater_than_equal": "{ge:g} or more",
-    "less_than": "less than {lt:g}",
-    "less_than_equal": "{le:g} or less",
-    "too_large": "{largest:g} or less in magnitude",
-    "too_small": "{smallest:g} or more",
+    "float_type": "be a number",
+    "finite_number": "be finite",
+    "int_type": "be a whole number",
+    "string_type": "be text, in quotes",
+    "greater_than": "be greater than {gt:g}",
+    "greater_than_equal": "be {ge:g} or more",
+    "less_than": "be less than {lt:g}",
+    "less_than_equal": "be {le:g} or less",
+    "too_large": "be {largest:g} or less in magnitude",
+    "too_small": "be {smallest:g} or more",
+    "string_too_short": "not be empty",
+    "too_short": "have {min_length} or more entries, not {actual_length}",
+    "too_long": "have {max_length} entries, not {actual_length}",
 }
-
-
-def _allowed(fault: str, facts: dict[str, Any]) -> str:
-    """What a number, a text or a list must be."""
-    if fault in ALLOWED:
-        return f"must be {ALLOWED[fault].format(**facts)}"
-    match fault:
-        case "string_too_short":
-            return "must not be empty"
-        case "too_short":
-            return f"must have at least {_entries(facts['min_length'])}, not {facts['actual_length']}"
-        case "too_long":
-            return f"must have {_entries(facts['max_length'])}, not {facts['actual_length']}"
-    return f"is not allowed ({fault.replace('_', ' ')})"
-
-
-def _entries(count: int) -> str:
-    return "1 entry" if count == 1 else f"{count} entries"
 
 
 def _choose(word: str, choices: list[str]) -> str:

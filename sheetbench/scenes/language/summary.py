@@ -1,9 +1,8 @@
-"""Answers in a few lines, as they stand at a Python prompt, and the same as HTML for notebooks."""
+"""Answers in a few lines, as they stand at a Python prompt."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from html import escape
 
 import numpy as np
 
@@ -11,25 +10,13 @@ from sheetbench.errors import printable
 
 WIDEST = 100  # characters of a value
 ROUNDING = 1e-9  # of the largest force: equilibria are balanced to that
-Facts = Iterable[tuple[str, str]]
 
 
-def text(title: str, facts: Facts) -> str:
+def text(title: str, facts: Iterable[tuple[str, str]]) -> str:
     """A heading and a line for each fact that has something to say."""
     rows = [(name, _short(value)) for name, value in facts if value]
     widest = max((len(name) for name, _ in rows), default=0)
     return "\n".join([printable(title), *(f"  {name:<{widest}}  {value}" for name, value in rows)])
-
-
-def html(title: str, facts: Facts) -> str:
-    """The same as a small table."""
-    rows = "".join(
-        f'<tr><th style="text-align:left">{escape(name)}</th>'
-        f'<td style="text-align:left">{escape(_short(value))}</td></tr>'
-        for name, value in facts
-        if value
-    )
-    return f"<b>{escape(printable(title))}</b><table>{rows}</table>"
 
 
 def milliseconds(seconds: float) -> str:

@@ -24,7 +24,7 @@ from itertools import combinations, pairwise, product
 
 import numpy as np
 
-from sheetbench.scenes.meaning.kinematics import UP, BentEdge, MovedEdge, Placed, TiltedEdge, bent_or_tilted
+from sheetbench.scenes.meaning.kinematics import UP, MovedEdge, Placed, TurnedEdge, bent_or_tilted
 from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
 from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
@@ -45,7 +45,7 @@ BETWEEN = (0.381966, 0.618034)
 
 Holder = AnySupport | EdgeMotion
 AnyActuator = Chain | EdgeMotion
-Driven = Mapping[str, BentEdge | TiltedEdge]  # by their edges
+Driven = Mapping[str, TurnedEdge]  # by their edges
 
 
 def conflicts(

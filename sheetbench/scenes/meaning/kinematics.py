@@ -26,7 +26,7 @@ from sheetbench.scenes.objects.actuators import EdgeMotion
 from sheetbench.scenes.objects.quantities import Vector3
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
 from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
-from sheetbench.scenes.objects.tables import PiecewiseLinear
+from sheetbench.scenes.objects.tables import PiecewiseCurve
 
 UP = np.array([0.0, 0.0, 1.0])
 _CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2).reshape(3, 9)  # [e]× of the axes
@@ -50,47 +50,33 @@ class Placed:
         return lifted
 
 
-class BentEdge:
-    """An edge on a bent rod."""
+class TurnedEdge:
+    """An edge on a bent rod or in a tilted clamp."""
 
-    def __init__(self, rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet):
-        self.edge: str = rod.edge
-        self._curvature, self._middle = rod.curvature, _middle(rod, supports, sheet)
-        self._axis = EDGES[rod.edge].along_axis
-        self._along = np.eye(3)[self._axis]
+    def __init__(self, support: Curved | Clamped, supports: tuple[AnySupport, ...], sheet: Sheet):
+        self.edge: str = support.edge
+        edge = EDGES[support.edge]
+        self._axis, self._along, self._normal = edge.along_axis, np.eye(3)[edge.along_axis], edge.outward
+        self._middle = _middle(support, supports, sheet)
+        self._curvature, self._tilt = getattr(support, "curvature", 0.0), getattr(support, "tilt", 0.0)
 
     def placed(self, points: np.ndarray, load_factor: float = 1.0) -> Placed:
         """Where plan points (k, 2) [m] are."""
-        s, kappa = points[:, self._axis] - self._middle, load_factor * self._curvature
-        half = 0.5 * kappa * s
+        s = points[:, self._axis] - self._middle
+        half = 0.5 * load_factor * self._curvature * s
         # sin κs/κ − s and (1 − cos κs)/κ by sinc, which has no trouble at κ = 0
         across, rise = s * (np.sinc(2.0 * half / np.pi) - 1.0), s * np.sin(half) * np.sinc(half / np.pi)
-        return Placed(np.outer(across, self._along) + np.outer(rise, UP), _turn(self._rotation(kappa * s)))
+        turn = _turn(load_factor * self._rotation(s))
+        return Placed(np.outer(across, self._along) + np.outer(rise, UP), turn)
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement [m] and change of director, (k, 3), to first order in the load factor, at 1."""
         s = points[:, self._axis] - self._middle
-        rise = np.outer(0.5 * self._curvature * s**2, UP)
-        return rise, np.cross(self._rotation(self._curvature * s), UP)
+        return np.outer(0.5 * self._curvature * s**2, UP), np.cross(self._rotation(s), UP)
 
-    def _rotation(self, angle: np.ndarray) -> np.ndarray:
-        return np.outer(angle, np.cross(self._along, UP))
-
-
-class TiltedEdge:
-    """An edge in a tilted clamp."""
-
-    def __init__(self, clamp: Clamped):
-        self.edge: str = clamp.edge
-        self._rotation = clamp.tilt * np.cross(EDGES[clamp.edge].outward, UP)
-
-    def placed(self, points: np.ndarray, load_factor: float = 1.0) -> Placed:
-        """Where plan points (k, 2) [m] are."""
-        return Placed(np.zeros((len(points), 3)), _turn(load_factor * self._rotation))
-
-    def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""
-        return np.zeros((len(points), 3)), np.cross(self._rotation, UP)
+    def _rotation(self, s: np.ndarray) -> np.ndarray:
+        bent, tilted = np.cross(self._along, UP), np.cross(self._normal, UP)
+        return np.outer(self._curvature * s, bent) + self._tilt * tilted
 
 
 class MovedEdge:
@@ -100,8 +86,8 @@ class MovedEdge:
         self.edge: str = motion.edge
         self._middle = np.mean(sheet.edge_ends(motion.edge), axis=0)
         still = ((0.0, 0.0, 0.0),) * len(motion.time)
-        self._displacement = PiecewiseLinear(motion.time, motion.displacement or still)
-        self._rotation = PiecewiseLinear(motion.time, motion.rotation or still)
+        self._displacement = PiecewiseCurve(motion.time, motion.displacement or still)
+        self._rotation = PiecewiseCurve(motion.time, motion.rotation or still)
 
     def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
         """Where plan points (k, 2) [m] are."""
@@ -129,18 +115,14 @@ class MovedEdge:
         return velocity
 
 
-DrivenEdge = BentEdge | TiltedEdge | MovedEdge
+DrivenEdge = TurnedEdge | MovedEdge
 
 
-def bent_or_tilted(supports: tuple[AnySupport, ...], sheet: Sheet) -> list[BentEdge | TiltedEdge]:
+def bent_or_tilted(supports: tuple[AnySupport, ...], sheet: Sheet) -> list[TurnedEdge]:
     """The edges that supports bend or tilt."""
-    edges: list[BentEdge | TiltedEdge] = []
-    for support in supports:
-        if isinstance(support, Curved) and support.curvature != 0.0:
-            edges.append(BentEdge(support, supports, sheet))
-        elif isinstance(support, Clamped) and support.tilt != 0.0:
-            edges.append(TiltedEdge(support))
-    return edges
+    turning = (s for s in supports if isinstance(s, Curved | Clamped))
+    turning = (s for s in turning if getattr(s, "curvature", 0.0) or getattr(s, "tilt", 0.0))
+    return [TurnedEdge(support, supports, sheet) for support in turning]
 
 
 @dataclass(frozen=True)
@@ -164,7 +146,7 @@ def shifts(supports: tuple[AnySupport, ...]) -> list[Shift]:
     return moves
 
 
-def _middle(rod: Curved, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
+def _middle(rod: Curved | Clamped, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
     """Where the middle of a bent rod lies along its edge [m]: on the plane of symmetry it meets, if any."""
     along = EDGES[rod.edge].along_axis
     for support in supports:

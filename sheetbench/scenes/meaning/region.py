@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,9 +15,6 @@ from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape, straight_sides
 from sheetbench.scenes.objects.sheet import EDGES
 from sheetbench.scenes.objects.supports import Point, named, place
-
-if TYPE_CHECKING:
-    pass
 
 
 def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
@@ -157,9 +154,10 @@ def _disconnected(scene: SceneFields) -> str:
     if len(motions) < 2:
         return ""
     move, on_edge = np.array(which), np.array([shape is None for shape in shapes])
-    ends = (support.edge for support in supports.values() if place(support) is None)
-    lines = iter([shapely.LineString(scene.sheet.edge_ends(edge)) for edge in ends])
-    held = np.array([next(lines) if shape is None else shape.area for shape in shapes])
+    edges = [scene.sheet.edge_ends(support.edge) if support.edge else () for support in supports.values()]
+    held = np.array(
+        [shapely.LineString(e) if s is None else s.area for s, e in zip(shapes, edges, strict=True)]
+    )
     tree = shapely.STRtree(held)
     for i in np.flatnonzero(~on_edge):
         others = np.sort(tree.query(held[i]))

@@ -37,7 +37,7 @@ from sheetbench.scenes.objects.quantities import (
     Vector3,
 )
 from sheetbench.scenes.objects.sheet import EdgeName
-from sheetbench.scenes.objects.tables import OverTime, PiecewiseLinear
+from sheetbench.scenes.objects.tables import OverTime, PiecewiseCurve
 
 Plane = Literal["normal", "inplane", "spatial"]
 Base = Literal["free", "start", "middle", "end"]
@@ -117,13 +117,13 @@ class Chain(Frozen):
             inner = np.sort(np.append(inner, extra))
         return np.concatenate([[0.0], inner, [self.segments]])
 
-    def curvatures(self) -> PiecewiseLinear:
+    def curvatures(self) -> PiecewiseCurve:
         """Intrinsic curvature (joints,) [1/m] of every joint over time; (1,), if it has none."""
         count = max(self.joints, 1)
         if isinstance(self.curvature, CurvatureTable):
-            return PiecewiseLinear(self.curvature.time, [(value,) * count for value in self.curvature.value])
+            return PiecewiseCurve(self.curvature.time, [(value,) * count for value in self.curvature.value])
         each = self.curvature if isinstance(self.curvature, tuple) else (self.curvature,) * count
-        return PiecewiseLinear((0.0,), [each or (0.0,)])
+        return PiecewiseCurve((0.0,), [each or (0.0,)])
 
     @property
     def joints(self) -> int:

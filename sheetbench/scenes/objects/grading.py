@@ -156,13 +156,6 @@ def amount(grading: Graded) -> float:
     return grading.by if isinstance(grading, Grading) else grading
 
 
-def mirrored(grading: Graded, axis: int) -> bool:
-    """Whether cells are the same from either end of an axis."""
-    if not isinstance(grading, Grading):
-        return True
-    return len(set(grading.ends(axis))) == 1 and not grading.places[axis]
-
-
 def as_settings(grading: Graded) -> dict[str, Any]:
     """As documents have it: `grading`, `graded_edges` where it is not of all edges, `lines_at` where lines
     are moved."""

@@ -1,4 +1,4 @@
-"""Read the triangles and quadrilaterals of one mesh file: a program of its own, which `mesh_files` runs.
+"""Read the triangles and quadrilaterals of one mesh file: a program of its own, which `plan_mesh` runs.
 
     python mesh_reader.py FILE FORMAT
 

@@ -21,7 +21,7 @@ from pydantic import AfterValidator, ConfigDict, Field, field_validator, model_v
 from sheetbench.scenes.objects.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
 from sheetbench.scenes.objects.shapes import Rectangle, Shape
 from sheetbench.scenes.objects.sheet import EDGES, EdgeName
-from sheetbench.scenes.objects.tables import CURVES, Interpolation, OverTime, PiecewiseCurve
+from sheetbench.scenes.objects.tables import Interpolation, OverTime, PiecewiseCurve
 
 Component = Literal["x", "y", "z"]
 
@@ -49,7 +49,7 @@ class Motion(OverTime):
     @property
     def course(self) -> PiecewiseCurve:
         """The displacement (3,) [m] over time."""
-        return CURVES[self.interpolation](self.time, self.displacement)
+        return PiecewiseCurve(self.time, self.displacement, self.interpolation)
 
 
 class _EdgeSupport(Frozen):

@@ -8,10 +8,9 @@ Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -24,21 +23,23 @@ Interpolation = Literal["smooth", "linear"]
 Values = Sequence[float] | Sequence[Sequence[float]]
 
 
-class PiecewiseCurve(ABC):
-    """Values (n, …) at increasing times (n,) [s], constant outside."""
+class PiecewiseCurve:
+    """Values (n, …) at increasing times (n,) [s], constant outside, between them linear or smooth: a smooth
+    curve of two is a line."""
 
-    @staticmethod
-    @abstractmethod
-    def between(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-        """Return the coefficients of pieces (degree + 1, n − 1, …) in the time since each began, constants
-        first."""
-
-    def __init__(self, time: Sequence[float], values: Values):
+    def __init__(self, time: Sequence[float], values: Values, interpolation: Interpolation = "linear"):
         self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)
         self._instant = INSTANT * (self._time[-1] - self._time[0])
-        inner = self.between(self._time, samples) if len(time) > 1 else samples[None, :0]
         # coefficients of each piece in the time since its start, from the constant on; the first and the last
         # piece are what lies before and after
+        inner = samples[None, :0]
+        if len(time) > 1 and interpolation == "linear":
+            spacing = np.diff(self._time).reshape(-1, *(1,) * (samples.ndim - 1))
+            inner = np.stack([samples[:-1], np.diff(samples, axis=0) / spacing])
+        elif len(time) > 1:
+            from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
+
+            inner = np.asarray(PchipInterpolator(self._time, samples).c[::-1])
         self._pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
         self._pieces[:, 1:-1] = inner
         self._pieces[0, 0], self._pieces[0, -1] = samples[0], samples[-1]
@@ -73,31 +74,6 @@ class PiecewiseCurve(ABC):
         return found
 
 
-class PiecewiseLinear(PiecewiseCurve):
-    """Linear between the samples."""
-
-    @staticmethod
-    def between(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-        spacing = np.diff(time).reshape(-1, *(1,) * (values.ndim - 1))
-        return np.stack([values[:-1], np.diff(values, axis=0) / spacing])
-
-
-class SmoothCurve(PiecewiseCurve):
-    """Cubic between the samples; a table of two is a line."""
-
-    @staticmethod
-    def between(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-        from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
-
-        return np.asarray(PchipInterpolator(time, values).c[::-1])
-
-
-CURVES: dict[Interpolation, type[PiecewiseLinear] | type[SmoothCurve]] = {
-    "smooth": SmoothCurve,
-    "linear": PiecewiseLinear,
-}
-
-
 class OverTime(Frozen):
     """Base of the tables: time (n,) [s], increasing, and n samples of everything else that is a list."""
 
@@ -124,6 +100,9 @@ class FactorTable(OverTime):
     """What the load is multiplied by at each time, linear between them; statics take the last one."""
 
 
+STEADY = FactorTable(time=(0.0,), factor=(1.0,))
+
+
 class Loading(Frozen):
     """Base of loads and gravity, whose `history` scales them over time."""
 
@@ -136,7 +115,12 @@ class Loading(Frozen):
         return self.history.factor[-1] if self.history is not None else 1.0
 
     @property
-    def course(self) -> PiecewiseLinear:
+    def course(self) -> PiecewiseCurve:
         """The factor over time."""
-        table = self.history or FactorTable(time=(0.0,), factor=(1.0,))
-        return PiecewiseLinear(table.time, table.factor)
+        table = self.history or STEADY
+        return PiecewiseCurve(table.time, table.factor)
+
+    def times(self, factor: float) -> Self:
+        """Return the load times a factor."""
+        table = self.history or STEADY
+        return self.replace(history=table.replace(factor=tuple(factor * sample for sample in table.factor)))

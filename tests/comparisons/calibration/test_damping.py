@@ -8,19 +8,6 @@ from comparisons.calibration.damping import keys
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Branches, load
 
-FOUR = (
-    {"loss_factor": 0.12},
-    {"damping_ratio": 0.06},
-    {"quality": 1.0 / 0.12},
-    {"log_decrement": 0.12 * np.pi / np.sqrt(1.0 - 0.06**2)},
-)
-
-
-@pytest.mark.parametrize("known", FOUR)
-def test_four_ways_to_say_the_same(known):
-    """δ = 2πζ/√(1 − ζ²) at ζ = 0.06."""
-    assert keys(**known, at=5.0)["loss_factor"] == pytest.approx(0.12, rel=1e-6)
-
 
 def test_a_pole_is_that_of_the_equation_of_motion():
     """One branch is a third-order system: its characteristic polynomial, in closed form."""
@@ -57,9 +44,9 @@ def test_moduli_of_a_dynamic_test_and_of_a_relaxation_become_branches(tmp_path):
     ("known", "named"),
     [
         ({"loss_factor": 0.1}, "--at HZ"),
-        ({"loss_factor": 0.1, "quality": 10.0, "at": 1.0}, "--loss-factor and --quality"),
-        ({"at": 5.0}, "--at: needs a loss factor"),
-        ({"quality": -1.0, "at": 5.0}, "--quality = -1: must be greater than 0"),
+        ({"loss_factor": 0.1, "prony": "a.csv"}, "--prony and --loss-factor"),
+        ({"at": 5.0}, "--at: needs --loss-factor"),
+        ({"loss_factor": -1.0, "at": 5.0}, "--loss-factor = -1: must be greater than 0"),
     ],
 )
 def test_what_does_not_go_together_is_refused(known, named):
@@ -85,4 +72,4 @@ def test_tables_of_moduli_that_are_none_are_refused(tmp_path, text, named):
 
 def test_the_scenes_own_damping_gives_way():
     damped = load("one-edge-clamped").replace(damping_time=1e-3)
-    assert subject(damped, keys(quality=10.0, at=5.0)).material.damping_time == 0.0
+    assert subject(damped, keys(loss_factor=0.1, at=5.0)).material.damping_time == 0.0

@@ -2,9 +2,9 @@
 
 import gc
 import json
+import os
 import subprocess
 import sys
-from importlib.metadata import version
 from pathlib import Path
 
 import fake_solutions
@@ -21,6 +21,7 @@ from sheetbench.answers.solution import Status
 
 pytestmark = pytest.mark.smoke
 
+PROGRAM = (sys.executable, "-m", "sheetbench")
 HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "numba", "skfem", "meshio")
 
 
@@ -127,24 +128,36 @@ def test_an_interrupt_within_compiled_code_is_an_interrupt(monkeypatch, capsys):
     assert capsys.readouterr().err.strip().endswith("interrupted; nothing was kept")
 
 
-def test_a_long_version_says_what_is_installed(capsys):
-    assert run("--version", "--verbose") == 0
-    said = dict(line.split(":", 1) for line in capsys.readouterr().out.splitlines())
-    assert said["sheetbench"].split(",")[0].strip() == version("sheetbench")
-    assert "multifrontal" in said["solvers"] and "CalculiX" in said["other codes"]
-    assert f"numpy {version('numpy')}" in said["packages"] and Path(said["kernels"].strip()).is_absolute()
-
-
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("line", ["check --schema", "score --json", "compare --help"])
 def test_an_output_that_nobody_reads_on_is_no_fault(line):
-    """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends, for what is longer than a
-    pipe holds and for what is not."""
-    command = [sys.executable, "-m", "sheetbench", *line.split()]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    """As `| head` leaves it: quiet, with the status of a program that SIGPIPE ends."""
+    with subprocess.Popen(
+        [*PROGRAM, *line.split()], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
         process.stdout.close()
         said = process.stderr.read()
     assert (process.returncode, said) == (141, b"")
+
+
+@pytest.mark.sweep(2)
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+@pytest.mark.parametrize("arguments", [("check",), ("check", "--json"), ("--help",), ("--version",)], ids=str)
+def test_an_output_that_cannot_be_written_is_said_in_a_line(arguments):
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run([*PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "sheetbench: the output cannot be written: no space left on device\n"
+
+
+def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
+    plain = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+    usual, *odd = (
+        subprocess.run([*PROGRAM, "--help"], env=plain | given, capture_output=True, text=True)
+        for given in ({}, {"COLUMNS": "0", "LINES": "²"}, {"COLUMNS": "9" * 12, "LINES": "0"})
+    )
+    for one in odd:
+        assert (one.returncode, one.stdout, one.stderr) == (0, usual.stdout, "")
 
 
 def test_collections_are_as_usual_once_a_verb_works():

@@ -1,8 +1,6 @@
-"""What is said while people wait: what is solved, how large it is, how far it has come; little in a pipe and
-nothing with --quiet; in characters that a terminal has."""
+"""What is said while people wait, how far it has come; little in a pipe, nothing with --quiet."""
 
 import io
-import logging
 import sys
 from typing import Any
 
@@ -15,9 +13,7 @@ import lumped
 import sheetbench as sb
 from comparisons.calibration.calibrate import calibrate
 from comparisons.cli import console
-from comparisons.cli import lines as cli_lines
 from comparisons.cli.app import main
-from comparisons.cli.lines import BETWEEN, QUIET, Lines
 from comparisons.cli.verb import as_verb
 from comparisons.models.context import running
 from comparisons.models.spec import Lattice
@@ -33,49 +29,34 @@ QUICK, SLOW = Size(100, 1e6, 0.1), Size(1_234_567, 1e9, 300.0)
 
 
 @pytest.fixture
-def said():
-    """Lines of a clock that is set by hand."""
-    reports: list[str] = []
-    now = [100.0]
-    return Lines(reports.append, lambda: now[0]), reports, now
+def said(monkeypatch):
+    """Progress without a terminal, and a clock that is set by hand."""
+    screen, now = io.StringIO(), [100.0]
+    monkeypatch.setattr(console, "err", Console(file=screen, width=100))
+    monkeypatch.setattr(console, "monotonic", lambda: now[0])
+    with console.progress() as say:
+        yield say, screen, now
 
 
 def test_what_lasts_is_said_now_and_then(said):
-    lines, reports, now = said
+    say, screen, now = said
     one = Work("solving shell", QUICK)
-    lines.say(one)
-    now[0] += QUIET
-    lines.look()
-    lines.look()
-    assert reports == ["solving shell …"]
+    say(one)
+    now[0] += console.QUIET
+    say(one)
     for step in range(10):
-        now[0] += BETWEEN / 10
-        lines.say(one.at(0.1 * (step + 1)))
-        lines.look()
-    assert reports == ["solving shell …", "solving shell: 100 % of the load"]
-    now[0] += 10 * BETWEEN
-    lines.look()
-    assert len(reports) == 2  # nothing new
+        now[0] += console.BETWEEN / 10
+        say(one.at(0.1 * (step + 1)))
+    assert screen.getvalue().splitlines() == ["solving shell …", "solving shell: 100 % of the load"]
 
 
 def test_what_will_last_is_said_before_it_starts(said):
-    lines, reports, _ = said
-    lines.say(Work("solving solid", SLOW))
-    lines.say(Work("solving solid", SLOW).at(0.25))
-    assert reports == ["solving solid (1.23 million unknowns, about 5 min) …"]
+    say, screen, _ = said
+    say(Work("solving solid", SLOW))
+    say(Work("solving solid", SLOW).at(0.25))
+    assert screen.getvalue() == "solving solid (1.23 million unknowns, about 5 min) …\n"
     assert str(Work("solving solid", SLOW).at(0.25)).endswith("about 5 min): 25 % of the load")
     assert str(Work("solving shell").at(51.35)) == "solving shell: following its path beyond the load"
-
-
-def test_the_clock_is_looked_at_while_nothing_is_said(monkeypatch):
-    monkeypatch.setattr(cli_lines, "QUIET", 0.0)
-    monkeypatch.setattr(cli_lines, "POLL", 1e-3)
-    reports: list[str] = []
-    with Lines(reports.append) as lines:
-        lines.say("working …")
-        while not reports:
-            pass
-    assert reports == ["working …"]
 
 
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
@@ -131,7 +112,7 @@ def test_a_fit_tells_what_it_is_trained_on():
 
 @pytest.mark.parametrize("terminal", [True, False])
 def test_a_campaign_shows_the_run_that_goes_on(monkeypatch, terminal):
-    monkeypatch.setattr(cli_lines, "QUIET", 0.0)
+    monkeypatch.setattr(console, "QUIET", 0.0)
     screen = io.StringIO()
     monkeypatch.setattr(console, "err", Console(file=screen, force_terminal=terminal, width=100))
     with console.progress() as progress:
@@ -160,7 +141,7 @@ SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--n
 @pytest.fixture
 def chatty(monkeypatch):
     """A command that says all that there is to say."""
-    monkeypatch.setattr(cli_lines, "QUIET", 0.0)
+    monkeypatch.setattr(console, "QUIET", 0.0)
     monkeypatch.setattr(work, "LONG", 0.0)
 
     def command():
@@ -182,16 +163,8 @@ def test_quiet_leaves_results_and_warnings(chatty, quiet, capsys):
     assert printed.err.splitlines() == [*progress, "a warning"]
 
 
-def test_quiet_is_quiet_of_what_the_packages_log(capsys):
-    from comparisons.cli import messages
-
-    with messages.in_lines(), console.speaking(quiet=True):
-        logging.getLogger("sheetbench").info("compiling")
-    assert capsys.readouterr().err == ""
-
-
 def test_a_comparison_says_in_a_pipe_what_lasts_and_nothing_where_it_is_quiet(monkeypatch, capsys):
-    monkeypatch.setattr(cli_lines, "QUIET", 3600.0)  # however slow this machine is today
+    monkeypatch.setattr(console, "QUIET", 3600.0)  # however slow this machine is today
     assert run(*SMALL) == 0 and capsys.readouterr().err == ""
     monkeypatch.setattr(work, "LONG", 0.0)
     assert run(*SMALL, "--quiet") == 0

@@ -10,7 +10,7 @@ import meshio
 import numpy as np
 import pytest
 from commands import run
-from contact_cases import bent_over, laid_strip
+from contact_cases import laid_strip
 
 from comparisons.codes.cell import HINGES, _hinge, _triangle
 from comparisons.codes.cell_moduli import undamped
@@ -252,12 +252,6 @@ def test_obstacles_are_written(code, tmp_path):
         model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
         assert model.ngeom == 2
         assert not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONTACT
-
-
-@pytest.mark.usefixtures("coarse_limits")
-def test_others_refuse_them():
-    note = " ".join(setup(bent_over(), "genesis", 2, best=False).notes())
-    assert "No files: obstacle: Genesis" in note
 
 
 def test_mujocos_cylinder_is_long_and_friction_has_tangents():

@@ -5,7 +5,6 @@ import json
 import pytest
 from commands import json_of, one_line, run
 
-from comparisons.comparison.crosscheck import Crosscheck
 from sheetbench.scenes import load
 
 SEED = load("two-edges-clamped")
@@ -87,12 +86,6 @@ def test_judges_side_by_side(fakes, capsys):
     points = {(one["a"], one["b"]): one["apart"] for one in document["pairs"]}
     assert points["exact", "same"] == [] and points["exact", "other"] == ["P1", "P2", "P3", "P4"]
     assert [judge["status"] for judge in document["judges"]] == ["found"] * 3
-
-
-def test_without_judges_there_is_no_table_of_them():
-    """It had a heading and no row."""
-    found = Crosscheck((SEED,), {SEED.name: ()}, ())
-    assert "judges" not in [table.name for table in found.report().tables]
 
 
 def test_what_a_judge_refuses_or_fails_at_is_a_row_of_its_own(fakes, capsys):

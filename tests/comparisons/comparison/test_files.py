@@ -85,12 +85,6 @@ def test_without_a_way_to_draw_there_is_a_sentence_and_no_picture(scene, tmp_pat
     assert not list(tmp_path.iterdir())
 
 
-def test_what_is_not_finite_is_not_drawn(scene, tmp_path):
-    pair = (fake_solutions.solution(scene, size=np.nan), fake_solutions.solution(scene, "shell"))
-    said = draw(Comparison(scene, pair), tmp_path)
-    assert said is not None and "finite" in said
-
-
 @pytest.mark.parametrize("name", ["lumped", "shell", "comparison"])
 def test_vtu_opens_in_meshio_and_pyvista_alike(folder, name):
     points = meshio.read(folder / f"{name}.vtu").point_data["displacement"]

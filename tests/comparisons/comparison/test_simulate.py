@@ -1,4 +1,4 @@
-"""`sheetbench simulate`: its document and files, measured histories, chains in its files."""
+"""`sheetbench simulate`: its document and files, chains in its files."""
 
 import json
 import xml.etree.ElementTree as ElementTree
@@ -10,9 +10,8 @@ from commands import json_of, run
 from dynamic_cases import make_scene, springs
 
 import lumped
-from comparisons.comparison import measured as histories
 from comparisons.comparison.frames import frames
-from sheetbench.answers.history import Measured
+from comparisons.identification import measurements
 from sheetbench.scenes import load
 from sheetbench.scenes.language.toml import to_toml
 
@@ -32,19 +31,13 @@ def test_json_has_the_promised_keys_and_enough_samples(capsys):
     assert document["time"][-1] == pytest.approx(0.1)
 
 
-def test_files_of_a_run(tmp_path, capsys):
-    measured = tmp_path / "measured.csv"
-    measured.write_text("time,probe,ux,uy,uz\n0.01,P4,,,-0.001\n0.05,P4,,,-0.02\n")
-    assert run(*RUN, "--every", "0.005", "--out", str(tmp_path), "--measured", str(measured)) == 0
-    out = capsys.readouterr().out
-    assert "difference" in out
+def test_files_of_a_run(tmp_path):
+    assert run(*RUN, "--every", "0.005", "--out", str(tmp_path)) == 0
     document = json.loads((tmp_path / "history.json").read_text())
-    assert 0.0 < document["measured_errors"]["P4"] < 1.0
     lines = (tmp_path / "history.csv").read_text().splitlines()
     assert len(lines) == 22 and lines[0].startswith("time [s],P1.ux [m]") and "balance [J]" in lines[0]
-    ours = histories.read_measured(tmp_path / "displacements.csv", ["P1", "P2", "P3", "P4"])
-    assert [len(one.time) for one in ours.values()] == [21] * 4
-    assert ours["P4"].displacement.tolist() == document["probes"]["P4"]
+    ours = measurements.read(tmp_path / "displacements.csv", load("two-edges-settling"))
+    assert np.concatenate(list(document["probes"].values())) == pytest.approx(ours.displacement, abs=1e-15)
     assert (tmp_path / "history.png").stat().st_size > 10_000
     series = ElementTree.parse(tmp_path / "frames.pvd").getroot().findall("Collection/DataSet")
     last = series[-1].attrib
@@ -55,84 +48,15 @@ def test_files_of_a_run(tmp_path, capsys):
     assert found == pytest.approx(document["probes"]["P4"][-1], rel=1e-9)
 
 
-@pytest.mark.parametrize("text, said", [
-    ("t,probe,ux,uy,uz\n", "the header must be"),
-    ("time,probe,ux,uy,uz\n0.1,P9,0,0,0\n", "line 2"),
-    ("time,probe,ux,uy,uz\n0.1,P1,0,0,zero\n", "not a number"),
-    ("time,probe,ux,uy,uz\n0.1,P1,0,0,inf\n", "line 2: uz = 'inf'"),
-    ("time,probe,ux,uy,uz\n,P1,0,0,0\n", "line 2: time = ''"),
-    ("time,probe,ux,uy,uz\n0,P1,,,-0.02\n1,P1,,,-0.04", "uz = -0.02 m at time = 0: a run begins with the"),
-])  # fmt: skip
-def test_measured_files_are_checked(tmp_path, text, said):
-    path = tmp_path / "measured.csv"
-    path.write_text(text)
-    with pytest.raises(ValueError, match=said):
-        histories.read_measured(path, ["P1"])
-
-
 def test_a_run_that_cannot_go_on_keeps_what_it_has_and_is_three(tmp_path, capsys):
     """A pressure that no sheet withstands turns cells inside out."""
     torn = tmp_path / "torn.toml"
     torn.write_text(to_toml(load("one-edge-clamped")) + "[[load]]\nkind = 'pressure'\nvalue = 5e5\n")
     out = tmp_path / "out"
-    arguments = (
-        "--lumped",
-        "3",
-        "--duration",
-        "0.01",
-        "--every",
-        "0.001",
-        "--no-pictures",
-        "--out",
-        str(out),
-    )
-    assert run("simulate", str(torn), *arguments) == 3
+    arguments = ("--lumped", "3", "--duration", "0.01", "--every", "0.001", "--no-pictures")
+    assert run("simulate", str(torn), *arguments, "--out", str(out)) == 3
     assert "inverted: at 0.003 s the cell at" in capsys.readouterr().err
     assert len((out / "history.csv").read_text().splitlines()) > 2
-
-
-def test_measured_times_beyond_the_run_are_said(tmp_path, capsys):
-    path = tmp_path / "measured.csv"
-    path.write_text("time,probe,ux,uy,uz\n0.05,P4,,,-0.02\n0.2,P4,,,-0.01\n0.3,P4,,,-0.01\n")
-    assert run(*RUN, "--every", "0.02", "--measured", str(path)) == 0
-    said = " ".join(capsys.readouterr().err.split())
-    assert "P4: 2 of 3 measured times left out, for the run is from 0 to 0.1 s" in said
-    path.write_text("time,probe,ux,uy,uz\n0.2,P4,,,-0.02\n0.3,P1,,,-0.01\n")
-    assert run(*RUN, "--every", "0.02", "--measured", str(path)) == 2
-    said = capsys.readouterr().err
-    assert "no time within the run of 0.1 s (--duration), but from 0.2 to 0.3 s" in said
-    assert "simulated" not in said
-
-
-def test_measured_error_is_relative_to_the_largest_measured_component():
-    scene = make_scene()
-    history = lumped.simulate(scene, springs(scene, 4), 0.05, every=0.005)
-    exact = history.probes["P4"][2:8]
-    measured = Measured(history.time[2:8], exact.copy())
-    assert measured.error(history.time, history.probes["P4"]) == pytest.approx(0.0, abs=1e-12)
-    measured.displacement[:, 0] = np.nan
-    measured.displacement[3, 2] *= 1.1
-    expected = abs(0.1 * exact[3, 2]) / np.nanmax(np.abs(measured.displacement))
-    assert measured.error(history.time, history.probes["P4"]) == pytest.approx(expected)
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_chains_are_in_the_files_of_a_run(tmp_path):
-    """Their axes are lines after the lattice's points; they move with the edge that they hold."""
-    arguments = ["simulate", "actuated-edge", "--lumped", "3", "--duration", "0.02", "--every", "0.01"]
-    assert run(*arguments, "--out", str(tmp_path)) == 0
-    history = json.loads((tmp_path / "history.json").read_text())
-    mesh = meshio.read(sorted((tmp_path / "frames").glob("*.vtu"))[-1])
-    axis = mesh.point_data["actuator"] == 1
-    assert axis.sum() == 9 and np.sum(mesh.point_data["actuator"] == 0) == 18
-    assert mesh.points[axis] == pytest.approx(np.array([[0.188, 0.188 * i / 8, 0.0] for i in range(9)]))
-    moved = mesh.point_data["displacement"][axis]
-    for probe, points in (("P4", [-1]), ("P3", [4])):
-        assert moved[points].mean(axis=0) == pytest.approx(history["probes"][probe][-1], abs=2e-6)
-    lines = np.vstack([cells.data for cells in mesh.cells if cells.type == "line"])
-    ends = lines[np.isin(lines, np.flatnonzero(axis)).all(axis=1)]
-    places = (mesh.points + mesh.point_data["displacement"])[ends]
-    assert np.linalg.norm(np.diff(places, axis=1)[:, 0], axis=1) == pytest.approx(8 * [0.188 / 8], rel=1e-6)
 
 
 @pytest.mark.parametrize("grading", [0.0, 0.8])

@@ -60,10 +60,10 @@ DAT = """
 """
 
 
-def test_every_increment_is_read():
-    times, displacements = results.displacements(DAT, 3)
-    assert times.tolist() == [0.5, 1.0] and np.isnan(displacements[:, 2]).all()
-    np.testing.assert_array_equal(displacements[1, :2], [[3e-3, 0.1, 0.0], [4e-3, 0.0, -2.0]])
+def test_the_last_increment_is_read():
+    factor, displacements = results.displacements(DAT, 3)
+    assert factor == 1.0 and np.isnan(displacements[2]).all()
+    np.testing.assert_array_equal(displacements[:2], [[3e-3, 0.1, 0.0], [4e-3, 0.0, -2.0]])
     sta = " SUMMARY OF JOB INFORMATION\n  STEP  INC  ATT  ITRS  TOT TIME  STEP TIME  INC TIME\n"
     assert results.iterations(sta + "  1  1  1  12  0.5E+00  0.5E+00  0.5E+00\n 1 2 1 5 1.0 1.0 0.5\n") == 17
     assert results.iterations("") == 1
@@ -217,17 +217,6 @@ def test_a_scenes_words_mean_the_same_to_every_judge(word):
         assert off is not None and off < within, (judge.name, off)
     if not here:
         pytest.skip(f"needs one of {'; '.join(judge.needs for judge in JUDGES)}")
-
-
-def test_two_programs_answer_alike_on_the_same_bricks():
-    """Deck and results against a program that reads no deck: CalculiX prints seven digits."""
-    needed(CALCULIX)
-    needed(FELUPE)
-    points = SEED.probe_points()
-    settings = {"elements": 3, "grading": "uniform"}
-    deck_s, own = (judge.solve(SEED, {**judge.settings, **settings}) for judge in (CALCULIX, FELUPE))
-    off = error(deck_s.displacement(points), own.displacement(points))
-    assert off is not None and off < 2e-6
 
 
 def pulled_rubber(rubber):

@@ -1,5 +1,4 @@
-"""Models that are programs: their input and answer, and that one that crashes, hangs, floods, lies or
-answers nothing that can be read costs its own row and no other."""
+"""Models that are programs: their input and answer; one that ends badly costs its own row and no other."""
 
 import json
 import os
@@ -13,7 +12,6 @@ import pytest
 from campaigns import alive, wait_for
 from commands import json_of, one_line, run
 
-from comparisons.external import plugins
 from comparisons.models.spec import parse
 from sheetbench import face, scenes
 from sheetbench.answers.solution import Status
@@ -168,12 +166,3 @@ def test_limits_without_end_are_refused(program, capsys, limits):
     assert run("tradeoff", "one-edge-clamped", "--model", f"{program('mine', says(ANSWER))}:{limits}") == 2
     assert "a number of at most 1e+15 is needed" in one_line(capsys)
     assert face.solve(SCENE, program("mine", says(ANSWER)), seconds=1e15, memory_mb=1e15).comparable
-
-
-def test_another_program_under_the_same_name_is_another_model(program):
-    model = program("mine", says(ANSWER))
-    before = plugins.digest(model)
-    program("mine", says(ANSWER), "# changed")
-    plugins._of_file.cache_clear()
-    assert plugins.digest(model) != before
-    assert os.path.basename(model.removeprefix("exec:")) == plugins.shown_name(model)

@@ -1,11 +1,12 @@
 """Laws of rubber from tensile tests: closed forms, intervals that hold, Treloar's rubber, refusals."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
-from measured_data import measured_data
 
 from comparisons.identification.tensile.curves import TESTS, Curve, read
-from comparisons.identification.tensile.laws import KEYS, LAWS, energy, largest_x, stress
+from comparisons.identification.tensile.laws import KEYS, LAWS, energy, kinematics, stress
 from comparisons.identification.tensile.tensile import identify_tensile
 from sheetbench.errors import BadInput
 
@@ -57,12 +58,6 @@ def test_a_laws_own_curves_give_its_constants_back(law):
     assert found.material(poisson=0.4999).young == pytest.approx(found.law.young, rel=1e-3)
 
 
-def test_the_picture_draws_measured_points_and_laws_from_no_stretch_on():
-    stress_axis, _ = identify_tensile(curves("gent", ["uniaxial"])).plot().axes
-    measured, *fits = [line.get_xdata() for line in stress_axis.lines]
-    assert measured[0] == 1.02 and [fit[0] for fit in fits] == [1.0] * len(fits) and fits
-
-
 @pytest.mark.sweep
 @pytest.mark.parametrize("law", LAWS)
 def test_intervals_hold_in_18_to_20_of_20_seeds(law):
@@ -80,10 +75,9 @@ def test_one_curve_cannot_tell_the_two_constants_of_mooney_rivlin():
     (mooney,) = (f for f in found.fits if f.law == "mooney-rivlin")
     assert mooney.correlation < -0.9 and found.law is not None and found.law.law != "mooney-rivlin"
     said = " ".join(found.report().notes)
-    assert "cannot distinguish c1 from c2" in said and "Not measured: equibiaxial" in said
-    assert found.open is not None and found.open[1][1] > 1.2 * found.open[1][0]
+    assert "cannot distinguish c1 from c2" in said
     both = identify_tensile(curves("mooney-rivlin", ("uniaxial", "equibiaxial"), 0.005))
-    assert both.law is not None and both.law.law == "mooney-rivlin" and both.open is None
+    assert both.law is not None and both.law.law == "mooney-rivlin"
 
 
 def table(folder, text):
@@ -137,6 +131,14 @@ def test_what_is_no_loading_branch_is_refused(tmp_path, fault):
         read(path)
 
 
+def measured_data(name):
+    """The file of this name below `shared/data`, which stands beside the checkout or above it."""
+    for above in Path(__file__).parents[3].parents:
+        if (found := above / "shared" / "data" / name).is_file():
+            return found
+    pytest.skip(f"../shared/data/{name} is not there")
+
+
 def test_treloars_rubber_asks_for_gent_with_published_constants(tmp_path):
     """Published of the same data: 0.240 MPa and 80 (Hyperelastics.jl), within our intervals."""
     text = measured_data("treloar/uniaxial.csv").read_text(encoding="utf-8")
@@ -146,7 +148,8 @@ def test_treloars_rubber_asks_for_gent_with_published_constants(tmp_path):
     assert low < 0.240e6 < high and high / low < 1.2
     low, high = found.law.intervals["limit"]
     assert low < 80.0 < high and high / low < 1.1
-    assert max(map(largest_x, found.curves)) == pytest.approx(7.512**2 + 2.0 / 7.512 - 3.0)
+    largest = max(kinematics(curve.test, curve.stretch)[2].max() for curve in found.curves)
+    assert largest == pytest.approx(7.512**2 + 2.0 / 7.512 - 3.0)
 
 
 def test_a_silicone_file_is_read_as_the_machine_wrote_it():

@@ -6,7 +6,7 @@ from commands import json_of, one_line, run
 
 import lumped
 from comparisons.models.grading import GRADED, grading_of, parse_grading
-from comparisons.models.resolve import resolve, resolve_each
+from comparisons.models.resolve import resolve_each
 from comparisons.models.spec import Lattice
 from fem_reference.verification import settling_strip
 from sheetbench.face import solve
@@ -62,24 +62,9 @@ def test_auto_grades_the_scenes_that_grading_mends():
 
 @pytest.mark.parametrize(("edge", "graded"), [("x0", True), ("y0", False)])
 def test_a_sheet_that_juts_out_far_is_graded_at_its_clamp(edge, graded):
-    """The layer of 72 mm beside the length of 180 mm that juts out, not beside the width; with 17 masses the
-    error of its motion falls from 0.70 to 0.22 % of the peak (docs/theory.md)."""
+    """The layer of 72 mm beside the length of 180 mm that juts out, not beside the width."""
     strip = settling_strip.scene().replace(supports=[Clamped(edge=edge)])
     assert (grading_of(strip, (33, 17, 2), AUTO)[0] == towards(0.5, ["x0"])) == graded
-
-
-def test_as_auto_has_it_the_settling_strip_is_within_a_percent():
-    """Of the peak, over 1.5 s, against values good to 0.3 %; two cells across, as ν = 0."""
-    strip = settling_strip.scene()
-    cell = strip.sheet.length_x / 32
-    narrow = strip.replace(sheet=strip.sheet.replace(length_y=2.0 * cell), probes={"tip": (0.18, cell)})
-    off = {}
-    for grading in ("auto", 0.0):
-        springs = resolve(narrow, Lattice((33, 3, 2), grading=grading), "motion").springs
-        tip = lumped.simulate(narrow, springs, 1.5, every=settling_strip.EVERY).probes["tip"][1:, [0, 2]]
-        published = settling_strip.PUBLISHED
-        off[grading] = np.abs(tip - published).max() / np.abs(published).max()
-    assert off["auto"] < 0.005 and off[0.0] > 0.012
 
 
 def test_auto_leaves_alone_what_the_cells_resolve_and_what_has_cells_of_one_size_only():

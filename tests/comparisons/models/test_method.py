@@ -1,7 +1,7 @@
 """Which springs a scene gets where the choice is left to it, and how near that brings coarse grids."""
 
 import pytest
-from commands import json_of, run
+from commands import json_of
 
 import sheetbench as sb
 from comparisons.models import training as targets
@@ -104,13 +104,6 @@ def test_calibrate_trains_on_the_scene_it_is_given(capsys):
     assert found[0]["springs"] != found[1]["springs"]
     assert found[0]["fit"]["residual"] < 0.01
     assert set(found[0]["fit"]["half_widths"]) <= set(found[0]["springs"])
-
-
-def test_calibrate_shows_what_the_data_tell(capsys):
-    sheet = ("--young", "54.5e6", "--poisson", "0.48", "--thickness", "0.003", "--side", "0.188")
-    assert run("calibrate", *sheet, "--calibration", "fit-static", "--grid", "5") == 0
-    printed = capsys.readouterr().out
-    assert "What the data tell of each spring" in printed and "do not see" in printed
 
 
 def test_a_scene_in_which_nothing_moves_is_nothing_to_train_on():

@@ -13,8 +13,8 @@ from sheetbench.scenes.objects.grading import Grading
 
 SPECS: dict[str, Spec] = {
     "lumped": sb.Lattice(),
-    "lumped:grid=9x13x2,k=550.0,grading=0.5:x0,symmetry=true": sb.Lattice(
-        (9, 13, 2), k=550.0, grading="0.5:x0", symmetry=True
+    "lumped:grid=9x13x2,k=550.0,grading=0.5:x0,linear=true": sb.Lattice(
+        (9, 13, 2), k=550.0, grading="0.5:x0", linear=True
     ),
     "lumped-pair:grid=9,coarser=5,calibration=consistent": sb.LatticePair(9, 5, "consistent"),
     "shell:elements=8x4,law=biot": sb.Elements("shell", (8, 4), law="biot"),
@@ -51,7 +51,7 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
 
 
 @pytest.mark.parametrize(("ask", "said"), [
-    (lambda scene: sb.modes(scene, sb.Lattice(symmetry=True)), "symmetry: no effect on modes"),
+    (lambda scene: sb.modes(scene, sb.Lattice(linear=True)), "linear: no effect on modes"),
     (lambda scene: sb.simulate(scene, lattice=sb.Lattice(masses="gregory")), "masses: no effect on motion"),
     (lambda scene: sb.tradeoff(scene, tolerance=0.1, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
     (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),

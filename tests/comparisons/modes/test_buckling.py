@@ -1,10 +1,8 @@
 """Buckling loads of lattice, shell and solid against closed forms, and what has none."""
 
-import json
-
 import numpy as np
 import pytest
-from commands import run
+from commands import json_of, run
 
 import fem_reference
 import lumped
@@ -108,8 +106,7 @@ def test_the_verb_pairs_shapes_and_writes_them(tmp_path, capsys):
     file = tmp_path / "pressed.toml"
     square().save(file)
     arguments = ("modes", str(file), "--lumped", "9", "--elements", "4", "--count", "2", "--buckling")
-    assert run(*arguments, "--reference", "shell", "--reference", "plate", "--json") == 0
-    found = json.loads(capsys.readouterr().out)["buckling"]
+    found = json_of(capsys, *arguments, "--reference", "shell", "--reference", "plate")["buckling"]
     assert [one["model"] for one in found["solutions"]] == ["lumped", "shell"]
     factors = np.array([one["load_factors"] for one in found["solutions"]])
     for pair, ours, theirs in zip(found["pairs"], *factors, strict=True):

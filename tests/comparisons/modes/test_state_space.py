@@ -10,9 +10,6 @@ from commands import run
 from scipy.io import loadmat
 
 import lumped
-from comparisons.models.spec import Lattice
-from comparisons.modes import figure
-from comparisons.modes.state_space import linearise
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
@@ -143,7 +140,6 @@ def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
     assert other["K"].shape == (72, 72) and other["ss_A"].shape == (10, 10)
     assert [str(cell[0]) for cell in other["inputs"].ravel()] == document["inputs"]
     np.testing.assert_array_equal(arrays["ss_D"], other["ss_D"])
-    assert (tmp_path / "responses.png").exists()
 
 
 def test_a_lattice_without_an_equilibrium_ends_with_3(capsys):
@@ -151,28 +147,6 @@ def test_a_lattice_without_an_equilibrium_ends_with_3(capsys):
     assert run("modes", "curved-edge-down", "--state-space", "20", *springs) == 3
     said = capsys.readouterr().err
     assert "no linear form about the equilibrium" in said and "Traceback" not in said
-
-
-def test_the_response_drawn_is_of_the_probe_that_moves_most_and_units_have_names():
-    """Of probes near the clamp, at the free corner and in the middle, that at the corner; of two alike the
-    last. Undamped poles have no columns of zeros on a terminal, and edges are moved by millimetres."""
-    strip = scenes.load("one-edge-clamped")
-    lx, ly = strip.sheet.lengths
-    strip = strip.replace(probes={"far": (0.0, ly), "near": (0.0, 0.0), "middle": (lx / 2.0, ly / 2.0)})
-    strip = strip.replace(supports=[Clamped(edge="x1")])
-    found = linearise(strip, Lattice(4), modes=3)
-    assert figure.moved_most(found) == "near"
-    drawn = figure.responses(found)
-    title, legend = drawn.axes[0].get_title(loc="left"), drawn.axes[0].get_legend()
-    assert title.endswith("near along z, the probe that moves most at rest")
-    assert legend is not None and "gravity [factor]" in [text.get_text() for text in legend.get_texts()]
-    table = found.printed()[1]
-    rows = {row[0]: row[1:] for row in table.rows}
-    assert rows["x1 z"] == ("mm", *[pytest.approx(1e-3)] * 3)
-    assert rows["x1 x"][1:] == (0.0, 0.0, 0.0) and rows["gravity"][0] == "factor"
-    assert [c.name for c in found.tables()[0].columns if not c.detail] == ["frequency", "imaginary"]
-    damped = linearise(with_material(strip, damping_rate=RATE), Lattice(4), modes=3)
-    assert not any(column.detail for column in damped.tables()[0].columns)
 
 
 def test_few_modes_need_no_dense_matrices(flat, monkeypatch):

@@ -163,16 +163,3 @@ def test_views_fields_and_what_is_under_the_pointer(page):
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     said = page.locator(".sv-under").text_content()
     assert re.search(r"Shell at [\d., ]+ mm: moved 0, 0, −[\d.]+ mm", said)
-
-
-def test_a_motion_plays(page):
-    page.get_by_label("Show", exact=True).select_option("motion")
-    slider = page.get_by_label("Time")
-    assert slider.is_visible() and page.locator(".sv-play output").text_content() == "0.2 s"
-    slider.press("Home")
-    assert page.locator(".sv-play output").text_content() == "0 s"
-    slider.press("ArrowRight")
-    assert page.locator(".sv-play output").text_content() == "0.1 s"
-    page.get_by_role("button", name="Play").click()
-    assert page.get_by_role("button", name="Pause").is_visible()
-    page.get_by_role("button", name="Pause").click()

@@ -1,7 +1,6 @@
 """Pictures for papers: a column's width, no title, embedded fonts, the same bytes again, error bars."""
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -10,31 +9,23 @@ import numpy as np
 import pytest
 from commands import run
 from fake_solutions import history, solution
-from matplotlib.figure import Figure
 
-from comparisons.comparison import figure as comparing
 from comparisons.comparison import probes_figure
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.spec import Lattice
-from comparisons.modes import figure as responding
 from comparisons.modes import figure as swinging
 from comparisons.modes.spectra import spectra
-from comparisons.modes.state_space import linearise
 from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from fem_reference.uncertainty import Uncertainty
-from fem_reference.verification import locking_figure as locking
-from fem_reference.verification.rows import relatively
 from sheetbench import scenes
 from sheetbench.answers import history_figure as moving
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
 from sheetbench.answers.style import STYLE, save
 from sheetbench.errors import BadInput
-
-Compose = Callable[[FigureStyle], Figure]
 
 
 @pytest.fixture(scope="module")
@@ -66,19 +57,11 @@ def composed(scene, comparison):
         for n in (3, 5, 9)
     ]  # fmt: skip
     trade = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
-    locked = [
-        relatively(f"locking-{model}", "w", "8 × 8", 1.0, "", 1.001, 0.02, at={"h/a": ratio, "ν": 0.3})
-        for model in ("plate", "solid")
-        for ratio in (1e-5, 0.1)
-    ]
-    linear = linearise(scene, Lattice(3))
     swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
         "probes": partial(probes_figure.compose, comparison),
-        "history": partial(moving.compose, history(time, moved), scene.title, {}),
+        "history": partial(moving.compose, history(time, moved), scene.title),
         "tradeoff": partial(trading.compose, trade),
-        "locking": partial(locking.compose, locked),
-        "responses": partial(responding.responses, linear),
         "modes": partial(swinging.compose, swings),
     }
 
@@ -96,7 +79,7 @@ def test_what_a_figure_may_be():
             parse_figure(wrong)
 
 
-NAMES = ("probes", "history", "tradeoff", "locking", "responses", "modes")
+NAMES = ("probes", "history", "tradeoff", "modes")
 
 
 @pytest.mark.sweep(2)
@@ -107,10 +90,9 @@ def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name)
     assert paper.get_figwidth() == pytest.approx(WIDTHS["single"])
     said = [text.get_text() for text in paper.findobj(matplotlib.text.Text)]
     assert not any(scene.title in text for text in said)
-    if name != "locking":
-        assert any(scene.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
+    assert any(scene.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
     for axis in paper.axes:
-        if axis.axison and name != "locking":
+        if axis.axison:
             assert axis.get_xlabel() == "probe" or "[" in axis.get_xlabel() + axis.get_ylabel()
     paper.draw_without_rendering()
     box = paper.get_tightbbox()
@@ -143,16 +125,6 @@ def test_the_references_bar_is_a_band_at_every_probe(comparison):
         comparison.scene, (solution(comparison.scene), solution(comparison.scene, "shell", 0.0))
     )
     assert probes_figure.shown(still) == []
-
-
-@pytest.mark.parametrize("aspect", [0.3, 0.7, 1.4])
-def test_the_sheets_in_one_column_keep_off_the_colour_bars(aspect):
-    figure, panels, bars = comparing._stacked(WIDTHS["single"], aspect, head=0.0)
-    boxes = [axis.get_position() for axis in (*panels, *bars)]
-    assert all(0.0 <= box.x0 < box.x1 <= 1.0 and 0.0 <= box.y0 < box.y1 <= 1.0 for box in boxes)
-    assert not any(one.overlaps(other) for one in boxes[2:3] for other in boxes[3:])
-    label = 0.3 / figure.get_figheight()
-    assert all(box.y0 >= label for box in boxes[3:]) and boxes[3].y0 - boxes[4].y1 > label
 
 
 def test_the_option(tmp_path, capsys):

@@ -3,7 +3,6 @@
 import matplotlib
 import numpy as np
 import pytest
-from fake_solutions import history
 from matplotlib.figure import Figure
 
 from comparisons.models.check import check
@@ -12,13 +11,11 @@ from comparisons.pictures.plan import (
     edge_ends,
     held_lines,
     load_arrows,
-    on_sheet,
     plan_lines,
     plan_mesh,
     rims,
 )
-from sheetbench.answers import history_figure as motion
-from sheetbench.answers.style import MOST, STYLE, plain, save
+from sheetbench.answers.style import STYLE, plain, save
 from sheetbench.scenes import load
 
 HOSTILE = "T $\\foo$ \x1b[31m _x^y\n$"
@@ -46,15 +43,6 @@ def test_names_of_near_points_stand_apart():
     assert all(box.x0 >= panel.x0 and box.x1 <= panel.x1 for box in boxes)
     for i, first in enumerate(boxes):
         assert not any(first.overlaps(second) for second in boxes[i + 1 :])
-
-
-def test_many_probes_have_a_dozen_panels_of_those_that_move_most():
-    time = np.linspace(0.0, 1.0, 5)
-    moved = {f"p{i} $": np.outer(time, [0.0, 0.0, 1e-3 * i]) for i in range(250)}
-    figure = motion.compose(history(time, moved), HOSTILE, {})
-    titles = [axis.get_title(loc="left") for axis in figure.axes]
-    assert len(figure.axes) == MOST + 1
-    assert titles[0] == plain("p238 $") and titles[MOST - 1] == plain("p249 $")
 
 
 DISC = {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}
@@ -94,17 +82,6 @@ def test_all_that_is_drawn_lies_on_the_sheet():
     for points in drawn:
         assert shapely.intersects_xy(near, points[:, 0], points[:, 1]).all()
     assert ends[:, 1].tolist() == [0.05, 0.188]
-
-
-def test_a_rectangle_is_drawn_as_it_was():
-    mesh = plan_mesh(PLAIN, 4)
-    assert (
-        area(mesh) == pytest.approx(0.188**2)
-        and len(mesh.points) == 25
-        and len(plan_lines(PLAIN, 4)) == 10
-        and len(rims(PLAIN)) == 1
-    )
-    assert on_sheet(PLAIN, np.array([[-1.0, 0.1]])).tolist() == [[0.0, 0.1]]
 
 
 def test_check_draws_the_plan_of_any_scene():

@@ -10,7 +10,7 @@ from commands import run
 
 from comparisons.reproduction.answers import answer, published, scene
 from comparisons.reproduction.printed_errors import cells, means
-from comparisons.reproduction.reproduction import Reproduction, reproduce
+from comparisons.reproduction.reproduction import Reproduction
 from comparisons.reproduction.settling import settling
 from sheetbench.answers.habibi import published_inputs
 from sheetbench.answers.report import Report
@@ -89,15 +89,6 @@ def test_every_printed_error_is_of_the_larger_value():
 def test_the_run_is_by_the_default_integrator():
     found = settling(0.02)
     assert {run.integrator for run in found.runs.values()} == {"esdirk"}
-
-
-def test_every_part_is_one_answer(monkeypatch):
-    document = reproduce(["errors", "nearest"]).document()
-    assert {"parts", "inputs", "known_faults", "findings", "errors", "nearest"} == set(document)
-    assert document["errors"]["means"]["quoted"] == 0.048
-    assert document["errors"]["cells"][1]["changes"] is True
-    assert document["findings"][1]["finding"].startswith("The printed errors have a mean of 4.92 %; 4.8 %")
-    assert document["findings"][2]["about"] == "inputs"
 
 
 def test_the_verb_writes_a_page_and_says_what_it_found(tmp_path, capsys):

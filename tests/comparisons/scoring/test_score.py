@@ -42,15 +42,6 @@ def lines(case, values):
     ]
 
 
-def test_right_answers_are_not_distinguishable_and_lead_the_front(write):
-    found = score(write(seconds=1e-3))
-    assert not found.faults and not any(row.distinguishable for row in found.rows)
-    assert len(found.rows) == 80
-    assert found.leaderboard[0].model == "answers" and found.front == ["answers"]
-    bars = [case.bar for case in references("statics").values()]
-    assert found.score == pytest.approx(np.exp(np.mean(np.log(bars))))
-
-
 def test_an_error_is_that_of_the_design(write):
     found = score(write(change=lambda case, values: 1.02 * values))
     assert [row.error for row in found.rows if row.case == "thick"][-1] == pytest.approx(0.02)
@@ -216,14 +207,6 @@ def test_a_form_is_filled_in_in_stages(write, tmp_path, capsys):
     assert "no answer yet" in one_line(capsys)
 
 
-def test_answers_that_a_slip_has_spoilt_are_not_on_the_front(write):
-    quick = score(write(change=lambda case, u: -u, seconds=1e-6))
-    assert quick.leaderboard[-1].model == "answers" and "answers" not in quick.front
-    assert (
-        "answers" in score(write(change=lambda case, u: 1.3 * u, seconds=1e-6)).front
-    )  # quick, and right in kind
-
-
 @pytest.mark.parametrize(
     ("suite", "factor", "said"),
     [
@@ -238,19 +221,3 @@ def test_the_verdict_comes_first_and_says_what_is_off_throughout(write, suite, f
     assert run("score", str(path), "--suite", suite) == 0
     printed = " ".join(capsys.readouterr().out.split())
     assert said in printed and printed.index("Verdict") < printed.index("Errors by case")
-
-
-def test_noise_is_no_stiffness(write):
-    noise = np.random.default_rng(0)
-    found = score(write(change=lambda case, u: u * noise.uniform(0.6, 1.4)))
-    assert found.document()["stiffer"] is None and not found.faults
-    slipped = score(write(change=lambda case, u: 1e3 * u))
-    assert "1000 times" in slipped.report().lead
-
-
-@pytest.mark.nightly
-def test_the_sheet_and_the_picture(write, tmp_path):
-    out = tmp_path / "out"
-    assert run("score", str(write(seconds=0.02)), "--case", "thick", "--out", str(out)) == 0
-    assert (out / "score.png").stat().st_size > 10_000
-    assert "Beside our own models and other programs" in (out / "score.md").read_text()

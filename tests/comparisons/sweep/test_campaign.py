@@ -15,7 +15,7 @@ from campaigns import Here, alive, interrupt_when, rows_in, task, wait_for
 from limits import at_most
 
 from comparisons.sweep import campaign as runs_campaign
-from comparisons.sweep.campaign import TASKS, Progress, Run, campaign, carry_out, execute, function
+from comparisons.sweep.campaign import Progress, Run, campaign, carry_out, execute
 from comparisons.sweep.store import FILE, Finished
 from sheetbench.errors import BadInput
 from sheetbench.sources import digest, source
@@ -60,10 +60,6 @@ def test_the_source_digest_sees_names_and_contents(tmp_path):
 def test_other_code_in_the_worker_is_a_failure_and_not_an_answer():
     outcome = execute("a key of other code", "campaign_tasks:square", {"x": 1.0})
     assert outcome.status == "failed" and "another version" in outcome.message
-
-
-def test_every_task_is_where_its_name_says():
-    assert all(callable(function(name)) for name in TASKS)
 
 
 def test_a_run_that_fails_is_a_row_and_a_fault_not_filed_as_the_users_mistake(store):
@@ -204,7 +200,7 @@ def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(tmp_
     spoil, said = DAMAGE[damage]
     spoil(path)
     before = path.read_bytes() if path.is_file() else None
-    refused = pytest.raises(BadInput, match=f"{path}: .*({said}).*[;,] (move it away|a .* stands there)")
+    refused = pytest.raises(BadInput, match=f"{path}: .*({said}).*(move|stands there)")
     with refused, campaign(tmp_path) as store:
         carry_out(runs, store, pool=pytest.fail)
     assert (path.read_bytes() if path.is_file() else None) == before
@@ -217,7 +213,7 @@ def test_a_file_that_another_program_uses_is_refused(tmp_path, monkeypatch):
         pass
     other = connect(tmp_path / FILE)
     other.execute("begin exclusive")
-    refused = pytest.raises(BadInput, match="database is locked; another program uses it: close that")
+    refused = pytest.raises(BadInput, match=r"database is locked; .* no other program at it")
     with refused, campaign(tmp_path):
         pass
     other.close()
@@ -226,7 +222,7 @@ def test_a_file_that_another_program_uses_is_refused(tmp_path, monkeypatch):
 def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(tmp_path):
     """A limit on file sizes stands for the disk."""
     runs = [task("ballast", x=x, size=20_000) for x in range(4)]
-    refused = pytest.raises(BadInput, match=f"{tmp_path / FILE}: .*; (free some space|the disk is full)")
+    refused = pytest.raises(BadInput, match=f"{tmp_path / FILE}: .*.* with room on the disk")
     with campaign(tmp_path) as store:
         carry_out(runs[:1], store, pool=Here)
         with at_most(50_000), refused:

@@ -69,16 +69,3 @@ def test_a_lost_scheduler_is_said_and_the_rows_are_kept(store):
         with pool_of(address) as pool, pytest.raises(BadInput, match="connection to the cluster was lost"):
             carry_out(runs, store, pool=pool, progress=lambda progress: far.kill() if progress.done else None)
     assert len(rows_in(store.path)) == 1
-
-
-@pytest.mark.nightly
-def test_dask_cluster_loses_a_worker_mid_run_and_finishes(store, tmp_path):
-    task_file = str(HERE / "campaign_tasks.py")
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, preload=[task_file]
-    ) as local:
-        runs = [task("die_once", x=x, folder=str(tmp_path), victim=3) for x in range(8)]
-        with pool_of(local.scheduler_address) as pool:
-            found = carry_out(runs, store, workers=2, pool=pool)
-    assert [outcome.row["x"] for outcome in found] == list(range(8))
-    assert found[3].row["process"] != int((tmp_path / "died").read_text(encoding="utf-8"))

@@ -41,14 +41,12 @@ def test_questions_are_readings_of_the_same_rows(store):
 
 def test_a_column_is_a_function_of_scene_and_answer(store, monkeypatch):
     monkeypatch.setitem(columns.COLUMNS, "strain energy", lambda scene, answer: answer.energies)
-    (row,) = sweep([Ask(SEED, Elements("plate", 2), columns=("strain energy", "field"))], store, pool=Here)
+    (row,) = sweep([Ask(SEED, Elements("plate", 2), columns=("strain energy",))], store, pool=Here)
     assert row.row["columns"]["strain energy"] == row.document["energies"]
-    assert row.values("field").shape == (len(columns.field_points(SEED)[0]), 3)
 
 
 def test_tags_and_labels_make_no_other_row(store, monkeypatch):
-    """What was varied is the reader's; a model, its settings, a column, times and a program's version are
-    not."""
+    """A model, its settings, a column, times and a program's version do."""
     ask = Ask(SEED, Lattice(3))
     same = Ask(SEED, Lattice(3), tags={"factor": 2.0}, label="other")
     others = [

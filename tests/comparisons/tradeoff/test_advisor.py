@@ -12,11 +12,12 @@ from cases import sheet
 from commands import json_of, run
 
 import fem_reference
+from comparisons.comparison import strain_law
 from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
-from comparisons.models.spec import Lattice, Spec, spec_of
+from comparisons.models.spec import Lattice, Spec
 from comparisons.sweep import here as table
 from comparisons.sweep.front import cheapest
 from comparisons.tradeoff.advisor import advise
@@ -84,21 +85,6 @@ def test_the_load_number_is_of_the_length_that_hangs():
         assert near.span == 0.04 and near.span_load_number == near.load_number
 
 
-def test_a_busy_machine_and_all_digits_are_shown(monkeypatch):
-    """An error of 1.04 % is not the "1" that a tolerance of 1 % would let pass."""
-    monkeypatch.setattr("comparisons.sweep.load.average", lambda: 100.0)
-    advice = advise("one-edge-clamped", 0.2)
-    assert len(advice.warnings) == 1 or "scatter" in advice.warnings[1]
-    assert "(load 100 on" in advice.warnings[0]
-    assert advice.document()["warnings"] == list(advice.warnings)
-    report = advice.report()
-    assert advice.warnings[0] in report.notes
-    column = next(c for c in report.tables[0].columns if c.name == "error")
-    assert column.show(0.0104) == "1.04"
-    details = {c.name for c in report.tables[0].columns if c.detail}
-    assert details == {"status"} and {one.status for one in advice.tried} == {"converged"}
-
-
 @pytest.mark.sweep(4)
 @pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped", "curved-edge"])
 @pytest.mark.parametrize("tolerance", [0.05, 0.01, 0.003])
@@ -110,49 +96,18 @@ def test_the_choice_meets_the_tolerance(name, tolerance):
     assert actual_error(advice) <= tolerance
 
 
-def test_lattices_are_tried_with_what_auto_chooses():
-    """The curved edge: the springs that `--grading auto` takes with no calibration named, even and graded,
-    nearer than the usual ones on the same grid, and the advice says why, or why not."""
-    curved = advise(scenes.load("curved-edge"), 0.01, lattice=Lattice(grading="auto"))
-    errors = {
-        (tuple(row.spec.settings["grid"]), row.spec.settings.get("grading", 0.0)): row.error
-        for row in curved.tried
-        if row.spec.model == "lumped" and row.spec.settings["calibration"] == "consistent-membrane"
-    }
-    usual = {
-        tuple(row.spec.settings["grid"]): row.error
-        for row in curved.tried
-        if row.spec.settings.get("calibration") == "consistent"
-    }
-    both = [grid for grid, grading in errors if grid in usual and not grading]
-    assert any(grid[0] > 3 for grid in both) and any(grading for _, grading in errors)
-    assert all(errors[grid, 0.0] < usual[grid] for grid in both if grid[0] > 3)
-    assert curved.calibration.endswith("ν = 0.48 is above 0.4")
-    assert curved.calibration.startswith("calibration consistent-membrane")
-    assert "bent by 4 1/m" in curved.grading and curved.document()["grading"] == curved.grading
-    taken = spec_of("lumped", {"grid": [9, 9, 2], "calibration": "consistent", "grading": 0.3})
-    line = replace(curved, choice=taken).report().document["command"]
-    assert line == "sheetbench compare curved-edge --lumped 9x9x2 --grading 0.3"
-
-
-def test_the_advice_says_why_nothing_is_graded():
-    even = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.05, lattice=Lattice(grading="auto"))
-    assert even.grading.startswith("no grading") and "no narrow layer" in even.grading
-    assert not any(row.spec.settings.get("grading") for row in even.tried)
-
-
 def test_what_the_scene_does_not_need_is_left_out():
     light = advise(lighter(scenes.load("one-edge-clamped"), 0.01), 0.02)
     assert light.choice is not None
     assert light.choice.settings.get("linear") or light.choice.model == "plate"
-    assert light.choice.settings["symmetry"] is True
     assert "large displacements" not in light.needs
     said = " ".join(light.left_out)
-    assert "dynamics" in said and "nonlinearity" in said and "half" in said
+    assert "dynamics" in said and "nonlinearity" in said
     assert actual_error(light) <= 0.02
 
     heavy = advise(scenes.load("two-edges-clamped"), 0.01)
-    assert heavy.choice is not None and "symmetry" not in heavy.choice.settings
+    assert heavy.choice is not None
+    assert not any(row.spec.settings.get("linear") for row in heavy.tried)
     assert {"bending", "membrane stiffening", "large displacements"} <= set(heavy.needs)
 
 
@@ -160,7 +115,7 @@ def test_within_a_budget_the_most_accurate_is_chosen():
     scene = scenes.load("two-edges-clamped")
     short, long = advise(scene, None, 0.02), advise(scene, None, 0.2)
     assert short.succeeded and long.succeeded
-    assert short.seconds is not None and short.seconds <= 0.02
+    assert short.chosen.seconds is not None and short.chosen.seconds <= 0.02
     assert short.error is not None and long.error is not None and long.error <= short.error
     hopeless = advise(scene, 0.01, 1e-7)
     assert not hopeless.succeeded and hopeless.choice is None and "no model solves this" in hopeless.message
@@ -200,7 +155,8 @@ def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law, said):
     constants = {"young": 1e6} if law is None else {"law": law, "c1": 1.7e5, "c2": -2e3, "c3": 60.0}
     material = Material.model_validate({"poisson": 0.45, "density": 1e3, **constants})
     strip = pulled((100.0, 0.0), Sheet(0.2, 0.1, 0.002), material)
-    limit = advise(strip, 0.05, calibration="auto" if law else None).limit
+    lattice = resolve(strip, Lattice(9, "auto" if law else None))
+    limit = strain_law._limit(lattice, strain_law.of_lattice(lattice), 0.05)
     assert said in limit and bool(said) == bool(limit)
     if limit:
         stretch = float(limit.split(" from ")[1].split(" %")[0]) / 100.0
@@ -212,15 +168,18 @@ def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law, said):
 
 def test_one_rule_says_what_a_tolerance_is_held_against():
     """Error, bar and model error together, as a column and in a sentence; the cheapest of the table."""
-    advice = advise("two-edges-clamped", "1 %")
-    assert advice.tolerance == 0.01 and advice.model is not None
-    for row in advice.tried:
-        assert row.total == pytest.approx(row.error + advice.bar + advice.model.value)
+    advice = advise("two-edges-clamped", 0.01)
+    assert advice.tolerance == 0.01 and advice.model is not None and advice.choice is not None
+    assert advice.heading()[0] == "two-edges-clamped"
+    rows = advice.document()["tried"]
+    for row in rows:
+        assert row["total"] == pytest.approx(row["error"] + advice.bar + advice.model.value)
     (table,) = advice.tables()
     taken = r"model error takes 0\.\d+ %, its mesh's bar 0\.\d+ %: 0\.\d+ % are left for the grid\."
     assert re.fullmatch(f"Of 1 % the shell's {taken}", table.text)
-    within = [row for row in advice.tried if row.total <= 0.01]
-    assert min(within, key=lambda row: row.solve_seconds).choice
+    within = [row for row in rows if row["total"] <= 0.01]
+    cheapest = min(within, key=lambda row: row["solve_seconds"])
+    assert cheapest["settings"] == json.loads(json.dumps(advice.choice.settings))
     (tight,) = advise("two-edges-clamped", 0.5 * advice.model.value).tables()
     assert "more than all of it: within" in tight.text and "of a converged shell only" in tight.text
 
@@ -238,7 +197,7 @@ def test_the_trade_off_has_the_same_rule():
 
 
 def test_models_may_be_named():
-    lattice = advise("two-edges-clamped", 0.01, models="lumped")
+    lattice = advise("two-edges-clamped", 0.01, models=["lumped"])
     assert lattice.succeeded and lattice.choice.model == "lumped"
     assert lattice.error + lattice.bar + lattice.model.value <= 0.01
     hopeless = advise("two-edges-clamped", 1.05 * lattice.model.value, models=["lumped"])

@@ -6,25 +6,17 @@ import json
 import numpy as np
 import pytest
 from campaigns import Here
-from cases import sheet
 from commands import run
-from matplotlib.figure import Figure
 from verbs import run_here
 
-import lumped
-from comparisons.models.spec import Elements, External, Lattice, LatticePair, lattices, parse, references
+from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
 from comparisons.sweep import load, task
 from comparisons.sweep.campaign import campaign
-from comparisons.sweep.columns import field_points
 from comparisons.sweep.peak_memory import with_peak_memory
 from comparisons.sweep.solved import Ask, Solved
 from comparisons.tradeoff import statics
-from comparisons.tradeoff.answer import Tradeoff, folded
-from comparisons.tradeoff.figure import compose, logarithmic
 from comparisons.tradeoff.motion import dynamic_tradeoff
-from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench import scenes
-from sheetbench.answers.figure_style import PLAIN, parse_figure
 from sheetbench.answers.files import to_json
 from sheetbench.errors import BadInput
 
@@ -89,7 +81,7 @@ def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(scene, monkey
         moved = [[[0.0, 0.0, 1.0 + ask.spec.count**-2]] for ask in asks]
         return [
             Solved(ask, status, row={
-                "probes": {"P": u[0]}, "columns": {"field": u * len(field_points(scene)[1])},
+                "probes": {"P": u[0]}, 
                 "settings": ask.spec.settings, "load_factor": 1.0,
             })
             for ask, status, u in zip(asks, statuses, moved, strict=True)
@@ -97,8 +89,7 @@ def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(scene, monkey
 
     monkeypatch.setattr(statics, "sweep", solved)
     found = statics.tradeoff(scene, [Elements("shell", 3)], None, reference=Elements("shell", 8))
-    assert [bar is not None for bar in (found.uncertainty, found.field_uncertainty)] == [known] * 2
-    assert (found.rows[0].error is not None) == (found.rows[0].field_error is not None) == known
+    assert (found.uncertainty is not None) == (found.rows[0].error is not None) == known
 
 
 def test_a_tradeoff_has_all_its_rows(finished):
@@ -107,7 +98,7 @@ def test_a_tradeoff_has_all_its_rows(finished):
     assert [row["model"] for row in rows] == ["lumped"] * 4 + ["shell"] * 2
     assert all(row["status"] == "converged" for row in rows)
     for row in rows:
-        assert 0.0 < row["error"] < 0.2 and 0.0 < row["field_error"] < 0.3
+        assert 0.0 < row["error"] < 0.2
         assert row["solve_seconds"]["median"] > 0.0 and len(row["solve_seconds"]["samples"]) >= 2
         assert row["peak_memory_bytes"] >= 0 and row["machine"] and row["versions"]
     consistent, uniform = rows[1], rows[3]
@@ -122,10 +113,6 @@ def test_a_tradeoff_has_all_its_rows(finished):
     }
     with (finished / "tradeoff.csv").open(encoding="utf-8") as file:
         assert len(list(csv.DictReader(file))) == 6
-    assert (finished / "tradeoff.png").stat().st_size > 20_000
-    assert (finished / "tradeoff.pdf").read_bytes().startswith(b"%PDF")
-    assert "\\toprule" in (finished / "tradeoff.tex").read_text(encoding="utf-8")
-    assert json.loads((finished / "manifest.json").read_text(encoding="utf-8"))["machine"]
 
 
 @pytest.mark.nightly
@@ -158,78 +145,9 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path):
     assert found.front and json.loads(to_json(found.document()))["rows"]
 
 
-def test_labels_of_close_points_do_not_lie_on_each_other(scene):
-    """A grid and a pair of grids, the front's last two, a tenth apart in time and an eighth in error."""
-    lattice, pair = Lattice((9, 9, 2), "consistent"), LatticePair((9, 9, 2), (5, 5, 2), "consistent")
-    made = ((lattice.but(grid=(3, 3, 2)), 1e-4, 0.1), (lattice, 1.0e-3, 0.010), (pair, 1.1e-3, 0.0088))
-    rows = [
-        TradeoffRow(Ask(scene, spec), "converged", error=error, row={"cost": {"samples": [seconds]}})
-        for spec, seconds, error in made
-    ]
-    found = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
-    for look in (PLAIN, *parse_figure("pdf:single")):
-        drawn = compose(found, look)
-        drawn.draw_without_rendering()
-        boxes = {t.get_text(): t.get_window_extent() for t in drawn.axes[0].texts}
-        assert {"3", "9", "5:9"} <= set(boxes)
-        assert not boxes["9"].overlaps(boxes["5:9"])
-        names = [text.get_text() for text in drawn.legends[0].get_texts()]
-        assert any(name.startswith("lumped consistent  (order ") for name in names)
-        assert drawn.axes[1].get_title(loc="left") == "Observed convergence"
-
-
-@pytest.mark.nightly
-def test_steps_of_a_motion_s_trade_go_by_the_deformed_sheet_and_are_halved_until_a_row_converges(tmp_path):
-    """A soft strip of 120 by 40 mm swings in 1.8 s while it is flat, in a quarter of that where it hangs."""
-    strip = sheet(0.12, 0.04, 0.002, 0.6e6, 0.45, 1100.0, weight=9.81)
-    springs = lumped.calibrate(strip.sheet, strip.material, grid=3)
-    flat = 1.0 / float(lumped.modes(strip, springs, 1, springs.masses).frequencies[0])
-    options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 800, "pool": Here}
-    with campaign(tmp_path) as store:
-        found = dynamic_tradeoff(strip, 0.1, store, divisions=(4,), reference=Elements("shell", 2), **options)
-    assert found.lowest_period < 0.5 * flat
-    assert any(row.status == "converged" for row in found.rows)
-    assert len(found.rows) == 1 or found.rows[0].status != "converged"
-
-
-@pytest.mark.nightly
-def test_motions_with_strains_beyond_the_model_are_measured_and_say_so(tmp_path):
-    """A sheet too heavy for its law: its rows had neither error nor cost."""
-    heavy = sheet(0.2, 0.1, 0.003, 2e4, weight=9.81)
-    options = {"lattices": [Lattice(3)], "integrators": ("esdirk",), "fine": 400, "pool": Here}
-    shell = Elements("shell", 2)
-    with campaign(tmp_path) as store:
-        found = dynamic_tradeoff(heavy, 0.05, store, divisions=(40,), reference=shell, **options)
-    (row,) = found.rows
-    assert row.status == found.reference.status == "strain-outside-model"
-    assert 0.0 < row.error < 1.0 and row.seconds_per_second > 0.0 and found.uncertainty > 0.0
-    assert found.succeeded and any("strain-outside-model" in line for line in found.complaints())
-
-
-def test_equal_complaints_are_one_line():
-    ended = [
-        MotionRow("lumped", "3×3×2", "esdirk", step, "diverged", f"at {time} s: use smaller steps")
-        for step, time in ((0.02, 0.1), (0.01, 0.2))
-    ]
-    fine = MotionRow("lumped", "3×3×2", "esdirk", 0.005, "converged", "")
-    other = MotionRow("shell", "4", "", None, "diverged", "use smaller steps")
-    assert folded([*ended, fine, other]) == (
-        "lumped 3×3×2 esdirk, steps 20, 10 ms: diverged: use smaller steps",
-        "shell 4: diverged: use smaller steps",
-    )
-
-
 def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch):
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     assert load.warnings([0.5, 2.0, None], [(1.0, 1.9), (1.0,)]) == []
     busy, wide = load.warnings([0.5, 20.0], [(1.0, 3.0), (1.0, 1.1)])
     assert busy.startswith("1 of 2 times are too long: the machine was busy (load 20 on 2 processors")
     assert wide.startswith("1 of 2 timings vary by more than a factor of 2, by up to 3")
-
-
-@pytest.mark.parametrize(("most", "labels"), [(100, "50 60"), (1000, "50"), (3000, "")])
-def test_a_short_axis_has_numbers_between_powers_of_ten(most, labels):
-    axis = Figure().add_subplot(xlim=(45, most))
-    logarithmic(axis)
-    label = axis.xaxis.get_minor_formatter()
-    assert " ".join(filter(None, map(label, (50, 60)))) == labels

@@ -69,7 +69,7 @@ def test_modes_ring_down_at_their_poles(damped):
         pole = material.branches.pole(np.sqrt(square[number]), material.dashpot_time, 0.0)
         step = 2.0 * np.pi / abs(pole.imag) / PER_PERIOD
         method = ConstrainedAlpha(model, step, 1e-9, step)
-        motion = method.begin(0.0, model.moved(flat, 1e-6 * shape / np.abs(shape).max()), still)
+        motion = method.begin(0.0, model.moved(flat, 1e-6 * shape / np.abs(shape).max()), still).state
         swing = []
         for _ in range(100):
             swing.append(shape @ model.mass @ (motion.q - flat))

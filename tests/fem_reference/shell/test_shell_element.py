@@ -6,13 +6,13 @@ from cases import RUBBER, SHEET
 from scipy.spatial.transform import Rotation
 from skfem import Basis, ElementQuad2, MeshQuad
 
+from fem_reference.discrete.answer import solve_on
 from fem_reference.discrete.static import Static, StaticState
-from fem_reference.plate import statics as plate
-from fem_reference.shell import statics as shell
+from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell.directors import multiplier, tangent_frames, to_unit
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import Element
-from fem_reference.solid import statics as solid
+from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.loads import area_force
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
@@ -151,9 +151,9 @@ def test_an_inverted_element_is_refused_by_every_reference():
     with pytest.raises(ValueError, match="of the mesh is inverted"):
         build(folded)
     scene = scenes.load("one-edge-clamped")
-    for solve_on in (plate.solve_on, shell.solve_on, solid.solve_on):
+    for model in (DiscretePlate, DiscreteShell, DiscreteSolid):
         with pytest.raises(ValueError, match="of the mesh is inverted"):
-            solve_on(folded, scene)
+            solve_on(model, folded, scene)
 
 
 def test_directors_are_brought_to_unit_length_and_turn_across_themselves():

@@ -294,8 +294,3 @@ def measured_files(draw: st.DrawFn) -> bytes:
         row = draw(st.sampled_from(cells))
         row[draw(st.integers(0, len(row) - 1))] = draw(st.sampled_from(CELLS))
     return _broken(draw, "\n".join(",".join(row) for row in cells).encode("utf-8"), CELLS)
-
-
-def measured() -> st.SearchStrategy[tuple[bytes, bool]]:
-    """A measured file, and whether it is called one of a motion."""
-    return st.tuples(measured_files(), st.booleans())

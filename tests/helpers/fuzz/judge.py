@@ -3,7 +3,6 @@
 import contextlib
 import io
 import json
-import math
 import os
 import sys
 import traceback
@@ -14,11 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matrix_rows import LONGEST, require_balanced
 
 from comparisons.cli import main
 
 DONE, BAD_INPUT, NOT_CONVERGED = 0, 2, 3
-LONGEST = 400  # characters of a refusal with its paths
 
 
 @dataclass(frozen=True)
@@ -70,58 +69,12 @@ def document(found: Outcome) -> Any:
     return json.loads(found.out, parse_constant=refuse)
 
 
-def in_balance(answer: dict[str, Any], summed: bool = True) -> None:
-    """What is called converged is in balance, by its own word and, summed, by that of reactions and loads.
-
-    The sum is taken from the document alone: weight of the sheet, its payloads and chains, points, edges;
-    where a pressure follows the sheet its own word must do.
-    """
-    scene = answer["scene"]
+def in_balance(answer: dict[str, Any]) -> None:
+    """What is called converged is in balance, and every probe of it has a place."""
     for solution in answer["solutions"]:
-        if solution["status"] != "converged":
-            continue
-        about = json.dumps({"scene": scene, "solution": solution})
-        assert solution["balance"] is None or solution["balance"]["holds"], about
-        assert solution["probes"] and None not in np.ravel(list(solution["probes"].values())).tolist(), about
-        if not summed or any(load["kind"] == "pressure" for load in scene["load"]):
-            continue
-        carried = [np.array(force, float) for force in solution["reactions"].values()]
-        loads = applied(scene)
-        left = sum(carried, np.zeros(3)) + sum(loads, np.zeros(3))
-        size = sum(np.abs(force).sum() for force in [*carried, *loads])
-        rounding = 1e-12 * scene["material"]["young"] * scene["sheet"]["thickness"] * max(length_of(scene))
-        assert np.abs(left).max() <= 1e-6 * size + rounding, (left, about)
-
-
-def length_of(scene: dict[str, Any]) -> tuple[float, float]:
-    return scene["sheet"]["length_x"], scene["sheet"]["length_y"]
-
-
-def applied(scene: dict[str, Any]) -> list[np.ndarray]:
-    """Dead forces [N] on the sheet of a scene's document, histories at their last factor."""
-    sheet, gravity = scene["sheet"], scene.get("gravity")
-    length = {axis: sheet[f"length_{'y' if axis == 'x' else 'x'}"] for axis in "xy"}  # of the edge x0, y0, …
-    forces = []
-    if gravity:
-        mass = scene["material"]["density"] * math.prod(
-            sheet[f"{key}"] for key in ("length_x", "length_y", "thickness")
-        )
-        mass += sum(payload["mass"] for payload in scene["mass"])
-        for rod in scene["actuator"]:
-            if "line_density" in rod:
-                mass += rod["line_density"] * length[rod["edge"][0]]
-        forces.append(mass * last(gravity) * np.array(gravity["acceleration"]))
-    for load in scene["load"]:
-        if load["kind"] == "point":
-            forces.append(last(load) * np.array(load["force"]))
-        elif load["kind"] == "edge":
-            forces.append(last(load) * length[load["edge"][0]] * np.array(load["force_per_length"]))
-    return forces
-
-
-def last(loading: dict[str, Any]) -> float:
-    history = loading.get("history")
-    return float(history["factor"][-1]) if history else 1.0
+        require_balanced(solution)
+        places = np.ravel(list(solution["probes"].values())).tolist()
+        assert solution["status"] != "converged" or (places and None not in places), json.dumps(answer)
 
 
 def files(folder: Path) -> set[str]:

@@ -4,8 +4,7 @@ Each takes a folder of its own, in which it may write, and what its strategy of 
 """
 
 import warnings
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -53,18 +52,15 @@ def checks(folder: Path, text: bytes) -> str:
     return WORDS[found.status]
 
 
-def compares(folder: Path, data: dict[str, Any], masses: int = 3, summed: bool = True) -> str:
-    """A sound scene is solved, and what converges is in balance; summed: as its document sums up."""
+def compares(folder: Path, data: dict[str, Any]) -> str:
+    """A sound scene is solved, and what converges is in balance."""
     (folder / "scene.toml").write_text(tomlkit.dumps(data), encoding="utf-8")
-    small = ("--lumped", str(masses), "--elements", "2", "--no-uncertainty", "--json")
+    small = ("--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
     found = outcome(["compare", "scene.toml", *small], folder)
     held(found, data)
     if found.status != BAD_INPUT:
-        in_balance(document(found), summed)
+        in_balance(document(found))
     return WORDS[found.status]
-
-
-compares_shapes = partial(compares, masses=5, summed=False)
 
 
 def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
@@ -96,19 +92,13 @@ def obeys(folder: Path, arguments: Sequence[str]) -> str:
 
 
 STATIC = ("identify", "two-edges-clamped", "--lumped", "2")
-MOVING = ("simulate", "two-edges-settling", "--lumped", "2", "--duration", "0.002", "--every", "0.001")
 
 
-def measures(folder: Path, example: tuple[bytes, bool]) -> str:
+def measures(folder: Path, text: bytes) -> str:
     """A measured file, of a rest or of a motion, is read or refused."""
-    text, moving = example
     (folder / "measured.csv").write_bytes(text)
-    command = MOVING if moving else STATIC
-    found = outcome([*command, "--measured", "measured.csv", "--json"], folder)
+    found = outcome([*STATIC, "--measured", "measured.csv", "--json"], folder)
     held(found, text)
     if found.status != BAD_INPUT:
         document(found)
     return WORDS[found.status]
-
-
-Trial = Callable[[Path, Any], str]

@@ -91,7 +91,7 @@ def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model):
     """And tells of none where there is none, however small the share of the load that a step is."""
     scene = pulled(force)
     looked = solve(scene, model)
-    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 0)
+    monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 0)
     plain = solve(scene, model)
     assert plain.iterations < looked.iterations <= (1 + Limits.careful_budget_factor) * plain.iterations
     assert looked.message == plain.message and looked.snaps == plain.snaps == ()
@@ -108,7 +108,7 @@ def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long()
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model):
-    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 20)
+    monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 20)
     found = solve(pulled(300.0), model)
     assert found.status is Status.CONVERGED and found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message
@@ -118,7 +118,7 @@ def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, mod
 def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, model):
     """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so; it
     took their number for 0, and the path for one that keeps to its branch."""
-    monkeypatch.setattr(tracer, "careful_budget", lambda *_: 40)
+    monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 40)
 
     def solved():
         scene = load("one-edge-clamped")

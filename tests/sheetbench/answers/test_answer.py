@@ -111,7 +111,7 @@ def test_pandas_files_a_figure_and_a_prompt_follow_from_it(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {
         "pair.json", "pair.md", "pair.tex", "rows.csv", "many.csv", "line.svg",
     }  # fmt: skip
-    assert "… and 12 more rows" in repr(Pair()) and Pair()._repr_html_().count("<table>") == 2
+    assert "… and 12 more rows" in repr(Pair())
 
 
 HISTORY = sb.History(

@@ -11,7 +11,7 @@ from lumped.statics import energy_descent
 from lumped.statics.structure import LatticeStructure
 from sheetbench.numerics import direct
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
-from sheetbench.numerics.direct import DirectSolver, Factor, SymmetricPartFactor
+from sheetbench.numerics.direct import DirectSolver, Factor, NearFactor
 from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
 
@@ -59,7 +59,7 @@ def test_only_real_eigenvalues_below_zero_count_as_instability():
 def test_a_lattice_whose_stability_is_not_known_says_so(monkeypatch):
     scene = make_scene(loads=[{"kind": "pressure", "value": 5.0}])
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
-    for kind in (Factor, SymmetricPartFactor):
+    for kind in (Factor, NearFactor):
         monkeypatch.setattr(kind, "negative_real", lambda self: None)
     assert any("stability not known" in note for note in lumped.solve(scene, springs).remarks)
 
@@ -71,7 +71,7 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     flat = np.zeros_like(problem.loads.dead)
     factor = problem.system.factor(problem.tangent(flat, 0.0))
     structure = LatticeStructure(scene, problem)
-    monkeypatch.setattr(factor, "solve", lambda b, of=factor.solve: -of(b))
+    monkeypatch.setattr(factor, "solve", lambda b, enough, of=factor.solve: -of(b))
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
     with pytest.raises(LoadStepFailed, match="not positive definite"):
         energy_descent.settle(Path(structure, structure, structure.rest()), 1.0)

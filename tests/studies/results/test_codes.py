@@ -39,17 +39,6 @@ def test_what_is_wrong_with_a_file_of_results_is_said(tmp_path, change, message)
         read_results(tmp_path / "x.json")
 
 
-def test_a_stranger_s_code_has_its_table_and_its_place(tmp_path, monkeypatch):
-    """One recipe on one scene: nothing of ours to compare it with."""
-    row = results.Trial("two-edges-clamped", "as it is", "squares", "converged", 0.1, 1.0)
-    monkeypatch.setattr(results, "RESULTS", tmp_path)
-    results.write_results("mine", "Mine 1", "MIT", [row])
-    found = codes()
-    assert found.nearer() == []
-    assert [(one.code, one.recipe) for one in found.front("two-edges-clamped")] == [("Mine 1", "as it is")]
-    assert "| two-edges-clamped | 10 %, 1 s |" in found.report().to_markdown()
-
-
 def test_stored_rows_have_the_published_numbers():
     """Of docs/codes.md's findings: in use and ours on the cantilever and test 1, the mean of all."""
     rows = {(one.code.split()[0], one.scene): one for one in codes().nearer()}
@@ -68,8 +57,7 @@ def test_a_ladder_is_measured_against_the_reference_set(tmp_path, monkeypatch):
 
 
 def test_rows_with_the_same_inputs_are_not_run_again(tmp_path, monkeypatch):
-    """A code that answers with nothing moved: all off by 100 %. Then it is gone, and only a changed recipe
-    would need it; one row is left where the budget is none."""
+    """A code that answers with nothing moved: all off by 100 %."""
     code = tmp_path / "python"
     probes = {name: [0.0, 0.0, 0.0] for name in results.CASES["thick"].scene.probes}
     answer = json.dumps({"status": "converged", "probes": probes, "solve_seconds": 0.5})

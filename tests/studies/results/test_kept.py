@@ -3,8 +3,6 @@
 import pytest
 from commands import run
 
-from sheetbench.answers.report import Report
-from sheetbench.answers.table import MILLIMETRES, Column, Table, TableUnit
 from studies import pages
 
 NAMES = sorted(path.stem for path in pages.RESULTS.glob("*.json") if path.stem != "promises")
@@ -17,25 +15,6 @@ def test_every_kept_result_makes_a_page(name):
     assert report.to_markdown().count("\n| --- ") + report.to_markdown().count("\n| ---: ") >= len(
         report.tables
     )
-
-
-def test_what_is_kept_is_shown_as_it_was(tmp_path, monkeypatch):
-    monkeypatch.setattr(pages, "RESULTS", tmp_path)
-    columns = (
-        Column("what"),
-        MILLIMETRES(".2f", "u"),
-        Column("n", form="d"),
-        Column("of"),
-        Column("x", form="g"),
-    )
-    rows = (
-        ("a | [b]", 1.5e-3, 3, TableUnit("Pa", "MPa", 1e-6), 2e6),
-        ("c", None, 4, TableUnit("m", "mm", 1e3), 0.1),
-    )
-    table = Table("A caption", columns, rows, "t", True, "Some text.")
-    report = Report("r", "Title", {}, "sub", tables=(table,), notes=("A note.",), complaints=("No.",))
-    pages.keep(report, made="today")
-    assert pages.kept("r").to_markdown() == report.to_markdown().replace("- No.", "today.\n\n- No.")
 
 
 def test_a_runs_folder_is_kept(tmp_path, monkeypatch):

@@ -15,8 +15,8 @@ from sheetbench.scenes import (
     Sheet,
     Symmetric,
 )
-from sheetbench.scenes.meaning.kinematics import UP, BentEdge, MovedEdge, TiltedEdge, bent_or_tilted
-from sheetbench.scenes.objects.tables import PiecewiseLinear, SmoothCurve
+from sheetbench.scenes.meaning.kinematics import UP, MovedEdge, TurnedEdge, bent_or_tilted
+from sheetbench.scenes.objects.tables import PiecewiseCurve
 
 SHEET = Sheet(length_x=0.3, length_y=0.2, thickness=0.003)
 TIME, DISPLACEMENT = (0.1, 0.5, 0.7), ((0.0, 0.01, 0.0), (0.02, 0.0, -0.01), (0.0, 0.0, 0.03))
@@ -31,28 +31,26 @@ def on_edge(edge):
 
 
 def test_values_over_time_are_linear_between_samples_and_constant_outside():
-    course = PiecewiseLinear((1.0, 2.0, 4.0), ((0.0, 1.0), (2.0, 1.0), (2.0, -3.0)))
+    course = PiecewiseCurve((1.0, 2.0, 4.0), ((0.0, 1.0), (2.0, 1.0), (2.0, -3.0)))
     assert_allclose([course.at(t) for t in (0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 9.0)],
                     [(0, 1), (0, 1), (1, 1), (2, 1), (2, -1), (2, -3), (2, -3)])  # fmt: skip
     assert_allclose(course.at(), (2.0, -3.0))
 
 
 def test_slopes_are_those_from_a_moment_on_and_rounding_misses_none():
-    course = PiecewiseLinear((1.0, 2.0, 4.0), (0.0, 2.0, -2.0))
+    course = PiecewiseCurve((1.0, 2.0, 4.0), (0.0, 2.0, -2.0))
     found = [
         course.slope(t) for t in (0.5, 1.0, np.nextafter(1.0, 0.0), 1.5, 2.0, np.nextafter(2.0, 0.0), 4.0)
     ]
     assert_allclose(found, [0.0, 2.0, 2.0, 2.0, -2.0, -2.0, 0.0])
-    assert (
-        PiecewiseLinear((3.0,), (7.0,)).slope(3.0) == 0.0 and PiecewiseLinear((3.0,), (7.0,)).at(9.0) == 7.0
-    )
+    assert PiecewiseCurve((3.0,), (7.0,)).slope(3.0) == 0.0 and PiecewiseCurve((3.0,), (7.0,)).at(9.0) == 7.0
 
 
 @pytest.mark.parametrize("curvature", [0.0, 1e-9, 4.0, -7.0])
 def test_a_bent_edge_lies_on_an_arc_about_the_middle_of_its_own(curvature):
     """κ → 0 from numbers whose 1 − cos has no digits left: the parabola κ s²/2."""
     support = Curved(edge="x0", curvature=curvature)
-    points, placed = on_edge("x0"), BentEdge(support, (support,), SHEET).placed(on_edge("x0"))
+    points, placed = on_edge("x0"), TurnedEdge(support, (support,), SHEET).placed(on_edge("x0"))
     s = points[:, 1] - 0.1
     if abs(curvature) > 1e-6:
         arc = np.column_stack(
@@ -74,10 +72,10 @@ def test_on_a_plane_of_symmetry_a_rod_has_its_middle():
 
 @pytest.mark.parametrize("edge", ["x0", "x1", "y0", "y1"])
 def test_beyond_a_tilted_clamp_the_sheet_would_go_up(edge):
-    placed = TiltedEdge(Clamped(edge=edge, tilt=0.3)).placed(on_edge(edge), 0.5)
+    placed = TurnedEdge(Clamped(edge=edge, tilt=0.3), (), SHEET).placed(on_edge(edge), 0.5)
     outward = {"x0": (-1, 0), "x1": (1, 0), "y0": (0, -1), "y1": (0, 1)}[edge]
     director = [-np.sin(0.15) * outward[0], -np.sin(0.15) * outward[1], np.cos(0.15)]
-    assert_allclose(UP + placed.director, director, atol=1e-15)
+    assert_allclose(UP + placed.director, np.tile(director, (len(HEIGHT), 1)), atol=1e-15)
     assert_allclose(placed.lifted(HEIGHT), HEIGHT[:, None] * (np.array(director) - UP), atol=1e-17)
 
 
@@ -107,8 +105,8 @@ def test_the_velocity_of_a_moved_edge_is_its_derivative(time):
 @pytest.mark.parametrize(
     "edge",
     [
-        BentEdge(Curved(edge="x1", curvature=5.0), (), SHEET),
-        TiltedEdge(Clamped(edge="x1", tilt=-0.8)),
+        TurnedEdge(Curved(edge="x1", curvature=5.0), (), SHEET),
+        TurnedEdge(Clamped(edge="x1", tilt=-0.8), (), SHEET),
         MovedEdge(MOTION, SHEET),
     ],
 )
@@ -148,7 +146,7 @@ def test_pieces_of_a_chain_cover_the_edge(base, segments):
 def test_a_smooth_course_is_scipys_and_its_derivatives_are_its_slopes():
     """Constant outside; one slope from either side at an inner sample, none beyond the ends."""
     time, values = (1.0, 2.0, 4.0, 5.0), ((0.0, 1.0), (2.0, 1.0), (3.0, 1.5), (3.0, -3.0))
-    course, scipys = SmoothCurve(time, values), PchipInterpolator(time, values)
+    course, scipys = PiecewiseCurve(time, values, "smooth"), PchipInterpolator(time, values)
     at = np.linspace(1.01, 4.99, 37)
     assert_allclose(course.at(at), scipys(at), atol=1e-15)
     assert_allclose(course.slope(at), scipys(at, 1), atol=1e-14)
@@ -160,7 +158,7 @@ def test_a_smooth_course_is_scipys_and_its_derivatives_are_its_slopes():
 
 
 def test_a_smooth_course_does_not_overshoot_and_rests_where_samples_are_equal():
-    course = SmoothCurve((0.0, 0.1, 0.5, 0.6), (0.0, 3.0, 3.0, 0.0))
+    course = PiecewiseCurve((0.0, 0.1, 0.5, 0.6), (0.0, 3.0, 3.0, 0.0), "smooth")
     between = course.at(np.linspace(0.0, 0.6, 301))
     assert between.max() == 3.0 and between.min() == 0.0
     assert_allclose(course.at(np.linspace(0.1, 0.5, 9)), 3.0)
@@ -169,13 +167,13 @@ def test_a_smooth_course_does_not_overshoot_and_rests_where_samples_are_equal():
 def test_a_table_of_two_samples_is_a_line_either_way():
     at = np.linspace(-0.1, 0.3, 9)
     assert_allclose(
-        SmoothCurve((0.0, 0.2), (1.0, 3.0)).at(at), PiecewiseLinear((0.0, 0.2), (1.0, 3.0)).at(at)
+        PiecewiseCurve((0.0, 0.2), (1.0, 3.0), "smooth").at(at), PiecewiseCurve((0.0, 0.2), (1.0, 3.0)).at(at)
     )
 
 
 @pytest.mark.parametrize("span", [1e-9, 1.0, 1e6])
 def test_a_slope_does_not_depend_on_the_unit_of_time(span):
     """A table of nanoseconds had the next piece's slope half a piece early."""
-    table = PiecewiseLinear([0.0, 0.5 * span, span], [0.0, 1.0, 0.0])
+    table = PiecewiseCurve([0.0, 0.5 * span, span], [0.0, 1.0, 0.0])
     assert table.slope(0.25 * span) == pytest.approx(2.0 / span)
     assert table.slope(0.5 * span * (1.0 - 1e-12)) == pytest.approx(-2.0 / span)  # a sum of steps

@@ -9,7 +9,6 @@ from scipy.integrate import solve_ivp
 import fem_reference
 import lumped
 from comparisons.models.scales import scales
-from comparisons.models.symmetry import half, planes
 from lumped.loads import Loads
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
@@ -122,17 +121,8 @@ def test_statics_take_the_last_factor_of_a_rods_weight(model):
     assert largest(moved - expected) < 1e-9 * largest(expected)
 
 
-def test_scales_and_halves_know_of_histories():
+def test_scales_know_of_histories():
     assert scales(loaded()).as_dict() == pytest.approx(scales(multiplied_out(loaded())).as_dict())
-    scene = pull_on_a_cantilever(RAMP)
-    upwards = scene.loads[0].model_copy(update={"force": (0.0, 0.0, 0.1)})
-    scene = scene.model_copy(update={"loads": (upwards,)})
-    assert planes(scene) == (1,)
-    assert half(scene, 1).loads[0].history == upwards.history
-    ends = [upwards.model_copy(update={"at": (0.188, y)}) for y in (0.0, 0.188)]
-    assert planes(scene.model_copy(update={"loads": tuple(ends)})) == (1,)
-    ends[1] = ends[1].model_copy(update={"history": None})
-    assert planes(scene.model_copy(update={"loads": tuple(ends)})) == ()
 
 
 @pytest.mark.parametrize("time, factors", [(-1.0, (2.0, 1.0)), (0.05, (0.5, 0.0)), (9.0, (-4.0, -1.0))])

@@ -6,7 +6,7 @@ import pytest
 
 from comparisons.cli import main
 from sheetbench.scenes import Implausible, SceneError, load
-from sheetbench.scenes.objects import mesh_files
+from sheetbench.scenes.objects import plan_mesh
 
 SCENE = """
 name = "own"
@@ -75,13 +75,13 @@ def test_the_command_refuses_it_in_a_line(tmp_path, capsys):
 def test_reading_has_limits_of_time_and_memory(tmp_path, monkeypatch):
     (tmp_path / "m.node").write_text(NODES)
     endless = written(tmp_path, "m.ele", "# x\n")
-    monkeypatch.setitem(mesh_files.FORMATS, ".ele", "tetgen")
-    monkeypatch.setattr(mesh_files, "SECONDS", 1.0)
+    monkeypatch.setitem(plan_mesh.FORMATS, ".ele", "tetgen")
+    monkeypatch.setattr(plan_mesh, "SECONDS", 1.0)
     started = perf_counter()
     with pytest.raises(SceneError, match=r"m.ele: it cannot be read: no answer within 1 s"):
         load(endless)
     assert perf_counter() - started < 30.0
-    monkeypatch.setattr(mesh_files, "SECONDS", 20.0)
+    monkeypatch.setattr(plan_mesh, "SECONDS", 20.0)
     with pytest.raises(SceneError, match=r"m\.msh: reading it takes more memory than a mesh may"):
         load(written(tmp_path, "m.msh", FAR))
 

@@ -14,8 +14,8 @@ from sheetbench.scenes.meaning.natural_state import (
     sheet_at_rest,
     thermal,
 )
-from sheetbench.scenes.meaning.natural_words import natural_in_words
 from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.meaning.words import natural_in_words
 from sheetbench.scenes.objects.natural import Natural, Temperature
 
 MATERIAL = Material(young=1e6, poisson=0.3, density=1e3, expansion=1e-4)

@@ -62,7 +62,7 @@ def target_common_processor() -> None:
 os.environ.setdefault("NUMBA_CACHE_DIR", str(user_cache_path("sheetbench") / "numba"))  # numba reads it once
 target_common_processor()
 
-from numba.core import caching, event  # noqa: E402  # after its settings are made
+from numba.core import caching, event, types  # noqa: E402  # after its settings are made
 from numba.core.runtime import rtsys  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -224,8 +224,7 @@ class _Announcement(event.Listener):  # type: ignore[misc]
 def _arrays_hold_one_reference() -> None:
     """Let numba count the references to an array's memory alone: it looks for others in shape, strides and
     pointers wherever an array is taken or dropped, a fifth of all instructions, which LLVM removes later."""
-    from numba import types
-    from numba.extending import models, register_model  # only where something is compiled
+    from numba.core.extending import models, register_model  # only where something is compiled
 
     @register_model(types.Array)
     class _Array(models.ArrayModel):  # type: ignore[misc]

@@ -2,8 +2,9 @@
 
 `python tests/lumped/statics/test_thirty_scenes.py` writes thirty_scenes.json anew, for a change that is
 meant to change answers. Masses of the lattices: 9 along the shorter side unless the table has others.
-Displacements within 1e-9 of the largest follow from residuals of 1e-11 of the forces. Two rows are this tracer's own: two clamps
-pushed 2 mm together, which the one before left flat and unstable, and 20 mm, where the sheet snaps earlier.
+Displacements within 1e-9 of the largest follow from residuals of 1e-11 of the forces. Two rows are
+this tracer's own: two clamps pushed 2 mm together, which the one before left flat and unstable,
+and 20 mm, where the sheet snaps earlier.
 """
 
 import json

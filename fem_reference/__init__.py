@@ -41,8 +41,8 @@ def solve(
     """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
 
     near: of the shell, the displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in an
-    equilibrium to be sought from first. progress: called once an iteration; the plate, which is linear, has
-    none. The law of strain is the material's own, where it has one, unless `law` is requested.
+    equilibrium to be sought from first. progress: called once an iteration. The law of strain is the
+    material's own, where it has one, unless `law` is requested.
     Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
 
     >>> import fem_reference
@@ -53,8 +53,7 @@ def solve(
     scene = scene_of(scene)
     requested = with_defaults(scene, options(model), requested)
     check(model, requested)
-    if "progress" in _parameters(model):
-        requested["progress"] = progress
+    requested["progress"] = progress
     if near is not None:
         if model != "shell":
             raise BadInput(f"{model}: is not begun near a shape; the shell is")

@@ -14,27 +14,14 @@ on a busy one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from sheetbench.answers.size import Size, factors
 
-
-@dataclass(frozen=True)
-class _Cost:
-    """Bytes whatever the mesh, and for an element and a nonzero of the factors; seconds for an element and an
-    operation of factorising."""
-
-    always: float
-    element: float
-    nonzero: float
-    element_seconds: float
-    operation_seconds: float
-
-
+# Bytes whatever the mesh, and for an element and a nonzero of the factors; seconds for an element and an
+# operation of factorising.
 COSTS = {
-    "plate": _Cost(10e6, 0.21e6, 8.0, 0.5e-3, 2e-10),
-    "shell": _Cost(8e6, 0.075e6, 24.0, 1.35e-3, 1e-9),
-    "solid": _Cost(20e6, 1.2e6, 14.0, 6e-3, 1.2e-9),
+    "plate": (10e6, 0.21e6, 8.0, 0.5e-3, 2e-10),
+    "shell": (8e6, 0.075e6, 24.0, 1.35e-3, 1e-9),
+    "solid": (20e6, 1.2e6, 14.0, 6e-3, 1.2e-9),
 }
 
 
@@ -44,9 +31,9 @@ def footprint(model: str, elements: tuple[int, int], layers: int = 1) -> Size:
     unknowns = 3 * (2 * layers + 1) if model == "solid" else 5
     count = elements[0] * elements[1] * layers
     nonzeros, operations = factors(nodes, unknowns)
-    cost = COSTS[model]
+    always, element, nonzero, element_seconds, operation_seconds = COSTS[model]
     return Size(
         unknowns=nodes[0] * nodes[1] * unknowns,
-        memory=cost.always + cost.element * count + cost.nonzero * nonzeros,
-        seconds=cost.element_seconds * count + cost.operation_seconds * operations,
+        memory=always + element * count + nonzero * nonzeros,
+        seconds=element_seconds * count + operation_seconds * operations,
     )

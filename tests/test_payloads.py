@@ -132,7 +132,7 @@ def test_judges_are_given_the_weight():
     scene = strip(body(at=(0.17, 0.013)), {"where": PART, "mass": TIP}, young=2e8)
     bricks = Bricks.of(scene, 2, 2, "edges")
     assert forces(scene, bricks).sum(axis=0) == pytest.approx([0.0, 0.0, -2.0 * TIP * 9.81])
-    assert "*CLOAD" in deck(scene, bricks, False)
+    assert "*CLOAD" in deck(scene, bricks)
     pointed = strip(body(at=(0.17, 0.013)))
     handed = problem(pointed, Triangles.of(pointed.sheet, 2), np.ones(1))["force"]
     assert handed.sum(axis=0) == pytest.approx([0.0, 0.0, -TIP * 9.81])

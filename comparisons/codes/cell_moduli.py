@@ -209,7 +209,7 @@ def homogenise(
     try:
         off = limit_error(scene, moduli_of(cell, chosen))
         if not given and (best := best_hinge(scene, cell, chosen)):
-            others, chosen = (chosen, off), chosen | {"hinge": best[0]}
+            others, chosen = (chosen, off), chosen | {"hinge": best}
             off = limit_error(scene, moduli_of(cell, chosen))
     except NoEquilibrium as error:
         off, others, missing = None, None, str(error)

@@ -165,11 +165,9 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
     return off
 
 
-def least_error(
-    scene: Scene, moduli: Callable[[float], Moduli], low: float, high: float
-) -> tuple[float, float]:
-    """The number between low and high whose moduli leave the least error in the limit in this scene, and that
-    error. Raises NoEquilibrium where the sheet, or every one of these moduli, is unstable there."""
+def least_error(scene: Scene, moduli: Callable[[float], Moduli], low: float, high: float) -> float:
+    """Return the number between low and high whose moduli leave the least error in the limit in this scene.
+    Raises NoEquilibrium where the sheet, or every one of these moduli, is unstable there."""
     error_of = limit_errors(scene, COARSE)
 
     def off(logarithm: float) -> float:
@@ -182,7 +180,7 @@ def least_error(
     found = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
     if found.fun == LOST:
         raise NoEquilibrium("no coefficients of this mesh have a stable equilibrium in this scene")
-    return float(np.exp(found.x)), float(found.fun)
+    return float(np.exp(found.x))
 
 
 def _section(scene: Scene, moduli: Moduli) -> Section:
@@ -194,17 +192,14 @@ def _section(scene: Scene, moduli: Moduli) -> Section:
     return Section(moduli.membrane, moduli.bending, shear)
 
 
-def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> tuple[float, float] | None:
-    """The hinges' coefficient that leaves the least error in the limit in this scene, and that error; None
-    of a cell without hinges. Searched from a twentieth to ten times the coefficient given."""
+def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> float | None:
+    """Return the hinges' coefficient that leaves the least error in the limit in this scene, None of a cell
+    without hinges. Searched from a twentieth to ten times the coefficient given."""
     if "hinge" not in coefficients:
         return None
     start = coefficients["hinge"]
-
-    def moduli(hinge: float) -> Moduli:
-        return moduli_of(cell, coefficients | {"hinge": hinge})
-
-    return least_error(scene, moduli, 0.05 * start, 10.0 * start)
+    bounds = 0.05 * start, 10.0 * start
+    return least_error(scene, lambda hinge: moduli_of(cell, coefficients | {"hinge": hinge}), *bounds)
 
 
 FIVE = (
@@ -264,7 +259,7 @@ def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[st
 
     low, high = (share * scene.sheet.thickness for share in HEIGHTS)
     if best:
-        height, _ = least_error(scene, lambda height: at(height)[1], low, high)
+        height = least_error(scene, lambda height: at(height)[1], low, high)
     else:
 
         def miss(height: float) -> float:

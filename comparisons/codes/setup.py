@@ -232,7 +232,7 @@ def setup(
             found = layered_springs(scene, spacing, best=True)
             cell = tetrahedral_cell(spacing, found["layers"])
         elif best and (better := best_hinge(scene, cell, found)):
-            found["hinge"] = better[0]
+            found["hinge"] = better
         if at_rest:
             off = limit_error(scene, moduli_of(cell, {one: found[one] for one in cell.units()}))
     except NoEquilibrium as error:

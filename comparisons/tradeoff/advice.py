@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from math import isfinite
 from shlex import join
 from typing import Any
 
 from comparisons.models.grading import parse_grading
-from comparisons.models.scales import Scales
 from comparisons.models.spec import Elements, Lattice, Spec, counted
+from comparisons.sweep import load
+from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import ModelError, share_of_tolerance
+from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import MILLISECONDS, PERCENT, Column, Table, number, quantity
 from sheetbench.choices import CALIBRATION
@@ -23,96 +26,110 @@ TRIED = (
 )
 
 
-@dataclass(frozen=True)
-class TrialRow:
-    """A quick solve: its error is the distance from the finest one, None where it has no answer; total: with
-    the finest one's bar and model error, what a tolerance is held against."""
-
-    spec: Spec
-    status: str
-    error: float | None
-    total: float | None
-    solve_seconds: float
-    choice: bool = False
-
-    def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        own = {name: getattr(self, name) for name in ("status", "error", "total", "solve_seconds")}
-        return {"model": self.spec.model, "settings": self.spec.settings, **own}
-
-
 @dataclass(frozen=True, repr=False)
 class Advice(Answer):
-    """What to solve, and why. error, seconds: predicted for the choice; bar: of the reference, by its mesh;
-    model: what the reference leaves out on every mesh.
+    """What to solve, and why.
 
-    choice is None, with `message` saying why, where no model converges or none in `budget` is known. reasons:
-    why the lattices have their springs and grading, where that was chosen. warnings: of times
-    that are doubtful, taken on a busy machine. called: how the scene was requested, its name unless given.
+    chosen is None, with `message` saying why, where no model converges or none in `budget` is known. reasons:
+    why the lattices have their springs and grading, where that was chosen. called: how the scene was
+    requested, its name unless given.
     """
 
     file_name = "advice"
-    scene: Scene
+    trials: TrialSolves
     tolerance: float | None
     budget: float | None
-    choice: Spec | None
-    error: float | None
-    bar: float
-    seconds: float | None
+    chosen: SolvedHere | None
+    message: str
     needs: tuple[str, ...]
     left_out: tuple[str, ...]
-    scales: Scales
-    probing_seconds: float
-    tried: tuple[TrialRow, ...] = field(repr=False)
-    message: str = ""
-    reasons: tuple[str, ...] = ()
-    model: ModelError | None = None
-    warnings: tuple[str, ...] = ()
+    reasons: tuple[str, ...]
     called: str = ""
+
+    @property
+    def scene(self) -> Scene:
+        """What is to be solved."""
+        return self.trials.scene
+
+    @property
+    def choice(self) -> Spec | None:
+        """What to solve."""
+        return None if self.chosen is None else self.chosen.ask.spec
+
+    @property
+    def error(self) -> float | None:
+        """Predicted for the choice."""
+        return None if self.chosen is None else self.trials.error(self.chosen)
+
+    @cached_property
+    def bar(self) -> float:
+        """Of the reference, by its mesh."""
+        return self.trials.uncertainty
+
+    @property
+    def model(self) -> ModelError | None:
+        """What the reference leaves out on every mesh."""
+        return self.trials.model_error
+
+    @property
+    def warnings(self) -> list[str]:
+        """On times taken on a busy machine, and what was left out."""
+        rows, refused = self.trials.rows.values(), self.trials.refused.items()
+        doubts = load.warnings([row.load_average for row in rows], [row.samples for row in rows])
+        return [*doubts, *(f"{one.model} {one.size} left out: {reason}" for one, reason in refused)]
+
+    def errors(self, row: SolvedHere) -> tuple[float | None, float | None]:
+        """Return the distance of a row from the finest one, and that with the finest one's bar and model
+        error, which a tolerance is held against; None where there is no answer."""
+        off = self.trials.error(row) if row.stable else None
+        total = None if off is None else off + self.bar + (self.model.value if self.model else 0.0)
+        return off, total if total is not None and isfinite(total) else None
 
     @property
     def reason(self) -> str:
         """The advice in a sentence."""
-        if self.error is None or self.seconds is None:
+        if self.error is None or self.chosen is None:
             return self.message
         size = f"{few(100 * self.error, 3)} % ± {few(100 * self.bar)} %"
-        text = f"predicted error {size} in {_time(self.seconds)}"
+        text = f"predicted error {size} in {_time(self.chosen.seconds)}"
         text += f", {self.model}" if self.model else ""
         return f"{text}; {self.message}" if self.message else text
 
     @property
     def succeeded(self) -> bool:
         """Whether a model meets the tolerance, within the budget if there is one."""
-        if self.choice is None or self.error is None or self.seconds is None:
+        if self.chosen is None:
             return False
-        model = self.model.value if self.model else 0.0
-        accurate = self.tolerance is None or self.error + self.bar + model <= self.tolerance
-        return accurate and (self.budget is None or self.seconds <= self.budget)
+        _, total = self.errors(self.chosen)
+        accurate = self.tolerance is None or (total is not None and total <= self.tolerance)
+        return accurate and (self.budget is None or self.chosen.seconds <= self.budget)
 
     def document(self) -> dict[str, Any]:
-        choice = None
-        if self.choice is not None:
-            choice = {"model": self.choice.model, "settings": self.choice.settings}
+        tried = []
+        for row in self.trials.rows.values():
+            own = _named(row.ask.spec) | {"status": row.status}
+            own |= dict(zip(("error", "total"), self.errors(row), strict=True))
+            tried.append(own | {"solve_seconds": row.seconds})
         return {
             "scene": self.scene.name,
             "tolerance": self.tolerance,
             "budget": self.budget,
-            "choice": choice,
+            "choice": None if self.choice is None else _named(self.choice),
             "predicted": {
                 "error": self.error,
                 "uncertainty": self.bar,
                 **(self.model.as_dict() if self.model else {"model": None}),
-                "solve_seconds": self.seconds,
+                "solve_seconds": None if self.chosen is None else self.chosen.seconds,
             },
             "met": self.succeeded,
             "needs": list(self.needs),
             "left_out": list(self.left_out),
-            "scales": self.scales.as_dict(),
-            "probing_seconds": self.probing_seconds,
-            "tried": [one.as_dict() for one in self.tried],
+            "scales": self.trials.scales.as_dict(),
+            "probing_seconds": self.trials.seconds,
+            "tried": tried,
             "message": self.message,
             **({"reasons": self.reasons} if self.reasons else {}),
-            "warnings": list(self.warnings),
+            "warnings": self.warnings,
             "command": self.command,
         }
 
@@ -120,8 +137,11 @@ class Advice(Answer):
         """Return a row per probing solve, the quickest first; the choice is marked. Statuses that are all
         "converged" are for the files alone."""
         rows = [
-            (one.spec.series, one.spec.size, one.solve_seconds, one.error, one.total, one.choice, one.status)
-            for one in sorted(self.tried, key=lambda one: one.solve_seconds)
+            (
+                *(row.ask.spec.series, row.ask.spec.size, row.seconds, *self.errors(row)),
+                *(row is self.chosen, row.status),
+            )
+            for row in sorted(self.trials.rows.values(), key=lambda row: row.seconds)
         ]
         caption = "Quick solves; error: from the finest; in all: plus the finest's mesh and model errors"
         status = Column("status", prose=True, detail=all(row[-1] == "converged" for row in rows))
@@ -132,9 +152,9 @@ class Advice(Answer):
         return (Table.listed(caption, (*TRIED, status), rows, "tried", text=text),)
 
     def notes(self) -> list[str]:
-        scales, command = self.scales, self.command
+        scales, command = self.trials.scales, self.command
         return [
-            f"{self.reason} ({few(self.probing_seconds)} s of trial solves)",
+            f"{self.reason} ({few(self.trials.seconds)} s of trial solves)",
             *([] if command is None else [f"Solve it with:\n{command}"]),
             f"the scene needs {', '.join(self.needs)}",
             *self.warnings,
@@ -169,6 +189,10 @@ class Advice(Answer):
         elif isinstance(spec, Elements):
             options = ["--reference", spec.kind, "--elements", spec.size.replace("×", "x")]
         return join(["sheetbench", "compare", self.called or self.scene.name, *options])
+
+
+def _named(spec: Spec) -> dict[str, Any]:
+    return {"model": spec.model, "settings": spec.settings}
 
 
 def _time(seconds: float) -> str:

@@ -15,14 +15,12 @@ stiffening" where they hold a share of the energy; "large displacements" where t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
 
 from comparisons.comparison.comparison import load_static
 from comparisons.models.spec import Lattice, Spec
-from comparisons.sweep import load
 from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import left_for_grid
-from comparisons.tradeoff.advice import Advice, TrialRow
+from comparisons.tradeoff.advice import Advice
 from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
@@ -162,40 +160,8 @@ def _advice(
     spec = None if chosen is None else chosen.ask.spec
     grid = (spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1)).grid
     lattice = trials.resolved(trials.springs.but(grid=grid))
-    rows = list(trials.rows.values())
-    added = trials.uncertainty + (trials.model_error.value if trials.model_error else 0.0)
-    tried = tuple(
-        TrialRow(
-            trial.ask.spec,
-            trial.status,
-            trials.error(trial) if trial.stable else None,
-            trials.error(trial) + added if trial.stable and isfinite(added) else None,
-            trial.seconds,
-            trial is chosen,
-        )
-        for trial in rows
-    )
-    return Advice(
-        scene=trials.scene,
-        tolerance=tolerance,
-        budget=budget,
-        choice=chosen.ask.spec if chosen is not None else None,
-        error=trials.error(chosen) if chosen is not None else None,
-        bar=trials.uncertainty,
-        seconds=chosen.seconds if chosen is not None else None,
-        needs=needs,
-        left_out=left_out,
-        scales=trials.scales,
-        probing_seconds=trials.seconds,
-        tried=tried,
-        message=message,
-        reasons=tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in lattice.reasons.items()),
-        model=trials.model_error,
-        warnings=(
-            *load.warnings([row.load_average for row in rows], [row.samples for row in rows]),
-            *(f"{one.model} {one.size} left out: {reason}" for one, reason in trials.refused.items()),
-        ),
-    )
+    reasons = tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in lattice.reasons.items())
+    return Advice(trials, tolerance, budget, chosen, message, needs, left_out, reasons)
 
 
 def _effects(

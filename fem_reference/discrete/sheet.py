@@ -38,7 +38,6 @@ from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
-from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 
@@ -127,11 +126,6 @@ class Discrete(ABC):
         return float(np.ptp(self.plan.nodes, axis=0).max())
 
     @property
-    def longest(self) -> float:
-        """The scene's longer side [m]."""
-        return max(self.scene.sheet.lengths)
-
-    @property
     def symmetric(self) -> bool:
         """Whether the tangent is: loads that follow the sheet make it unsymmetric, unless they have a
         potential."""
@@ -156,11 +150,6 @@ class Discrete(ABC):
     def instant(self, at: float) -> tuple[float, float | None]:
         """The share of what bends and tilts edges, and the time [s] of what moves them, None for the last."""
         return (1.0, at) if self.moving else (at, None)
-
-    @cached_property
-    def kinks(self) -> np.ndarray:
-        """Times [s] at which something prescribed bends its course."""
-        return np.array(kinks(self.scene))
 
     def jumps(self, time: float) -> bool:
         """Whether what is prescribed changes its velocity at once."""

@@ -53,7 +53,8 @@ class Static(Creeping[StaticState, Forces]):
 
     def __init__(self, sheet: DiscreteElements):
         self.sheet, self.prestrained = sheet, sheet.natural is not None
-        self.contacts, self.size, self.linear = sheet.contacts, sheet.longest, sheet.linear
+        self.contacts, self.linear = sheet.contacts, sheet.linear
+        self.size = max(sheet.scene.sheet.lengths)
         self._last: SheetShape | None = None
 
     @property

@@ -24,6 +24,7 @@ from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
 from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted, step_of
+from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.objects.relaxation import BranchStep
 
 RADIUS = 0.8
@@ -66,11 +67,11 @@ class ConstrainedAlpha:
         self._model, self.adapts, self._error = model, step is None, error
         self._first = first if step is None else step
         self._control = Controller(3, 2.0, (0.95, 1.25), self._first)
-        self.span, self.kinks = 1 if model.rods else None, model.kinks
+        self.span, self.kinks = 1 if model.rods else None, np.array(kinks(model.scene))
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
         self._solver = model.solver()
-        self._largest = LEAST * model.longest  # displacement [m]
+        self._largest = LEAST * max(model.scene.sheet.lengths)  # displacement [m]
         self._local = 1.0  # the last step's error over that allowed
         self._euler = 0  # steps to come by backward Euler
         self.failed = 0

@@ -19,11 +19,14 @@ Source: Hughes, The Finite Element Method (2000), ch. 5. SI units.
 
 from __future__ import annotations
 
+from functools import partial
+
 from fem_reference.discrete.answer import answered, traced
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, mesh_of
 from sheetbench.answers.solution import Solution
+from sheetbench.numerics.continuation.path import Progress
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.rigid_motions import require_static
 
@@ -53,13 +56,17 @@ def solve(
     hard_edges: tuple[str, ...] = (),
     section: Section | None = None,
     graded: bool | None = None,
+    *,
+    progress: Progress | None = None,
 ) -> Solution:
     """The linear static answer; elements along the shorter side (near-square), or (nx, ny).
 
     graded: finer towards the edges, or equal elements; unless given, where an edge lets twist go. hard_edges:
     edges on which the tilt along the edge is held as well. A hinged support is soft; with its edge hard it is
     the simple support of the published Mindlin benchmarks. section: stiffness per width, from material and
-    thickness unless given. Raises SceneError if the supports leave a rigid motion free.
+    thickness unless given; progress: called once an iteration. Raises SceneError if the supports leave a
+    rigid motion free.
     """
     require_static(scene, "the plate, which is linear,")
-    return answered(traced(lambda: plate(scene, elements, section, graded, hard_edges)))
+    make = partial(plate, scene, elements, section, graded, hard_edges)
+    return answered(traced(make, progress=progress))

@@ -19,10 +19,10 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.discrete.static import Static, StaticState
-from fem_reference.shell.discrete import UP, DiscreteShell
+from fem_reference.shell.discrete import UP
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.surface.mesh import mesh_of
+from fem_reference.shell.statics import shell
 from sheetbench.answers.solution import Solution
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import SingularMatrixError
@@ -43,7 +43,7 @@ def shift(scene: Scene, answer: Solution) -> float | None:
     if not whole or not scene.uniform or scene.actuators or len(scene.probe_points()) == 0:
         return None
     with one_blas_thread():
-        sheet = DiscreteShell(mesh_of(scene, tuple(settings["elements"]), settings["graded"]), scene)
+        sheet = shell(scene, tuple(settings["elements"]), graded=settings["graded"])
         fields, element = answer.mesh.point_data, sheet.element
         if fields["displacement"].shape != (sheet.nodes, 3):
             return None

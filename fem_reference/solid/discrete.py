@@ -116,7 +116,7 @@ class DiscreteSolid(DiscreteElements):
         return v + self._to_supports(self.frame(q, time), v, rate)
 
     def short(self, shape: SheetShape) -> np.ndarray:
-        target = self.column_supports.target(*self.instant(shape.at))
+        target = self.column_supports.spread(self.supports.change(*self.instant(shape.at)))
         return self._to_supports(shape.frame, shape.q, target)
 
     def _to_supports(self, bases: np.ndarray, q: np.ndarray, target: np.ndarray) -> np.ndarray:

@@ -51,12 +51,8 @@ class ColumnSupports:
     edges: dict[str, np.ndarray]
     by_mean: np.ndarray
 
-    def target(self, load_factor: float, time: float | None = None) -> np.ndarray:
-        """Prescribed displacement (n, levels, 3) [m]; zero where nothing moves."""
-        return self.spread(self.line.change(load_factor, time))
-
     def spread(self, change: np.ndarray) -> np.ndarray:
-        """That of the columns (n, levels, 3) whose middles and directors change so (2, n, 3)."""
+        """Displacement (n, levels, 3) [m] of columns whose middles and directors change so (2, n, 3)."""
         displacement, turn = change
         heights = np.multiply.outer(self.columns.taper, self.columns.heights)
         return displacement[:, None] + heights[..., None] * turn[:, None]

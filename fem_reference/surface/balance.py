@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.surface.actuator_forces import OnEdge
-from fem_reference.surface.biquadratic import GAUSS, THREE, THREE_WEIGHTS, areas, cross, shape, side_shape
+from fem_reference.surface.biquadratic import AT_GAUSS, THREE, THREE_WEIGHTS, areas, cross, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
@@ -35,7 +35,6 @@ from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.shapes import Shape
 
 _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
-_AT_GAUSS, _ = shape(*GAUSS)  # (9 points, 9 nodes)
 
 
 @dataclass(frozen=True)
@@ -49,11 +48,6 @@ class Surface:
     position: np.ndarray
     director: np.ndarray
     own: bool = False
-
-    @property
-    def lever(self) -> float:
-        """The longer side of the flat sheet [m]."""
-        return float(np.ptp(self.plan.nodes, axis=0).max())
 
     def at(self, point: PlanPoint) -> np.ndarray:
         """φ (3,) [m] at a plan point [m]."""
@@ -79,7 +73,7 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
     force = _dead_force(scene, surface)
     moment = sum((_weight_moment(scene, surface, edge) for edge in edges), np.zeros(3))
     if scene.gravity is not None:
-        at = _AT_GAUSS @ surface.position[surface.plan.elements]
+        at = AT_GAUSS[0] @ surface.position[surface.plan.elements]
         centre = np.einsum("eg,egc->c", surface.masses(scene), at)
         centre = centre + sum((_first_moment(payload, surface) for payload in scene.masses), np.zeros(3))
         moment = moment + np.cross(centre, scene.gravity.last_acceleration)
@@ -113,13 +107,14 @@ def left_over(
     """The balance of a model under a share of the load: what its supports exert, by name, and where and with
     which forces it is held, pairs (…, 3); size and allowed: as `Balance` has them."""
     force, moment = applied(scene, surface, edges)
+    longest = float(np.ptp(surface.plan.nodes, axis=0).max())
     turning = [cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
     return Balance(
         force=share * force + np.sum(list(reactions.values()), axis=0),
         moment=share * moment + np.sum(turning, axis=0),
         size=size,
         allowed=allowed,
-        arm=max(surface.lever, float(np.linalg.norm(held[0][0], axis=-1).max())),
+        arm=max(longest, float(np.linalg.norm(held[0][0], axis=-1).max())),
     )
 
 
@@ -177,7 +172,7 @@ def _area(where: Shape | None, surface: Surface) -> tuple[np.ndarray, np.ndarray
     """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements in a shape, or of all."""
     plan = surface.plan
     on = plan.elements[elements_in(where, plan.nodes, plan.elements)]
-    return areas(plan.nodes[on]), _AT_GAUSS @ surface.position[on]
+    return areas(plan.nodes[on]), AT_GAUSS[0] @ surface.position[on]
 
 
 def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.ndarray]:

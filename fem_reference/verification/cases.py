@@ -9,7 +9,6 @@ from functools import partial
 from fem_reference.verification import (
     elliptic_plate,
     large_deflections,
-    locking,
     manufactured_plate,
     manufactured_solid,
     mindlin_plates,
@@ -44,9 +43,11 @@ CASES: dict[str, Case] = {
     "manufactured-plate": Case("manufactured Mindlin plate: error and order", manufactured_plate.rows),
     "manufactured-solid": Case("manufactured block: error and order", manufactured_solid.rows, quick=False),
     "large-rotation-order": Case("order of the shell, rolled up", large_deflections.order),
-    "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", partial(locking.rows, "plate")),
-    "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", partial(locking.rows, "shell")),
-    "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", partial(locking.rows, "solid"), quick=False),
+    "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "plate")),
+    "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "shell")),
+    "locking-solid": Case(
+        "solid on 8 × 8, ν up to 0.4999", partial(mindlin_plates.locking, "solid"), quick=False
+    ),
     "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
     "rubber": Case("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
     "orthotropic-plate": Case("plate with fibres along x, simply supported", orthotropic.plate),

@@ -6,6 +6,12 @@ Sources: Navier's series in Wang, Reddy & Lee, Shear Deformable Beams and Plates
 plate Taylor & Govindjee, Solution of clamped rectangular plate problems, Commun. Numer. Meth. Engng 20 (2004)
 757–765, report UCB/SEMM-2002/09: 0.00126532. The thick clamped plates have no closed form: theirs is this
 project's plate on 48 × 48 elements.
+
+Locking: a model that locks answers with a fraction of the deflection. On fixed 8 × 8 meshes each answer
+stands beside the same model's on a mesh that is two or three times finer, which is converged to 0.1 % and
+better. The plate and the shell go from h/L = 1e-5 to 0.2; so does the solid for ν up to 0.4999, from 1e-3:
+below that its stiffness through the thickness, (L/h)² of that in bending and more as ν → ½, leaves no digits.
+Both meshes of the solid have one layer, whose shear is a little stiff in a thick sheet: that is no locking.
 """
 
 from __future__ import annotations
@@ -30,6 +36,13 @@ SERIES = "Taylor & Govindjee 2004"
 FINER = f"{OURS}, 48 × 48"
 SOURCES = {"hinged": dict.fromkeys(HARD_SIMPLE, NAVIER), "clamped": {0.001: SERIES, 0.1: FINER, 0.2: FINER}}
 SUPPORTS: dict[str, type[Clamped | Hinged]] = {"clamped": Clamped, "hinged": Hinged}
+FIXED = 8  # elements of what may lock
+THICK = (1e-3, 1e-2, 0.05, 0.1, 0.2)
+SWEEPS = {  # elements of the finer mesh, tolerance, h/L and ν
+    "plate": (24, 2e-2, (1e-5, 1e-4, *THICK), (0.3,)),
+    "shell": (24, 2e-2, (1e-5, 1e-4, *THICK), (0.3,)),
+    "solid": (16, 1e-2, THICK, (0.3, 0.48, 0.499, 0.4999)),
+}
 SMALL = 1e-4  # the shell's deflection at the centre over the thickness
 
 
@@ -56,6 +69,19 @@ def _of(model: str, published: dict[float, float]) -> Iterator[Row]:
     ratio = max(published)
     change = abs(deflection(model, kind, ratio, ELEMENTS // 2) / found[ratio] - 1.0)
     yield absolutely(f"change from half the mesh, {ratio:g}", mesh, 0.0, OURS, change, TOLERANCE)
+
+
+def locking(model: str) -> Iterator[Row]:
+    """Rows of a model, thin to thick; what is expected is the finer mesh's answer."""
+    finer, tolerance, ratios, poissons = SWEEPS[model]
+    for poisson in poissons:
+        for ratio in ratios:
+            fixed, converged = (deflection(model, "clamped", ratio, n, poisson) for n in (FIXED, finer))
+            quantity = f"w D/qL⁴ at h/a = {ratio:g}, ν = {poisson:g}"
+            source, at = f"{OURS}, {finer} × {finer}", {"h/a": ratio, "ν": poisson}
+            yield relatively(
+                quantity, f"{model} {FIXED} × {FIXED}", converged, source, fixed, tolerance, at=at
+            )
 
 
 def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:

@@ -132,7 +132,8 @@ def test_the_verb_shows_and_writes_a_cell_of_a_file(tmp_path, capsys):
     assert found["coefficients"]["hinge"] == 2.0 and found["units"]["hinge"] == "N"
     assert {row["name"]: row["got"] for row in found["moduli"]}["D16"] == pytest.approx(0.01)
     assert run("calibrate", SCENE.name, "--cell", str(file), "--quiet") == 0
-    assert "These coefficients miss D11" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "These coefficients miss D11" in said and "nodes 10 mm apart" in said
 
 
 UNSTABLE = """

@@ -18,7 +18,7 @@ from terminals import COMMAND, Terminal
 
 import sheetbench as sb
 from comparisons.live import server
-from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel
+from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
@@ -120,6 +120,34 @@ def test_a_question_beyond_the_bounds_is_refused_in_a_line(panel, message, said)
     with pytest.raises(BadInput) as refused:
         panel.read(text)
     assert said in str(refused.value) and "\n" not in str(refused.value)
+
+
+WOVEN = {"kind": "orthotropic", "young_1": 1e8, "young_2": 2e7, "poisson_12": 0.3, "shear_12": 8e6}
+PRESSED = sb.load("one-edge-clamped").replace(
+    material={**WOVEN, "density": 1e3}, loads=[{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}]
+)
+EVEN = {"thickness": (7.5e-4, 0.012, 0.003), "gravity": (0, 3, 1), "grading": (0, 1, 0)}
+EVEN |= {"elements": (2, 16, 2)}
+SLIDERS = {  # of a bent and of a woven sheet: ends and where they begin
+    "bent": {"poisson": (0, 0.495, 0.48), "young": (54.5e6 / 30, 54.5e6 * 30, 54.5e6),
+             "curvature_x0": (-8, 8, 4), "grid": (3, 33, 3), "k": (550 / 30, 550 * 30, 550)},
+    "woven": {"angle": (-np.pi, np.pi, 0), "young_1": (1e8 / 30, 3e9, 1e8), "young_2": (2e7 / 30, 6e8, 2e7),
+              "loads": (-3, 3, 1), "grid": (3, 33, 5)},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SLIDERS)
+def test_sliders_have_ends_and_begin_at_the_scene(name):
+    lattice = Lattice(3, "uniform", k=550.0) if name == "bent" else Lattice(5)
+    panel = Panel(SCENE if name == "bent" else PRESSED, 2, lattice)
+    found = {key: (slider.low, slider.high, slider.value) for key, slider in panel.sliders.items()}
+    assert found.keys() == (EVEN | SLIDERS[name]).keys()
+    for key, known in (EVEN | SLIDERS[name]).items():
+        assert found[key] == pytest.approx(known), key
+    turned = {"angle": 0.5, "loads": 2.0} if name == "woven" else {}
+    moved = panel.scene_of(panel.read(query_of(panel, **turned)))
+    assert name == "bent" or (moved.material.angle, moved.loads[0].last_factor) == (0.5, 2.0)
+    assert 10 * most(SCENE.sheet.replace(length_y=10 * SCENE.sheet.length_x), 32) ** 2 <= 32 * 32
 
 
 def test_answers_are_those_of_compare(address, panel):

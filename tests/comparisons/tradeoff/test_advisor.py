@@ -107,6 +107,7 @@ def test_what_the_scene_does_not_need_is_left_out():
 
     heavy = advise(scenes.load("two-edges-clamped"), 0.01)
     assert heavy.choice is not None
+    assert not any(spec.settings.get("linear") for spec in heavy.trials.rows)
     assert {"bending", "membrane stiffening", "large displacements"} <= set(heavy.needs)
 
 
@@ -114,7 +115,7 @@ def test_within_a_budget_the_most_accurate_is_chosen():
     scene = scenes.load("two-edges-clamped")
     short, long = advise(scene, None, 0.02), advise(scene, None, 0.2)
     assert short.succeeded and long.succeeded
-    assert short.seconds is not None and short.seconds <= 0.02
+    assert short.chosen.seconds is not None and short.chosen.seconds <= 0.02
     assert short.error is not None and long.error is not None and long.error <= short.error
     hopeless = advise(scene, 0.01, 1e-7)
     assert not hopeless.succeeded and hopeless.choice is None and "no model solves this" in hopeless.message
@@ -168,14 +169,17 @@ def test_what_is_stretched_hears_how_far_its_lattice_is_a_rubber(law, said):
 def test_one_rule_says_what_a_tolerance_is_held_against():
     """Error, bar and model error together, as a column and in a sentence; the cheapest of the table."""
     advice = advise("two-edges-clamped", 0.01)
-    assert advice.tolerance == 0.01 and advice.model is not None
-    for row in advice.tried:
-        assert row.total == pytest.approx(row.error + advice.bar + advice.model.value)
+    assert advice.tolerance == 0.01 and advice.model is not None and advice.choice is not None
+    assert advice.heading()[0] == "two-edges-clamped"
+    rows = advice.document()["tried"]
+    for row in rows:
+        assert row["total"] == pytest.approx(row["error"] + advice.bar + advice.model.value)
     (table,) = advice.tables()
     taken = r"model error takes 0\.\d+ %, its mesh's bar 0\.\d+ %: 0\.\d+ % are left for the grid\."
     assert re.fullmatch(f"Of 1 % the shell's {taken}", table.text)
-    within = [row for row in advice.tried if row.total <= 0.01]
-    assert min(within, key=lambda row: row.solve_seconds).choice
+    within = [row for row in rows if row["total"] <= 0.01]
+    cheapest = min(within, key=lambda row: row["solve_seconds"])
+    assert cheapest["settings"] == json.loads(json.dumps(advice.choice.settings))
     (tight,) = advise("two-edges-clamped", 0.5 * advice.model.value).tables()
     assert "more than all of it: within" in tight.text and "of a converged shell only" in tight.text
 

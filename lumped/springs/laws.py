@@ -10,7 +10,7 @@ and so does the tangent (`lumped.springs.links`, `lumped.springs.cells`). D is M
 part M = Σ k ∇ε ∇εᵀ of the strains ε that an energy ½ Σ k ε² is of; dampers of coefficients c in place of k
 have the stress M ġ. Laws take the change δg since rest, not g alone: where it is small no digits are lost.
 
-`half` is ½ in the precision to compute with, which a literal would decide to be double.
+`half` is ½.
 
 Laws of cells take and return one measure more, s = q·q of what the corners have beside mean sides
 (`lumped.springs.cells`); they are the rows of `lumped.springs.cell_laws.LAWS`.

@@ -1,9 +1,8 @@
-"""Microseconds of CPU a step of velocity Verlet, compiled and one by one, by grid, damping and precision.
+"""Microseconds of CPU a step of velocity Verlet, compiled and one by one, by grid and damping.
 
     OMP_NUM_THREADS=1 python benchmarks/explicit_steps.py [--keep] 9 65
 
-The best of four alternating samples of each. A thousandth of the layers' distance in random displacements
-keeps single precision from numbers below its range, which are slow.
+The best of four alternating samples of each. Displacements are random, a thousandth of the layers' distance.
 """
 
 from __future__ import annotations
@@ -19,7 +18,6 @@ from keeping import keep
 
 import lumped
 from lumped import INTEGRATORS, State, System, build_problem
-from lumped.assembly import Precision
 from sheetbench import scenes
 
 STEP = 1e-8  # s, below every limit
@@ -32,12 +30,12 @@ def seconds(work: Callable[[], int]) -> float:
     return (time.process_time() - began) / count
 
 
-def measure(masses: int, damping_time: float, precision: Precision) -> tuple[float, float]:
+def measure(masses: int, damping_time: float) -> tuple[float, float]:
     """Seconds a step, compiled and one by one."""
     scene = scenes.load("two-edges-clamped")
     scene = scene.replace(material=scene.material.replace(damping_time=damping_time))
     springs = lumped.calibrate(scene.sheet, scene.material, grid=masses)
-    system = System(scene, build_problem(scene, springs, precision=precision))
+    system = System(scene, build_problem(scene, springs))
     size = 1e-3 * springs.layer_distance
     u = system.expand(size * np.random.default_rng(0).standard_normal(system.reduced_mass.shape[0]))
     state = State(0.0, u, u, np.zeros_like(u))
@@ -67,16 +65,15 @@ def main() -> None:
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     arguments = parser.parse_args()
     rows: list[dict[str, Any]] = []
-    kinds: tuple[Precision, ...] = ("double", "single")
-    for n, damping, kind in product(arguments.masses, (0.0, 4e-3), kinds):
-        one, other = measure(n, damping, kind)
+    for n, damping in product(arguments.masses, (0.0, 4e-3)):
+        one, other = measure(n, damping)
         rate = 2e-6 * n * n / one
         rows.append(
-            {"lattice": f"{n}×{n}×2", "dampers": bool(damping), "precision": kind, "step_seconds": one,
+            {"lattice": f"{n}×{n}×2", "dampers": bool(damping), "step_seconds": one,
              "alone_seconds": other}
         )  # fmt: skip
         print(
-            f"{n}x{n}x2, {'dampers' if damping else 'undamped'}, {kind}: {1e6 * one:.1f} µs a step, "
+            f"{n}x{n}x2, {'dampers' if damping else 'undamped'}: {1e6 * one:.1f} µs a step, "
             f"{1e6 * other:.0f} one by one; {rate:.1f} M mass-steps/s",
             flush=True,
         )

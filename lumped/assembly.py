@@ -1,14 +1,10 @@
-"""A lattice with its springs, ready to compute: energy, internal force, tangent over a fixed block pattern.
-
-With precision "single" the internal force is computed from displacements, rest geometry and stiffness kept
-in single precision, each link in it, cells in double within themselves; the tangent stays in double.
-"""
+"""A lattice with its springs, ready to compute: energy, internal force, tangent over a fixed pattern."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from typing import Literal, cast
+from typing import cast
 
 import numpy as np
 
@@ -25,20 +21,18 @@ from sheetbench.scenes import Sheet
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.springs import Distribution
 
-Precision = Literal["double", "single"]
-EPSILON = {"double": float(np.finfo(float).eps), "single": float(np.finfo(np.float32).eps)}
-
 
 class Assembly:
     """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N].
 
     springs: the families (`lumped.springs.families`), the central `links` first. inertia: how masses that
     move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
-    masses in every array. precision: of the internal force; rounding: relative spacing of its numbers.
+    masses in every array. rounding: relative spacing of the internal force's numbers.
     twisting: edges along which nothing holds the director (`Scene.twisting_edges`).
     """
 
     natural: NaturalState | None = None
+    rounding = float(np.finfo(float).eps)
 
     def __init__(
         self,
@@ -46,7 +40,6 @@ class Assembly:
         calibration: Calibration,
         weights: Weights = "tributary",
         couple: Callable[[Lattice], Coupling] | None = None,
-        precision: Precision = "double",
         twisting: frozenset[str] = frozenset(),
     ):
         self.lattice: Lattice = build(
@@ -70,13 +63,10 @@ class Assembly:
             rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
             self.pattern = MassPattern(self.coupling.size, rows, columns)
             self.coupling_slots = self.pattern.slots(*own)
-        self.precision, self.rounding = precision, EPSILON[precision]
-        self._take(springs_of(self.lattice, self.pattern, calibration.springs, precision == "single"))
+        self._take(springs_of(self.lattice, self.pattern, calibration.springs))
 
     def grow(self, state: NaturalState) -> None:
         """Give its cells a natural state, which springs have in full unless `at` a share of it."""
-        if self.precision == "single":
-            raise BadInput("precision = 'single': of a sheet that is flat at rest; leave it out")
         make = with_natural(self.lattice, self.springs, state)
         self._take(AllFamilies(make(*state.at()), self.pattern))
         self.natural = state.made(lambda *forms: self._with(make(*forms)))

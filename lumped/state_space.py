@@ -49,19 +49,6 @@ class StateSpace:
         at = 2j * np.pi * np.asarray(frequencies)
         return np.stack([self.c @ np.linalg.solve(s * unit - self.a, self.b) + self.d for s in at])
 
-    def after_step(self, time: np.ndarray, number: int) -> np.ndarray:
-        """Outputs (t, outputs) at even times (t,) [s] after input `number` has stepped to 1 at 0 s."""
-        step = float(time[1] - time[0])
-        size = len(self.a)
-        whole = np.zeros((size + 1, size + 1))
-        whole[:size, :size], whole[:size, size] = self.a, self.b[:, number]
-        forward = scipy.linalg.expm(step * whole)
-        state, found = np.append(np.zeros(size), 1.0), []
-        for _ in time:
-            found.append(self.c @ state[:size] + self.d[:, number])
-            state = forward @ state
-        return np.array(found)
-
     def balanced(self, order: int | None = None, tolerance: float | None = None) -> Balanced:
         """The most important states: `order` of them, or as few as keep the bound within `tolerance`.
 

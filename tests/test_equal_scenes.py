@@ -55,6 +55,23 @@ def rods(*chains, **more):
     return load("one-edge-clamped").replace(actuators=[Chain(**{**ROD, **one}) for one in chains], **more)
 
 
+def loaded(at_once):
+    """Weight and every kind of load, each by a factor of its own: at once, or the last of a history."""
+
+    def part(factor, name, value, **more):
+        if at_once:
+            return {name: np.multiply(value, factor).tolist(), **more}
+        return {name: value, "history": {"time": (0.0, 0.1, 0.3), "factor": (7.0, -3.0, factor)}, **more}
+
+    loads = (
+        part(-0.8, "force", (0.0, 0.02, 0.05), kind="point", at=(0.15, 0.06)),
+        part(2.0, "force_per_length", (0.1, 0.0, 0.1), kind="edge", edge="x1"),
+        part(-2.0, "moment_per_length", 5e-3, kind="edge", edge="y1"),
+        part(0.5, "value", 8.0, kind="pressure"),
+    )
+    return laden(loads=loads, gravity=part(0.3, "acceleration", (0.0, 0.0, -9.81)))
+
+
 TWICE = {"bending_stiffness": 0.4, "line_density": 0.1}
 TOP, BOTTOM = {"face": "top", "curvature": 6.0}, {"face": "bottom", "curvature": 2.0}
 MEETING = ({"edge": "y1", "curvature": 3.0, "face": "top"}, {"curvature": -4.0, "segments": 5})
@@ -77,6 +94,10 @@ PAIRS = {  # two scenes, models, and how far apart their answers may be
     "a payload as gravity grows, by half of it": (
         laden(masses=[AT_TIP], gravity=Gravity((0.0, 0.0, -9.81), history=HISTORY)),
         laden(masses=[AT_TIP], gravity=Gravity((0.0, 0.0, -4.905))), ALL, 1e-9),
+    "the last factors of histories, loads by them": (loaded(at_once=False), loaded(at_once=True), ALL, 1e-9),
+    "the last factor of gravity, on a rod too": (
+        rods(TOP, gravity=Gravity((0.0, 0.0, -9.81), history=HISTORY)),
+        rods(TOP, gravity=Gravity((0.0, 0.0, -4.905))), ("lumped", "shell"), 1e-9),
     "patches of the sheet's own material": (
         PLAIN.replace(patches=CUT[:1]), PLAIN.replace(patches=CUT), ALL, 1e-8),
     "fibres of isotropic constants": (PLAIN, with_fibres(**SAME), ALL, 1e-8),

@@ -247,8 +247,6 @@ def test_a_curvature_that_grows_moves_every_reference_as_it_does_the_lattice(gro
 
 def test_what_has_no_natural_shape_is_refused_by_name():
     of = scene(0.2, 0.1, 0.002, CLAMP, 1.0, natural=Natural(curvature=(1.0, 0.0, 0.0)))
-    with pytest.raises(BadInput, match="precision"):
-        lumped.solve(of, springs(of, 5), precision="single")
     with pytest.raises(BadInput, match="at once"):
         lumped.buckling(of, springs(of, 5))
     for model in ("shell", "solid"):

@@ -74,7 +74,6 @@ MODULES = [
     "lumped.statics.buckling",
     "lumped.statics.solver",
     "lumped.vibration",
-    "sheetbench.numerics.direct",
     "sheetbench.numerics.eigenmodes",
     "sheetbench.numerics.kept",
     "sheetbench.numerics.stability",

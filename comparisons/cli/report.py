@@ -48,10 +48,7 @@ def command(
     troubles = [*contents.troubles, *(trouble for study in contents.studies for trouble in study.troubles)]
     if json:
         studies = [{"place": s.place, "verb": s.verb, "title": s.title} for s in contents.studies]
-        others = [name for name, _ in contents.others]
-        console.document(
-            {"file": str(target), "bytes": size, "studies": studies, "others": others, "troubles": troubles}
-        )
+        console.document({"file": str(target), "bytes": size, "studies": studies, "troubles": troubles})
     else:
         many = len(contents.studies)
         console.note(f"{many} {'study' if many == 1 else 'studies'} in {target}, {memory_of(size)}")

@@ -33,7 +33,7 @@ from sheetbench.scenes.meaning.words import in_words
 
 PACKAGE = "comparisons.pages"
 AS_THEY_ARE = ("title", "verb", "place", "command", "date", "result", "notes", "complaints")  # of a study
-MANY, OTHERS = 4, 30  # studies from which on each is folded; other files that are named
+MANY = 4  # studies from which on each is folded
 TIMES = ("duration", "step", "largest_step", "every")
 MACHINE = {"processor": "{}", "cpu_count": "{} processors", "system": "{}", "python": "Python {}"}
 UNITS = {"layer_distance": "m", "k": "N/m", **dict.fromkeys(TIMES, "s")}  # of settings
@@ -58,8 +58,6 @@ def page(found: FolderContents, title: str) -> str:
         title=title,
         studies=shown,
         ambiguous={title for title, count in titles.items() if count > 1},
-        others=[(name, memory_of(size)) for name, size in found.others[:OTHERS]],
-        more=max(len(found.others) - OTHERS, 0),
         brief=len(shown) > MANY,
         troubles=list(dict.fromkeys(troubles)),
         made_with=made_with(),

@@ -1,7 +1,6 @@
 """The studies in a folder: command, answer, files and tables of every run.
 
-A manifest tells of its folder's runs; other files beside them are named. A file that cannot be read costs a
-sentence and nothing else.
+A manifest tells of its folder's runs. A file that cannot be read costs a sentence and nothing else.
 
 Tables have values with all their digits to sort by, shown as everywhere else. The manifest has the columns
 with their units and formats, the CSV file the values in SI units. Other CSV files, as of samples over time,
@@ -162,10 +161,9 @@ def texts(value: Any) -> list[str]:
 
 @dataclass
 class FolderContents:
-    """Studies in the order of a page, other files with their sizes [bytes], and sentences on damaged ones."""
+    """Studies in the order of a page, and sentences on damaged files."""
 
     studies: list[Study] = field(default_factory=list)
-    others: list[tuple[str, int]] = field(default_factory=list)
     troubles: list[str] = field(default_factory=list)
 
 
@@ -196,8 +194,6 @@ def _collect(folder: Path, place: str, found: FolderContents) -> None:
     for verb, run in record.get("runs", {}).items():
         claimed.update(names := tuple(run.get("files", ())))
         found.studies.append(Study(folder, place, verb, names, run, record))
-    beside = [path for path in inside if path.is_file() and path.name not in claimed] if record else []
-    found.others += [(f"{place}/{path.name}".lstrip("/"), path.stat().st_size) for path in beside]
     kept = {path.stem for path in inside if path.suffix == ".pvd"} | {name.rstrip("/") for name in claimed}
     for path in inside:
         if isdir(path) and not islink(path) and path.name not in kept and not isfile(path / "run.json"):

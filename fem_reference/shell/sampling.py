@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
 PLANE, SHEARED = 21, 12  # in-plane points, and those of them that have shear
@@ -35,7 +35,7 @@ def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> n
     return out
 
 
-@njit(cache=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.ndarray) -> None:
     """B (54, 18, 3) of one element into zeros, whose membrane strains leave the directors' part alone; at:
     room (6, 54)."""
@@ -108,7 +108,7 @@ def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np
     return out
 
 
-@njit(cache=True, inline="always", fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
     """Sums of one element's vectors (18, 3) with the tables, of positions and then of directors, (6, 54)."""
     t0, t1, t2, t3, t4 = tables[0], tables[1], tables[2], tables[3], tables[4]
@@ -122,7 +122,7 @@ def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
             total[k] = first + second + (t6[k] * v6 + t7[k] * v7 + t8[k] * v8)
 
 
-@njit(cache=True, inline="always", fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _gathered(tables: np.ndarray, by: np.ndarray, out: np.ndarray) -> None:
     """Sums (9,) over the points of the tables with what multiplies them (54,)."""
     t0, t1, t2, t3, t4 = tables[0], tables[1], tables[2], tables[3], tables[4]

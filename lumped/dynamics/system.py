@@ -28,7 +28,6 @@ from lumped.masses import masses
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
-from sheetbench.errors import BadInput
 from sheetbench.numerics.maps import csr_arrays, product
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import kinks
@@ -98,10 +97,8 @@ class System:
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
         self.growing = self.natural if self.natural is not None and self.natural.moves else None
-        if self.maxwell is not None and self.assembly.precision == "single":
-            raise BadInput("precision = 'single': takes no Maxwell branches; leave it out")
-        plain = self.maxwell is None and self.natural is None and self.assembly.precision == "double"
-        self.packed = plain  # whether the compiled loops over `packing` have the springs' forces
+        # whether the compiled loops over `packing` have the springs' forces
+        self.packed = self.maxwell is None and self.natural is None
         self.prescribed = PrescribedMotion(scene, problem)
 
     @property

@@ -57,10 +57,9 @@ NO_INERTIA = np.empty(0)
 
 
 class AllFamilies:
-    """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`.
-    single: the force is computed from displacements, rest geometry and stiffness in single precision."""
+    """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`."""
 
-    def __init__(self, families: Sequence[Family], pattern: MassPattern, single: bool = False):
+    def __init__(self, families: Sequence[Family], pattern: MassPattern):
         self.families = tuple(families)
         found = {_place(family): family for family in families}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
@@ -70,10 +69,8 @@ class AllFamilies:
         self.springs, self._found, self._pattern = typed(arrays), found, pattern
         self._cells = {at: family for at, family in found.items() if isinstance(family, SpringCells)}
         self._others = [family for place, family in found.items() if place < 0]
-        rounded = [family.rounded() for family in families] if single else None
-        self._rounded = None if rounded is None else AllFamilies(rounded, pattern)
         along = [family for family in families if isinstance(family, Links)]
-        self.alone = rounded is None and not self._others
+        self.alone = not self._others
         self.links, self.all_links = along[0], along
         self.conservative = all(family.conservative for family in families)
         self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
@@ -111,16 +108,11 @@ class AllFamilies:
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""
-        if self._rounded is not None:
-            energy, internal = self._rounded.force(u.astype(np.float32))
-            return energy, internal.astype(float)
         energy, internal = force(np.ascontiguousarray(u), self.springs)
         return energy, self.beside(u, internal)
 
     def beside(self, u: np.ndarray, internal: np.ndarray) -> np.ndarray:
         """Return the internal force at u of which `internal` is what compiled calls have found, added to."""
-        if self._rounded is not None:
-            return self.force(u)[1]
         for family in self._others:
             family.add_force(u, internal)
         return internal
@@ -326,12 +318,12 @@ FAMILIES: tuple[Callable[[Lattice, MassPattern, Constants], Iterator[Family]], .
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
-def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet, single: bool) -> AllFamilies:
+def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet) -> AllFamilies:
     """The springs of a spring set on a lattice, the central links first; of a small one the same every
     time."""
     constants = Constants.read(springs)
     found = [family for make in FAMILIES for family in make(lattice, pattern, constants)]
-    return AllFamilies(found, pattern, single)
+    return AllFamilies(found, pattern)
 
 
 def table_dampers(lattice: Lattice, pattern: MassPattern, table: DamperSet) -> Links:

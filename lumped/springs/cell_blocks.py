@@ -10,25 +10,25 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.springs.laws import Four, Three, Vector, less, plus, times
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner
 
 Pair = tuple[Vector, Vector]
 Rows = tuple[Pair, Pair, Pair]
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def by_sides(d: Three, a: Vector, b: Vector) -> Pair:
     """The derivatives by a and by b of what has the derivative d by g, g that of sides a and b."""
     return plus(times(2.0 * d[0], a), times(d[2], b)), plus(times(2.0 * d[1], b), times(d[2], a))
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def both(one: Pair, other: Pair) -> Pair:
     """The sum of two pairs of vectors."""
     return plus(one[0], other[0]), plus(one[1], other[1])
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarray) -> None:
     """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
     derivatives of S₁, S₂, S₃ by the sides: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
@@ -49,7 +49,7 @@ def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarra
             out[3, at] = bb + aa - (ab + ba)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, error_model="numpy", forceinline=True)
 def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.ndarray) -> None:
     """The tangent's part of q, (3, 9) of (q, d1), (q, d2) and (q, q), from S₄ and the derivatives of the
     stress by s, 14 24 34 44."""
@@ -62,7 +62,7 @@ def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.
             out[2, 3 * x + y] = 4.0 * more[3] * q[x] * q[y] + (2.0 * stress if x == y else 0.0)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool, blocks: np.ndarray) -> None:
     """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses, or
     to those on and below the diagonal."""
@@ -81,7 +81,7 @@ def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool,
                         block[e] += sign * part[e]
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, error_model="numpy", forceinline=True)
 def add_warped_blocks(
     in_diagonals: np.ndarray, of_warp: np.ndarray, slots: np.ndarray, lower: bool, blocks: np.ndarray
 ) -> None:

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.extending import overload, register_jitable
+from numba.extending import overload
 
 from lumped.springs import laws
 from lumped.springs.laws import Constants, Four, Six, Three, times_six
 from sheetbench.numerics.memory import load_each
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner
 
 
 class AreaAndStrains(NamedTuple):
@@ -41,7 +41,7 @@ class Face(NamedTuple):
 Tag = AreaAndStrains | Rubber | Face
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def face(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, float, Four]:
     """The law of upright faces: the shear of their director b against the direction of their chord a,
 
@@ -57,7 +57,7 @@ def face(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[flo
     return energy, stiff, (-energy / now, none, pull, none)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def stiffness_of_face(
     d: Four, g: Three, area: float, stiff: float, share: float, k: Constants
 ) -> tuple[Six, Four]:
@@ -67,7 +67,7 @@ def stiffness_of_face(
     return (part * turn * turn, 0.0, shear, 0.0, -part * turn, 0.0), (0.0, 0.0, 0.0, 0.0)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def mean_face(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
     """Return the stress over a step whose work is the energy stored: of products the mean of one factor
     times the change of the other."""
@@ -76,7 +76,7 @@ def mean_face(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
     return -quarter * (d0[2] * d0[2] + d1[2] * d1[2]) / (y0 * y1), 0.0, across, 0.0
 
 
-@register_jitable
+@inner()
 def _itself(d: Four, g: Three, memory: Any, predicted: Four) -> Any:
     return memory, predicted
 
@@ -84,7 +84,7 @@ def _itself(d: Four, g: Three, memory: Any, predicted: Four) -> Any:
 def _linear(stiffness: Callable[..., Any]) -> Callable[..., Any]:
     """Return the function that gives S + D ġ of a law with this stiffness."""
 
-    @register_jitable
+    @inner()
     def extrapolate(  # type: ignore[no-untyped-def]
         d: Four, g: Three, area: float, memory: Any, stress: Four, k: Constants, rate: Four
     ):

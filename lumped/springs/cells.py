@@ -46,7 +46,7 @@ from lumped.springs.laws import (
     times,
     times_six,
 )
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 HALF = 0.5
 NO_CHANGE = (0.0, 0.0, 0.0, 0.0)
@@ -64,7 +64,7 @@ class CellArrays(NamedTuple):
     slots: np.ndarray
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, error_model="numpy", forceinline=True)
 def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, Vector]:
     """What u changes in the mean sides a and b and in q of cell c."""
     fx = fy = fz = sx = sy = sz = qx = qy = qz = 0.0
@@ -89,7 +89,7 @@ def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, V
     )
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def at_rest(sides: np.ndarray, c: int) -> tuple[Vector, Vector]:
     """The mean sides of cell c at rest."""
     return (
@@ -98,13 +98,13 @@ def at_rest(sides: np.ndarray, c: int) -> tuple[Vector, Vector]:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def products(a: Vector, b: Vector) -> Three:
     """The measure of sides a and b."""
     return dot(a, a), dot(b, b), dot(a, b)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def natural(change: Four, rest: Three, area: np.ndarray, c: int) -> tuple[Four, Three, float]:
     """δg, g and A from where cell c is free of stress (`lumped.natural`); numba compiles one of both ways."""
     if area.ndim == 1:
@@ -114,7 +114,7 @@ def natural(change: Four, rest: Three, area: np.ndarray, c: int) -> tuple[Four, 
     return since, (rest[0] + d1, rest[1] + d2, rest[2] + d3), area[0, c]
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, error_model="numpy", forceinline=True)
 def measure(
     u: np.ndarray, cells: CellArrays, c: int
 ) -> tuple[Four, Three, float, tuple[Vector, Vector, Vector]]:
@@ -127,13 +127,13 @@ def measure(
     return *natural(change, rest, cells.area, c), (now_a, now_b, q)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def rate(a: Vector, b: Vector, va: Vector, vb: Vector) -> Three:
     """ġ of sides a, b that move with va, vb."""
     return 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def pull(
     cells: CellArrays, c: int, stress: Four, shape: tuple[Vector, Vector, Vector], force: np.ndarray
 ) -> None:
@@ -235,7 +235,7 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
         )
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def _material(cells: CellArrays, c: int, now: Three) -> Six:
     """M of the dampers of cell c, whose measure is `now`."""
     memory, k = (0.0, now[0] * now[1] - now[2] * now[2]), constants_of(cells.law, c)

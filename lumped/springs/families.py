@@ -79,10 +79,6 @@ class Family(ABC):
         """Return sums of energies [J], by kind of link or of both kinds of springs on cells, under the names
         that the springs have in a spring set."""
 
-    def rounded(self) -> Family:
-        """Return the springs whose force is computed in single precision: these, with their rest data."""
-        return self
-
     def damped(self, time: float) -> Family:
         """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
         stiffness [N·s/m] in its place, of stress M ġ; they take the power ġ·M ġ."""
@@ -127,13 +123,6 @@ class Links(Family):
     def largest_strain(self, u: np.ndarray) -> float:
         """Return the largest relative change of length of the in-plane links at a displacement (n, 3) [m]."""
         return float(links.strains(u[None], self.arrays, 0.0)[0][0])
-
-    def rounded(self) -> Links:
-        """Return the same links with their rest data in single precision."""
-        single = {
-            name: getattr(self, name).astype(np.float32) for name in ("stiffness", "offset", "rest_length")
-        }
-        return replace(self, **single)
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
         """Return the stresses of stretched links."""

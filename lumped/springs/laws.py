@@ -10,7 +10,7 @@ and so does the tangent (`lumped.springs.links`, `lumped.springs.cells`). D is M
 part M = Σ k ∇ε ∇εᵀ of the strains ε that an energy ½ Σ k ε² is of; dampers of coefficients c in place of k
 have the stress M ġ. Laws take the change δg since rest, not g alone: where it is small no digits are lost.
 
-`half` is ½ in the precision to compute with, which a literal would decide to be double.
+`half` is ½.
 
 Laws of cells take and return one measure more, s = q·q of what the corners have beside mean sides
 (`lumped.springs.cells`); they are the rows of `lumped.springs.cell_laws.LAWS`.
@@ -40,7 +40,7 @@ import math
 
 import numpy as np
 
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner
 
 Vector = tuple[float, float, float]  # kept in registers, where small arrays are in memory
 Three = tuple[float, float, float]
@@ -50,31 +50,31 @@ Six = tuple[float, float, float, float, float, float]  # 11, 22, 33, 12, 13, 23 
 Memory = tuple[float, float]
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def plus(a: Vector, b: Vector) -> Vector:
     """a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def less(a: Vector, b: Vector) -> Vector:
     """a − b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def times(k: float, a: Vector) -> Vector:
     """k a."""
     return k * a[0], k * a[1], k * a[2]
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def dot(a: Vector, b: Vector) -> float:
     """a·b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def elongation(
     half: float, change: float, square: float, rest_length: float, k: float
 ) -> tuple[float, float, float, float]:
@@ -86,14 +86,14 @@ def elongation(
     return stress * strain * square, stress, half * k * inverse, -stress * inverse
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def mean_elongation(l0: float, l1: float, e0: float, e1: float, k: float) -> float:
     """(W(g₁) − W(g₀))/(g₁ − g₀) = ½ k (e₀ + e₁)/(l₀ + l₁): the stress whose work over a step is the energy
     stored (Simo and Tarnow 1992, Gonzalez 1996)."""
     return 0.5 * k * (e0 + e1) / (l0 + l1)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def times_six(d: Constants, x: Three) -> Three:
     """A symmetric matrix times a vector."""
     return (
@@ -103,7 +103,7 @@ def times_six(d: Constants, x: Three) -> Three:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def area_and_strains(half: float, d: Four, g: Three, area: float, q: Constants) -> tuple[float, Memory, Four]:
     """W = ½ q₀ (A − A₀)² + ½ δg·Q δg, A² = det g: energy of an area spring and of springs against the Green
     strains of the sides, Q of q₁ to q₆ (11, 22, 33, 12, 13, 23) with what couples them, as fibres do. d: δg;
@@ -124,7 +124,7 @@ def area_and_strains(half: float, d: Four, g: Three, area: float, q: Constants) 
     return energy, (t, square), (s1, s2, s3 - (turned + turned), half - half)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def stiffness_of_area_and_strains(
     d: Four, g: Three, area: float, memory: Memory, share: float, q: Constants
 ) -> tuple[Six, Four]:
@@ -145,7 +145,7 @@ def stiffness_of_area_and_strains(
     ), (0.0, 0.0, 0.0, 0.0)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def extrapolated_area_and_strains(
     d: Four, g: Three, area: float, memory: Memory, stress: Four, q: Constants, rate: Four
 ) -> Four:
@@ -156,7 +156,7 @@ def extrapolated_area_and_strains(
     return s1, s2, s3, 0.5 * q[0] * (now - area + 0.5 * grown / now)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four) -> tuple[Memory, Four]:
     """Return t and A², which `stiffness_of_area_and_strains` takes, and S of what has been extrapolated."""
     t = p[3] / math.sqrt(memory[1])
@@ -164,7 +164,7 @@ def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four)
     return (t, memory[1]), s
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def mean_area_and_strains(d0: Four, d1: Four, g: Three, area: float, q: Constants) -> Four:
     """The stress over a step from δg = d0 to d1 whose work is the energy stored in it: of the strains the
     mean, of the area ½ q₀ ((A₀ + A₁)/2 − A) n̄/(½ (A₀ + A₁)), n̄ the mean: A² is quadratic in g, so that the
@@ -195,7 +195,7 @@ def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarr
     return constants
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def less_logarithm(x: float, logarithm: float) -> float:
     """x − ln(1 + x), no digits lost where x is small; logarithm: ln(1 + x)."""
     if abs(x) < 3e-3:
@@ -204,7 +204,7 @@ def less_logarithm(x: float, logarithm: float) -> float:
     return x - logarithm
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, error_model="numpy", forceinline=True)
 def of_trace(x: float, k: Constants) -> Four:
     """f − c₁₀ x, f′ − c₁₀, f″ and f‴; not a number from Gent's limit on."""
     c10, c20, c30, limit = k[4], k[6], k[7], k[9]
@@ -221,7 +221,7 @@ def of_trace(x: float, k: Constants) -> Four:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[float, float]:
     """ln θ and θ − 1, from growth, ln A, and excess, T − 2: Halley's method, of third order, from what small
     strains have; with a limit from no further than half of what it leaves."""
@@ -246,7 +246,7 @@ def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[
     return x, thinning - theta * step * (1.0 - 0.5 * step)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def rubber(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
     """Return W since rest; θ − 1 and A, which `stiffness_of_rubber` takes; S."""
     if k[4] + k[5] == 0.0:  # there is no cell
@@ -281,7 +281,7 @@ def rubber(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[f
     return energy, (thinning, 1.0 + change), stress
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def stiffness_of_rubber(
     d: Four, g: Three, area: float, memory: Memory, share: float, k: Constants
 ) -> tuple[Six, Four]:
@@ -309,7 +309,7 @@ def stiffness_of_rubber(
     )
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, error_model="numpy", forceinline=True)
 def _stiffness_of_membrane(d: Four, g: Three, area: float, memory: Memory, k: Constants) -> Six:
     """The second derivatives of W by ḡ, times the volume."""
     (thinning, a), c01, inverse = memory, k[5], 1.0 / (area * area)
@@ -335,7 +335,7 @@ def _stiffness_of_membrane(d: Four, g: Three, area: float, memory: Memory, k: Co
     )
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def mean_rubber(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
     """The stress over a step whose work is the energy stored: that in its middle, and along the step what is
     left of the energy (Gonzalez 1996)."""

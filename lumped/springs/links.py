@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.springs.laws import Vector, dot, elongation, less, mean_elongation, times
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 HALF = 0.5
 
@@ -42,14 +42,14 @@ class LinkArrays(NamedTuple):
     slots: np.ndarray
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def difference(u: np.ndarray, nodes: np.ndarray, m: int) -> Vector:
     """u of the second end of link m less that of the first."""
     a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
     return u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def measure(
     u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest: np.ndarray, m: int
 ) -> tuple[float, float, float, Vector]:
@@ -62,7 +62,7 @@ def measure(
     return change - rest[1, m], dot(r, r), rest[0, m], r
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> None:
     """Add ± k r to the forces on the ends of link m."""
     a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
@@ -203,7 +203,7 @@ def add_damping_tangent(u: np.ndarray, v: np.ndarray, links: LinkArrays, blocks:
         _add_blocks(flat, links.slots, m, resisting * along, times(resisting, r), turned, False)
 
 
-@njit(cache=True, error_model="numpy")
+@inner(error_model="numpy")
 def _add_blocks(
     flat: np.ndarray, slots: np.ndarray, m: int, across: float, a: Vector, b: Vector, lower: bool
 ) -> None:

@@ -88,10 +88,8 @@ class Topology(NamedTuple):
     runs: np.ndarray
 
 
-def pack(
-    lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family], single: bool = False
-) -> Packing:
-    """Springs and dampers of a lattice. single: rest data, and with them all forces, in single precision."""
+def pack(lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family]) -> Packing:
+    """Springs and dampers of a lattice."""
     nx, ny, layers = lattice.grid
     plane = nx * ny
     families = [*((family, False) for family in springs), *((family, True) for family in dampers)]
@@ -117,7 +115,7 @@ def pack(
     table = np.concatenate([np.empty((0, 7), int), *runs])[:, [0, 1, 6, 2, 3, 4, 5, 6]].astype(np.uint64)
     table = table[np.argsort(table[:, 3] % plane, kind="stable")]  # masses stay in the fastest memory
     keeping, length = _place_shapes(table, bool(dampers))
-    data = np.concatenate(rest).astype(np.float32 if single else float)
+    data = np.concatenate(rest)
     return Packing(
         _planes(lattice.grid),
         np.uint64(layers),

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.springs import cells, links
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 
 class Survey(NamedTuple):
@@ -41,7 +41,7 @@ def survey(
     return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
 
 
-@njit(cache=True)
+@inner()
 def add_sums(each: np.ndarray, out: np.ndarray) -> None:
     """Add (c, 2) over all c."""
     for c in range(len(each)):

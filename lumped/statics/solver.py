@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from lumped.actuators import Coupling
-from lumped.assembly import Assembly, Precision
+from lumped.assembly import Assembly
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.contact import Contact
@@ -56,7 +56,6 @@ def solve(
     branch: Branch = "path",
     weights: Weights = "tributary",
     linear: bool = False,
-    precision: Precision = "double",
     near: np.ndarray | None = None,
     progress: Callable[[Iteration], None] | None = None,
 ) -> Solution:
@@ -67,10 +66,9 @@ def solve(
     branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
     along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
     boundary links and masses full shares, as Habibi et al. have them. linear: the answer for small
-    displacements, one step with the flat sheet's tangent. precision: of the internal force
-    (`lumped.assembly`). near: the masses' displacement (n, 3) [m] in an equilibrium of a scene much like
-    this one on this grid, to be sought from first; where that leads to no stable one, and with actuators,
-    from flat. progress: called once an iteration.
+    displacements, one step with the flat sheet's tangent. near: the masses' displacement (n, 3) [m] in an
+    equilibrium of a scene much like this one on this grid, to be sought from first; where that leads to no
+    stable one, and with actuators, from flat. progress: called once an iteration.
 
     Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators, for `near`
     of another grid, and for options that have no effect beside linear or near. Every other outcome is a
@@ -85,14 +83,13 @@ def solve(
     if linear and scene.actuators:
         raise BadInput("linear = True: actuators turn with the sheet; solve without")
     if linear:
-        others = {"branch": branch != "path", "near": near, "precision": precision != "double"}
-        require_effect("with linear = True", others)
+        require_effect("with linear = True", {"branch": branch != "path", "near": near})
     elif branch != "path" or weights != "tributary":
         require_effect("with another branch than path or other weights than tributary", {"near": near})
     began = now()
     compile_kernels()
     calibration = calibration or default(scene)
-    problem = build_problem(scene, calibration, weights, precision)
+    problem = build_problem(scene, calibration, weights)
     ready = now()
     if linear:
         outcome = flat_step(scene, problem)
@@ -101,8 +98,8 @@ def solve(
     else:
         outcome = solve_path(scene, problem, branch, progress=progress)
     done = now()
-    usual = {"branch": "path", "weights": "tributary", "precision": "double", "linear": False}
-    options = {"branch": branch, "weights": weights, "precision": precision, "linear": linear}
+    usual = {"branch": "path", "weights": "tributary", "linear": False}
+    options = {"branch": branch, "weights": weights, "linear": linear}
     requested = {name: value for name, value in options.items() if value != usual[name]}
     return solution(scene, calibration, problem, outcome, (ready - began, done - ready), requested)
 
@@ -123,7 +120,6 @@ def build_problem(
     scene: Scene,
     calibration: Calibration,
     weights: Weights = "tributary",
-    precision: Precision = "double",
     same: Problem | None = None,
 ) -> Problem:
     """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
@@ -134,7 +130,7 @@ def build_problem(
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
     couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, calibration, weights, couple, precision, scene.twisting_edges())
+    assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges())
     lines = assembly.lattice.lines
     if (state := natural_of_cells(scene, *(line.at for line in lines))) is not None:
         assembly.grow(state)
@@ -219,7 +215,7 @@ def solve_from_best_start(
     springs = halved(scene, calibration) if large else None
     if springs is None:
         return solve_path(scene, problem, "path", near, progress)
-    smaller = build_problem(scene, springs, precision=problem.assembly.precision)
+    smaller = build_problem(scene, springs)
     outcome = solve_from_best_start(scene, smaller, springs, progress=progress)
     spent, history = outcome.path.factorisations, outcome.path.history
     if outcome.status is Status.CONVERGED and not outcome.path.snaps and not outcome.notes:
@@ -237,8 +233,6 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
     if path.fault is not None:
         if scene.material.limit and any(support.motion is not None for support in scene.supports):
             notes.append(limit_note(scene.material))
-        if problem.assembly.precision == "single" and (lost := _rounded(problem, path)):
-            notes.append(lost)
         return Outcome(status, path, tuple(notes))
     found = problem.survey(state.u, state.load_factor)
     outside = outside_model(scene, found.strain, STRETCH)
@@ -260,13 +254,3 @@ def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
     elif not problem.conservative:
         notes.append("follower loads: solved with an unsymmetric tangent")
     return Outcome(status, path, tuple(filter(None, notes)), found.energies)
-
-
-def _rounded(problem: Problem, path: LatticePath) -> str:
-    """Return in a sentence what rounding may have moved the last equilibrium of a path by, if not little."""
-    try:
-        factor = path.factored(path.tangent(path.state, path.load_factor))
-    except SingularMatrixError:
-        return ""
-    found = validity.digits(problem, path.state, factor)
-    return "" if found is None else found.message

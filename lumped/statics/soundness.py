@@ -10,13 +10,13 @@ import numpy as np
 
 from lumped.springs.links import LinkArrays, strains
 from sheetbench.numerics.maps import Rows
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 TINY = float(np.finfo(float).tiny)
 TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named
 
 
-@njit(cache=True)
+@inner()
 def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the mid-surface (ny, nx, 3) [m] and the unit directors from the bottom layer to the top.
 

@@ -7,7 +7,6 @@ stresses that it extrapolates, so a state has its residual with it.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -59,8 +58,6 @@ class LatticeStructure(Structure[LatticeState, LatticeForces]):
         self.contacts = problem.contacts
         self._moves = bool(problem.prescribed(1.0).any())
         self._iterates = problem.descends and problem.system.unknowns > ITERATED
-        if problem.assembly.precision == "single":  # whose corrections never are idle
-            self.limits = replace(LIMITS, idle=np.inf)
 
     @property
     def symmetric(self) -> bool:

@@ -16,7 +16,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from sheetbench.numerics.memory import load, store
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 PANEL = 6  # the unknowns of a column of masses in two layers
 LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
@@ -107,7 +107,7 @@ def shape(band: Band) -> tuple[int, int]:
     return padded_length(len(band.order)), row_length(band.width)
 
 
-@njit(cache=True, nogil=True)
+@inner()
 def _lanes(count: int) -> Any:
     """A number of steps up to that of whole vectors."""
     return (np.uint64(count) + LANES - ONE) // LANES * LANES
@@ -126,7 +126,7 @@ def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
+@inner()
 def _corner(band: np.ndarray, k0: int) -> Any:
     """The triangle L of a panel's own rows: its inverted diagonal, and its columns below that."""
     own = band[k0 : k0 + PANEL]
@@ -136,7 +136,7 @@ def _corner(band: np.ndarray, k0: int) -> Any:
     return diagonal, first, second, (own[2, 1], own[2, 2], own[2, 3]), (own[3, 1], own[3, 2]), own[4, 1]
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _forward(corner: Any, b0: float, b1: float, b2: float, b3: float, b4: float, b5: float) -> Any:
     """L⁻¹ b, in registers."""
     diagonal, (c01, c02, c03, c04, c05), (c12, c13, c14, c15), (c23, c24, c25), (c34, c35), c45 = corner
@@ -150,7 +150,7 @@ def _forward(corner: Any, b0: float, b1: float, b2: float, b3: float, b4: float,
     return x0, x1, x2, x3, x4, x5
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _backward(corner: Any, b0: float, b1: float, b2: float, b3: float, b4: float, b5: float) -> Any:
     """L⁻ᵀ b, in registers."""
     diagonal, (c01, c02, c03, c04, c05), (c12, c13, c14, c15), (c23, c24, c25), (c34, c35), c45 = corner
@@ -226,7 +226,7 @@ def factored(blocks: np.ndarray, band: Band) -> tuple[np.ndarray, bool]:
     return factors, factor(factors, len(band.order), band.width)
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
     """Solve with the factors in place, x in the band's order in a `padded_vector`."""
     last, count = (n - 1) // PANEL * PANEL, _lanes(width)

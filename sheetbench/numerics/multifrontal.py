@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from sheetbench.numerics.fronts import Fronts
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 PANEL, BLOCK = 6, 48  # columns
 WIDE = 160  # from here on a front is eliminated by blocks
@@ -100,7 +100,7 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
     return True
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel: np.ndarray) -> bool:
     """Turn the first columns of a lower triangle, stored in rows with one to spare, into those of its factor,
     and the others into what is left; False at a pivot that is not finite, or nothing but rounding. panel:
@@ -152,7 +152,7 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel
     return True
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _below(panel: np.ndarray, shares: np.ndarray, inverse: np.ndarray) -> None:
     """Columns of the factor below their own square, all of a panel at once."""
     l0, l1, l2, l3, l4, l5 = panel[0], panel[1], panel[2], panel[3], panel[4], panel[5]
@@ -171,7 +171,7 @@ def _below(panel: np.ndarray, shares: np.ndarray, inverse: np.ndarray) -> None:
         l0[i], l1[i], l2[i], l3[i], l4[i], l5[i] = m0, m1, m2, m3, m4, m5
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _update(panel: np.ndarray, sign: np.ndarray, dense: np.ndarray, start: int, limit: int) -> None:
     """Take the products of a panel off the columns start … limit."""
     l0, l1, l2, l3, l4, l5 = panel[0], panel[1], panel[2], panel[3], panel[4], panel[5]
@@ -238,7 +238,7 @@ def solve(factors: np.ndarray, signs: np.ndarray, fronts: Fronts, b: np.ndarray)
     return x
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _forward(columns: np.ndarray, x: np.ndarray) -> None:
     """Solve with PANEL columns of the factor (PANEL, m), from the first's diagonal on, in place."""
     for k in range(PANEL):
@@ -251,7 +251,7 @@ def _forward(columns: np.ndarray, x: np.ndarray) -> None:
         x[i] -= f0 * l0[i] + f1 * l1[i] + f2 * l2[i] + f3 * l3[i] + f4 * l4[i] + f5 * l5[i]
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@inner(fastmath=REORDERED)
 def _backward(columns: np.ndarray, x: np.ndarray) -> None:
     """Solve with the transpose of PANEL columns of the factor, in place."""
     l0, l1, l2, l3, l4, l5 = columns[0], columns[1], columns[2], columns[3], columns[4], columns[5]

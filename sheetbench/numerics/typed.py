@@ -13,9 +13,10 @@ import numba
 import numpy as np
 from numba import typeof
 from numba.core import config
-from numba.extending import typeof_impl
+from numba.extending import register_jitable, typeof_impl
 
 njit: Any = partial(numba.njit, no_cfunc_wrapper=True)  # which C would call: a tenth of what compiling takes
+inner: Any = partial(register_jitable, no_cfunc_wrapper=True)  # compiled for compiled callers alone
 T = TypeVar("T", bound=tuple[Any, ...])
 _TYPES: dict[Any, Any] = {}
 

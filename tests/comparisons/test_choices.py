@@ -10,7 +10,6 @@ import lumped
 from comparisons.cli.app import verb_group
 from sheetbench import choices
 from sheetbench.choices import REFERENCES
-from studies.transfer.study import FITTED, METHODS
 
 
 def test_every_name_is_there_and_described():
@@ -31,12 +30,6 @@ def test_the_usual_choices_are_those_of_the_functions():
     assert choices.CALIBRATION in choices.CALIBRATIONS
     assert choices.INTEGRATOR == choices.AUTO
     assert choices.REFERENCE in choices.REFERENCES
-
-
-def test_the_published_study_keeps_its_methods_in_their_order():
-    assert FITTED == ("fit-static", "fit-modal")
-    others = ["consistent", "moduli", "uniform", "cauchy", "central", "axial", "van-gelder", "lloyd"]
-    assert [name for name in METHODS if name not in FITTED] == others
 
 
 NAMES = {

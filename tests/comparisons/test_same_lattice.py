@@ -139,11 +139,6 @@ def test_the_same_words_are_the_same_lattice(name):
         assert constants(used) == constants(expected), options
 
 
-def test_k_alone_is_the_uniform_lattice_of_that_k():
-    calibration = resolve(sb.load(SCENE), Lattice(5, k=700.0)).springs
-    assert calibration.method == "uniform" and calibration.springs.axial == 700.0
-
-
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
 def test_so_are_a_scene_s_own_springs(name):
     """Where nothing is named the scene's own [springs] are meant; in any case their grid is the usual one."""

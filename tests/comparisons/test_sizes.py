@@ -133,7 +133,6 @@ LINES = [SMALL[name] for name in ("compare", "compare motion", "identify", "mode
 MORE = [SMALL[name] for name in ("tradeoff", "tradeoff tolerance", "stability")]
 MORE += [f"calibrate {SCENE} --grid {grid}" for grid in ("3 --calibration fit-modal", "100000 --export out")]
 MORE += [f"tradeoff {SCENE} {MOVED} 3 --plate= --shell 2 --solid="]
-MORE += [f"crosscheck {SCENE} {MOVED} 3,4 --shell 1,2 --judges="]
 
 
 @pytest.fixture

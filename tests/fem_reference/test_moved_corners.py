@@ -109,10 +109,7 @@ def test_the_plate_is_their_limit_of_small_motions(name):
 
 
 def test_wrenches_are_about_the_middle_of_the_moved_edge():
-    """Where the middle is now: a free sheet hung from an edge turned by a quarter has no moment about it.
-
-    A balance, which holds on any mesh.
-    """
+    """Where the middle is now: a free sheet hung from an edge turned by a quarter has no moment about it."""
     scene = make_scene((), motion(displacement=(0.0, 0.03, 0.02), rotation=(0.0, np.pi / 2.0, 0.0)))
     for model in ("lumped", "shell", "solid"):
         wrench = solve(scene, model, (4, 2), (9, 5)).actuators["x1"][0]
@@ -217,22 +214,11 @@ def test_a_tilt_that_a_motion_forbids_is_not_sought():
     assert scenes.free_rigid_motions(scene) == []
 
 
-def motion_of(displacement, rotation, edge="x1"):
-    still = (0.0, 0.0, 0.0)
-    return EdgeMotion(
-        kind="motion",
-        edge=edge,
-        time=(0.0, 1.0),
-        displacement=(still, displacement),
-        rotation=(still, rotation),
-    )
-
-
 @pytest.mark.parametrize(("model", "scale"), [("shell", 1.0), ("solid", 1.0), ("plate", 1e-4)])
 def test_an_edge_moved_rigidly_takes_a_free_sheet_with_it(model, scale):
     """Without strain; the plate by a small motion, in which nothing is longer to first order."""
     shift, turn = scale * np.array([0.01, -0.02, 0.03]), scale * np.array([0.5, -0.3, 0.2])
-    moved = motion_of(tuple(shift), tuple(turn), "y1")
+    moved = motion("y1", tuple(shift), tuple(turn))
     scene = driven(gravity=None).model_copy(update={"supports": (), "actuators": (moved,)})
     solution = fem_reference.solve(scene, model, elements=3)
     assert solution.status is Status.CONVERGED

@@ -3,7 +3,7 @@
     python tests/helpers/kernels.py
 
 Two processes, since that is what small machines have: one for equilibria and implicit steps, the other for
-explicit ones, in both precisions, and the shell. Where all is in the cache, three seconds.
+explicit ones and the shell. Where all is in the cache, three seconds.
 """
 
 import multiprocessing
@@ -18,8 +18,7 @@ def equilibria() -> None:
     import lumped
 
     still, damped = make_scene(), make_scene(damping_time=1e-3)
-    for precision in ("double", "single"):
-        lumped.solve(still, springs(still, 3), precision=precision)
+    lumped.solve(still, springs(still, 3))
     lumped.modes(still, springs(still, 3), 3)
     for integrator in ("generalised-alpha", "esdirk"):
         lumped.simulate(damped, springs(damped, 3), DURATION, integrator=integrator)
@@ -34,8 +33,7 @@ def explicit() -> None:
 
     fem_reference.solve(make_scene(), "shell", elements=2)
     damped = make_scene(damping_time=1e-3)
-    for precision in ("double", "single"):
-        lumped.simulate(damped, springs(damped, 3), DURATION, integrator="verlet", precision=precision)
+    lumped.simulate(damped, springs(damped, 3), DURATION, integrator="verlet")
 
 
 if __name__ == "__main__":

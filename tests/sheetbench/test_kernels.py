@@ -1,5 +1,6 @@
 """Compiled kernels: kept, compiled anew with what they are made of, and announced."""
 
+import gc
 import json
 import os
 import platform
@@ -15,7 +16,9 @@ import pytest
 import scipy.sparse as sp
 from dynamic_cases import make_scene, springs
 from llvmlite.binding import get_host_cpu_features
-from numba import njit, typeof
+from numba import njit, typeof, types
+from numba.core.datamodel import default_manager
+from numba.core.errors import TypingError
 
 import lumped
 from lumped.dynamics.explicit.steps import march
@@ -221,6 +224,29 @@ def numbers():
         "verlet": lumped.simulate(settling, springs, 5e-4, integrator="verlet").probes["P4"].tolist(),
     }
 """
+
+
+def test_compiling_collects_garbage_again_afterwards_and_counts_an_arrays_memory_alone():
+    @njit
+    def wrong(a):
+        return a.nothing
+
+    with pytest.raises(TypingError):
+        wrong(np.zeros(2))
+    assert gc.isenabled()
+    ((kind, _),) = default_manager.lookup(typeof(np.zeros((2, 2, 2, 2)))).traverse(None)
+    assert isinstance(kind, types.MemInfoPointer)
+
+    @njit
+    def passed(pair):
+        first, second = pair
+        return first, (second, first + second)
+
+    pair = np.zeros(2), np.ones(2)
+    before = [sys.getrefcount(each) for each in pair]
+    for _ in range(3):
+        passed(pair)
+    assert [sys.getrefcount(each) for each in pair] == before
 
 
 @pytest.mark.nightly  # half a minute of Python

@@ -11,7 +11,7 @@ import numpy as np
 from lumped.dynamics.explicit.follower_loads import Followers
 from lumped.dynamics.explicit.steps import ExplicitArrays, MarchWorkspace, march
 from lumped.dynamics.system import State, System
-from lumped.springs.packing import pack, scratch
+from lumped.springs.packing import scratch
 from sheetbench.numerics.time.method import Advance, StepFailed
 
 CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
@@ -25,10 +25,7 @@ class FlatSystem:
     def __init__(self, system: System):
         assembly, self._parts = system.assembly, system.problem.loads.parts
         self._system, self._shape = system, (*system.lattice_mass.shape, 3)
-        single = assembly.precision == "single"
         packing = system.packing
-        if single:
-            packing = pack(assembly.lattice, assembly.springs, system.damping.dampers, single)
         count = len(packing.order)
         self._order, self._count, self._stride = packing.order, count, int(packing.size)
         self._place = np.empty(count, dtype=int)
@@ -54,7 +51,6 @@ class FlatSystem:
             self.places(*self._driven.T),
             system.damping.present,
             system.working,
-            single,
         )
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
@@ -95,12 +91,9 @@ class FlatSystem:
 
     def _workspace(self, u: np.ndarray) -> MarchWorkspace:
         """Where steps of the displacement u (3 s,) are computed."""
-        kind = self.arrays.packing.rest.dtype
-        x = np.zeros(len(u), kind) if self.arrays.single else u
-        w, d, force, damping = (np.zeros(len(u), kind) for _ in range(4))
-        load, before, moved = (np.zeros(len(u)) for _ in range(3))
+        w, d, force, damping, load, before, moved = (np.zeros(len(u)) for _ in range(7))
         tile = scratch(self.arrays.packing).tile
-        return MarchWorkspace(x, w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
+        return MarchWorkspace(w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
 
     def _factors(self, times: np.ndarray) -> np.ndarray:
         """Factors of the loads' histories at times (k,) [s], (k, parts)."""

@@ -26,8 +26,7 @@ class ExplicitArrays(NamedTuple):
     """What stays the same from step to step, at s places. mass, inverse_mass: (3 s,) [kg], the latter zero
     where supports hold; rate: (3 s,) or empty, damping of each mass [N·s/m]; columns: (h, layers) places
     whose mean is held; dead: (parts, 3 s) loads [N] to be scaled by each history, the first by none; driven:
-    places that g(t) moves. damped, working: whether anything takes energy, whether loads change or follow;
-    single: whether forces are computed in single precision."""
+    places that g(t) moves. damped, working: whether anything takes energy, whether loads change or follow."""
 
     packing: Packing
     mass: np.ndarray
@@ -39,15 +38,13 @@ class ExplicitArrays(NamedTuple):
     driven: np.ndarray
     damped: bool
     working: bool
-    single: bool
 
 
 class MarchWorkspace(NamedTuple):
-    """What steps are computed in. In the precision of the forces: displacement x, predicted velocity w, its
-    correction d, force and damping force, a tile. In double: loads at the end of a step and at its start,
-    what the masses moved (3 s,), and what is exerted on the driven places."""
+    """What steps are computed in: predicted velocity w, its correction d, force and damping force, a tile;
+    loads at the end of a step and at its start, what the masses moved (3 s,), and what is exerted on the
+    driven places."""
 
-    x: np.ndarray
     w: np.ndarray
     d: np.ndarray
     force: np.ndarray
@@ -79,15 +76,14 @@ def march(
     took and the work done [J].
     """
     packing, driven, rate = arrays.packing, arrays.driven, arrays.rate
-    x, w, d = workspace.x, workspace.w, workspace.d
+    w, d = workspace.w, workspace.d
     force, damping, load = workspace.force, workspace.damping, workspace.load
     taken = work = power = 0.0
     external(arrays, factors[0], u, load)
     if arrays.damped or len(driven):
-        rounded(arrays, u, x)
         w[:] = v
         force[:] = 0.0
-        _, power = add_at_places(x, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
+        _, power = add_at_places(u, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
         power += resist(rate, w, force)
         for i in range(len(driven)):
             workspace.exerted[i] = exerted_on(arrays, driven[i], a, force, load)
@@ -101,9 +97,8 @@ def march(
         if arrays.working:
             workspace.load_before[:] = load
             external(arrays, factors[n + 1], u, load)
-        rounded(arrays, u, x)
         force[:] = 0.0
-        _, now = add_at_places(x, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
+        _, now = add_at_places(u, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
         now += resist(rate, w, force)
         if not _accelerate(0.5 * h, arrays, load, force, a, v):
             return False, n, taken, work
@@ -113,7 +108,7 @@ def march(
             damping[:] = 0.0
             beyond = resist(rate, d, damping)
             if packing.damped:
-                beyond += add_damping_again(x, d, packing, damping, workspace.tile)
+                beyond += add_damping_again(u, d, packing, damping, workspace.tile)
             now += 2.0 * _correct(arrays, w, damping, force) + beyond
             taken += 0.5 * h * (power + now)
             power = now
@@ -125,13 +120,6 @@ def march(
             arrays, workspace, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
         )
     return True, steps, taken, work
-
-
-@njit(**OPTIONS)
-def rounded(arrays: ExplicitArrays, u: np.ndarray, x: np.ndarray) -> None:
-    """Displacements in single precision; in double x is u."""
-    if arrays.single:
-        x[:] = u
 
 
 @njit(**OPTIONS)

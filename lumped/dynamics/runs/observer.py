@@ -1,7 +1,7 @@
 """What a run says of its samples: energies, probes, reactions, actuator forces, as rows of numbers; strains,
 states that mean nothing, and where the sheet is fastest.
 
-All rows of a step in one compiled call, for systems without chains and branches in double precision; call
+All rows of a step in one compiled call, for systems without chains and branches; call
 by call for the others.
 """
 

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from lumped.assembly import Precision
 from lumped.calibration import Calibration, default
 from lumped.dynamics.explicit.step_limit import soften_items
 from lumped.dynamics.integrator import Integrator
@@ -46,7 +45,6 @@ def simulate(
     integrator: str = INTEGRATOR,
     every: float | None = None,
     weights: Weights = "tributary",
-    precision: Precision = "double",
     **options: Any,
 ) -> History:
     """Motion of the scene's sheet over `duration` [s].
@@ -56,8 +54,8 @@ def simulate(
     limit, `generalised-alpha` and `esdirk` adapt to their error, `midpoint` takes 1/200 of the lowest period.
     every [s]: distance of samples, 1/100 of the lowest period unless given; no step is longer, and what a
     load's history does within a step may go unseen, but for `esdirk`, whose adaptive steps may be longer and
-    end where a history bends. precision: of the internal force (see `lumped.assembly`). options: the
-    integrator's own (`radius`, `error`), and `store`, `frames` and `progress` (`sheetbench.runs.record`).
+    end where a history bends. options: the integrator's own (`radius`, `error`), and `store`, `frames` and
+    `progress` (`sheetbench.runs.record`).
 
     Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for an unknown
     integrator, a step above the limit of an explicit one, more than ten
@@ -80,7 +78,7 @@ def simulate(
     scene = scene_of(scene)
     calibration = calibration or default(scene)
     moving = let_go(scene)
-    system = System(moving, build_problem(moving, calibration, weights, precision))
+    system = System(moving, build_problem(moving, calibration, weights))
     soften_items(system)
     integrator, why = resolve_integrator(integrator, system, options)
     start = initial_state(system, calibration, weights, scene)
@@ -94,8 +92,6 @@ def simulate(
         **as_settings(calibration.grading),
         **options,
     }
-    if precision != "double":
-        settings["precision"] = precision
     masses = system.assembly.lattice.mass_count
     axes = system.coupling.axes() if system.coupling is not None else {}
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])

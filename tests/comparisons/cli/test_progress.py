@@ -19,7 +19,7 @@ from comparisons.models.context import running
 from comparisons.models.spec import Lattice
 from comparisons.models.training import training_scenes
 from comparisons.pictures import work
-from comparisons.pictures.work import Pace, Work
+from comparisons.pictures.work import Work
 from comparisons.sweep.campaign import GOING, Progress
 from sheetbench.answers.size import Size
 from sheetbench.answers.solution import Iteration
@@ -123,16 +123,6 @@ def test_a_campaign_shows_the_run_that_goes_on(monkeypatch, terminal):
     assert "solid 24, and 2 more" in screen.getvalue()
     assert "1/9 solid 24: converged, going on: shell 32" in screen.getvalue() or terminal
     assert "70 s left" in screen.getvalue()
-
-
-def test_an_even_pace_tells_what_is_left(monkeypatch):
-    now = [10.0]
-    monkeypatch.setattr(work, "perf_counter", lambda: now[0])
-    pace = Pace(2.0)
-    assert pace.left(0.5) is None
-    now[0] += 3.0
-    assert pace.left(1.0) == pytest.approx(6.0)
-    assert [work.duration(s) for s in (4.2, 120.0, 7200.0)] == ["4 s", "2 min", "2.0 h"]
 
 
 SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")

@@ -6,7 +6,6 @@ from commands import json_of, one_line, run
 
 import lumped
 from comparisons.models.grading import GRADED, grading_of, parse_grading
-from comparisons.models.resolve import resolve_each
 from comparisons.models.spec import Lattice
 from fem_reference.verification import settling_strip
 from sheetbench.face import solve
@@ -104,14 +103,3 @@ def test_a_scene_file_brings_its_grading(text, tmp_path, capsys):
     for other in ("0.5", "0"):
         assert run("compare", str(path), "--grading", other) == 2
         assert f"springs.grading = {text}" in one_line(capsys)
-
-
-def test_of_many_lattices_those_are_graded_whose_calibration_takes_it():
-    """The others keep cells of one size: in trade-offs."""
-    lattices = [Lattice((3, 3, 2), calibration) for calibration in ("consistent", "uniform")]
-    shown, reasons = resolve_each(load("curved-edge"), lattices, "auto")
-    assert [one.settings.get("grading") for one in shown] == [0.3, None] and "bent by 4 1/m" in reasons[0]
-    shown, reasons = resolve_each(load("curved-edge"), lattices[1:], "auto")
-    assert shown == lattices[1:] and reasons == ()
-    with pytest.raises(BadInput, match="none of these calibrations"):
-        resolve_each(load("curved-edge"), lattices[1:], 0.5)

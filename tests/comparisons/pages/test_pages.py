@@ -175,17 +175,6 @@ def test_damage_costs_a_sentence(tmp_path, capsys):
     assert "data:image/svg+xml;base64" in text
 
 
-def test_a_report_of_several_folders_shows_their_numbers_and_tells_them_apart(tmp_path):
-    for grid in (3, 5):
-        found = compare("two-edges-clamped", Lattice(grid), elements=4, companion=False)
-        about = {"scene": found.scene.document()}
-        undrawn = replace(found.report(), pictures=())
-        Folder(tmp_path / f"grid-{grid}", "compare", ["sheetbench"], about=about).report(undrawn)
-    text = re.sub(r"<[^>]*>", "", page(read(tmp_path), "all").split("<nav")[1].split("</nav>")[0])
-    assert "grid-3: two-edges-clamped" in text and "grid-5: two-edges-clamped" in text
-    assert len(re.findall(r"lumped [35]×[35]×2 consistent: [\d.]+ % off shell 4 × 4 ± [\d.]+ %", text)) == 2
-
-
 def test_without_its_extra_the_verb_says_what_to_install(studies, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "jinja2", None)
     monkeypatch.delitem(sys.modules, "comparisons.pages.page")

@@ -86,7 +86,3 @@ def test_meshes_that_a_model_refuses_are_no_failures():
     found = Limit.of("one", rows)
     assert found.failures == [rows[1].ending] and not found.refused
     assert Limit.of("one", rows[:1]).refused and not Limit.of("one", rows[:1]).failures
-
-
-def test_of_two_models_that_do_not_move_nothing_is_told():
-    assert pair(standing("here", 0.0, 0.0), standing("there", 0.0, 0.0)) is None

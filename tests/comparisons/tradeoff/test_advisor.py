@@ -107,7 +107,7 @@ def test_what_the_scene_does_not_need_is_left_out():
 
     heavy = advise(scenes.load("two-edges-clamped"), 0.01)
     assert heavy.choice is not None
-    assert not any(row.spec.settings.get("linear") for row in heavy.tried)
+    assert not any(spec.settings.get("linear") for spec in heavy.trials.rows)
     assert {"bending", "membrane stiffening", "large displacements"} <= set(heavy.needs)
 
 

@@ -10,13 +10,11 @@ from numpy.testing import assert_allclose
 import lumped
 from lumped.actuators import Drive
 from lumped.actuators.chain import BoundChain
-from lumped.actuators.chain import BoundChain as LumpedChain
 from lumped.actuators.corners import SharedEnd
 from lumped.dynamics import INTEGRATORS
 from lumped.lattice import build
 from sheetbench.numerics.saddle_point import CORRECTIONS, minimal_residual
 from sheetbench.scenes import Chain, Sheet
-from sheetbench.scenes import Chain as ChainData
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
 LATTICE = build(SHEET, (4, 7, 2), 0.008)
@@ -34,9 +32,12 @@ ENDS = {base: (base,) for base in BASES} | {
 
 
 def chain_of(*ends, base="free", **common):
-    data = ChainData(**{**ROD, **common, "base": base})
-    masses = LATTICE.edge_columns(data.edge).ravel()
-    return BoundChain([data], ("x1",), SHEET, LATTICE, masses, 1e3, *ends)
+    return bound([Chain(**{**ROD, **common, "base": base})], *ends)
+
+
+def bound(rods, *ends):
+    masses = LATTICE.edge_columns("x1").ravel()
+    return BoundChain(rods, ("a", "b")[: len(rods)], SHEET, LATTICE, masses, 1e3, *ends)
 
 
 def disturbed(chain, size=5e-3, seed=0):
@@ -104,19 +105,9 @@ LIGHT, HEAVY = 0.02, 0.07  # kg/m
 PAIR = [{"face": "top", "line_density": LIGHT}, {"face": "bottom", "line_density": HEAVY}]
 
 
-def pair_alone(segments):
-    """The pair on an edge of length 0.3 m along y, at the heights ±0.007 m."""
-    sheet = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
-    both = [
-        Chain(edge="x1", segments=segments, bending_stiffness=0.02, radius=2e-3, **member) for member in PAIR
-    ]
-    lattice = build(sheet, (4, 7, 2), 0.008)
-    return LumpedChain(both, ("a", "b"), sheet, lattice, lattice.edge_columns("x1").ravel(), scale=1e3)
-
-
 @pytest.mark.parametrize("segments", [1, 3, 9])
 def test_weight_and_inertia_of_the_pair_are_those_of_two_rods(segments):
-    chain = pair_alone(segments)
+    chain = bound([Chain(**{**ROD, "segments": segments, **member}) for member in PAIR])
     light, heavy, height, radius = LIGHT * 0.3, HEAVY * 0.3, 0.007, 2e-3
     points, count = chain.frames.points, chain.frames.coordinates
     weight = chain.weight(np.array([3.0, -2.0, -9.81]))

@@ -47,16 +47,15 @@ CASES = {
 }
 
 
-def start_of(scene, precision="double", n=5):
+def start_of(scene, n=5):
     calibration = springs(scene, n)
-    system = System(scene, build_problem(scene, calibration, precision=precision))
+    system = System(scene, build_problem(scene, calibration))
     return system, initial_state(system, calibration, "tributary")
 
 
 @pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("precision", ["double", "single"])
-def test_compiled_steps_are_the_steps_one_by_one(name, precision):
-    system, state = start_of(CASES[name], precision)
+def test_compiled_steps_are_the_steps_one_by_one(name):
+    system, state = start_of(CASES[name])
     step = 0.8 * step_limit(system, state.u).step
     method = INTEGRATORS["verlet"](system, step)
     compiled = method.march(state, step, STEPS)
@@ -69,7 +68,7 @@ def test_compiled_steps_are_the_steps_one_by_one(name, precision):
     assert taken == STEPS
     assert compiled.state.time == state.time
     # rounding of some thirty forces a mass and step, which the stiffest motions keep
-    tolerance = 1e3 * STEPS * float(np.finfo(np.float32 if precision == "single" else float).eps)
+    tolerance = 1e3 * STEPS * float(np.finfo(float).eps)
     for one, other in ((compiled.state.u, state.u), (compiled.state.v, state.v), (compiled.state.a, state.a)):
         assert np.abs(one - other).max() < tolerance * np.abs(other).max()
     scale = max(abs(dissipated), abs(work), system.balance(state)[0]["kinetic"])

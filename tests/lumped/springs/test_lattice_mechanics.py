@@ -1,4 +1,4 @@
-"""Energy → force → tangent of every spring family, area spring and load, by differences; invariants."""
+"""Energy → force → tangent of every spring family, by differences; invariants."""
 
 import numpy as np
 import pytest
@@ -107,27 +107,6 @@ def test_energy_and_force_turn_with_the_sheet(seed, turn):
     assert turned_energy == pytest.approx(energy, rel=1e-10)
     assert np.allclose(turned_force, rotation.apply(force), atol=1e-9 * np.abs(force).max())
     assert np.abs(force.sum(axis=0)).max() < 1e-11 * np.abs(force).sum()
-
-
-@pytest.mark.parametrize(
-    "load",
-    [
-        Pressure(value=30.0),
-        EdgeLoad(edge="x1", moment_per_length=2.0),
-        EdgeLoad(edge="y0", moment_per_length=-2.0),
-    ],
-)
-@pytest.mark.parametrize("grid", [(3, 4, 2), (3, 3, 3)])
-def test_follower_load_tangents(load, grid):
-    assembly = assembly_of(grid, **ALL)
-    scene = Scene(name="s", sheet=SHEET, material=MATERIAL, supports=(Clamped(edge="x0"),), loads=(load,))
-    loads = Loads(scene, assembly)
-    assert not loads.conservative
-    u = state(assembly)
-    blocks = np.zeros((assembly.pattern.blocks, 3, 3))
-    loads.add_tangent(u, 0.7, blocks)
-    numeric = -0.7 * derivative(loads.force, u)
-    assert np.allclose(dense(assembly, blocks), numeric, atol=1e-6 * np.abs(numeric).max())
 
 
 def test_pressure_pushes_up_and_moment_turns_the_far_edge_up():

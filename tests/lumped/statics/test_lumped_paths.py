@@ -71,7 +71,6 @@ def test_a_rubber_balloon_stops_at_its_limit_point_and_says_so():
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"linear": True, "precision": "single"}, "precision: no effect with linear = True"),
         ({"linear": True, "branch": "stable"}, "branch: no effect with linear = True"),
         ({"linear": True, "near": np.zeros((50, 3))}, "near: no effect with linear = True"),
         ({"branch": "stable", "near": np.zeros((50, 3))}, "near: no effect with another branch"),

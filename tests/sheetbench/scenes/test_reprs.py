@@ -38,7 +38,7 @@ ROWS = [
     TradeoffRow(Ask(SCENE, spec), "converged", error=error, row={"cost": {"samples": [seconds]}})
     for spec, seconds, error in ((Lattice(3), 2e-3, 4e-3), (Elements("shell", 4), 0.1, 1e-3))
 ]
-TRADEOFF = Tradeoff(SCENE, tuple(ROWS), ROWS[1], 1e-4, 1e-4)
+TRADEOFF = Tradeoff(SCENE, tuple(ROWS), ROWS[1], 1e-4)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Loads over time: what is refused, statics at the last factor, motion against solve_ivp, energy, orders."""
+"""Loads over time: what is refused, forces and tangents at a time, motion against solve_ivp."""
 
 import numpy as np
 import pytest
@@ -6,9 +6,7 @@ from dynamic_cases import make_scene, springs, system
 from lattice_cases import ALL, MATERIAL, SHEET, assembly_of, dense, derivative, state
 from scipy.integrate import solve_ivp
 
-import fem_reference
 import lumped
-from comparisons.models.scales import scales
 from lumped.loads import Loads
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
@@ -58,79 +56,15 @@ def test_bad_histories_are_refused_in_one_line(tmp_path, history, said, of):
     assert f"{of}.{said}" in str(caught.value) and "\n" not in str(caught.value)
 
 
-def loaded(*actuators):
-    """A sheet under its weight and every kind of load, each with a history of its own."""
-
-    def ending(factor):
-        return {"time": [0.0, 0.1, 0.3], "factor": [7.0, -3.0, factor]}
-
-    loads = [
-        {"kind": "point", "at": [0.15, 0.12], "force": [0.0, 0.02, 0.05], "history": ending(-0.8)},
-        {"kind": "edge", "edge": "x1", "force_per_length": [0.1, 0.0, 0.1], "history": ending(2.0)},
-        {"kind": "edge", "edge": "y1", "moment_per_length": 5e-3, "history": ending(-2.0)},
-        {"kind": "pressure", "value": 8.0, "history": ending(0.5)},
-    ]
-    scene = make_scene("one-edge-clamped", actuators, loads=loads)
-    history = FactorTable.model_validate(ending(0.3))
-    return scene.model_copy(update={"gravity": scene.gravity.model_copy(update={"history": history})})
-
-
-def multiplied_out(scene):
-    """The scene without histories, its loads and weight multiplied by the last factors."""
-
-    def part(load):
-        by, changed = load.history.factor[-1], {"history": None}
-        for name in ("acceleration", "force", "force_per_length"):
-            if hasattr(load, name):
-                changed[name] = tuple(by * component for component in getattr(load, name))
-        for name in ("moment_per_length", "value"):
-            if hasattr(load, name):
-                changed[name] = by * getattr(load, name)
-        return load.model_copy(update=changed)
-
-    return scene.model_copy(update={"gravity": part(scene.gravity), "loads": tuple(map(part, scene.loads))})
-
-
-STATICS = {
-    "lattice": lambda scene: lumped.solve(scene, springs(scene)),
-    "linear lattice": lambda scene: lumped.solve(scene, springs(scene), linear=True),
-    "plate": lambda scene: fem_reference.solve(scene, "plate", elements=4),
-    "shell": lambda scene: fem_reference.solve(scene, "shell", elements=3),
-    "solid": lambda scene: fem_reference.solve(scene, "solid", elements=3),
-}
-
-
-@pytest.mark.parametrize("model", STATICS)
-def test_statics_take_the_last_factor(model):
-    scene = loaded()
-    found, truth = STATICS[model](scene), STATICS[model](multiplied_out(scene))
-    assert found.status is truth.status is Status.CONVERGED
-    moved, expected = (s.displacement(scene.probe_points()) for s in (found, truth))
-    assert largest(expected) > 1e-3
-    assert largest(moved - expected) < 1e-9 * largest(expected)
-    assert found.reactions["x0"] == pytest.approx(truth.reactions["x0"], rel=1e-7, abs=1e-9)
-
-
-@pytest.mark.parametrize("model", ["lattice", "shell"])
-def test_statics_take_the_last_factor_of_a_rods_weight(model):
-    scene = loaded({"line_density": 1.0}).model_copy(update={"loads": ()})
-    moved, expected = (
-        STATICS[model](a).displacement(scene.probe_points()) for a in (scene, multiplied_out(scene))
-    )
-    assert largest(expected) > 1e-3
-    assert largest(moved - expected) < 1e-9 * largest(expected)
-
-
-def test_scales_know_of_histories():
-    assert scales(loaded()).as_dict() == pytest.approx(scales(multiplied_out(loaded())).as_dict())
-
-
-@pytest.mark.parametrize("time, factors", [(-1.0, (2.0, 1.0)), (0.05, (0.5, 0.0)), (9.0, (-4.0, -1.0))])
-def test_forces_and_tangents_at_a_time(time, factors):
+@pytest.mark.parametrize(
+    "time, factors, grid",
+    [(-1.0, (2.0, 1.0), (3, 4, 2)), (0.05, (0.5, 0.0), (3, 4, 2)), (9.0, (-4.0, -1.0), (3, 3, 3))],
+)
+def test_forces_and_tangents_at_a_time(time, factors, grid):
     """Factors before, between and after the samples, of two histories beside loads with none."""
     first = FactorTable(time=(0.0, 0.1, 0.2), factor=(2.0, -1.0, -4.0))
     second = FactorTable(time=(0.0, 0.1), factor=(1.0, -1.0))
-    assembly = assembly_of(**ALL)
+    assembly = assembly_of(grid, **ALL)
     u = state(assembly)
 
     def of(pressure, moment, **histories):

@@ -188,6 +188,8 @@ def test_an_implausible_scene_made_in_python_is_warned_of_by_the_verb_that_reads
         ("[contact]\n[probes]", "contact"),
         ("[initial_state]\nx = 1\n[probes]", "initial_state"),
         ('[[load]]\nkind = "magnetic"\n[probes]', "magnetic"),
+        ("[material.young_x]\n[probes]", "young_x"),
+        ("[material.c10]\n[probes]", "c10"),
     ],
 )
 def test_what_is_not_modelled_is_refused_as_such(tmp_path, text, key):
@@ -195,13 +197,6 @@ def test_what_is_not_modelled_is_refused_as_such(tmp_path, text, key):
         sb.load(written(tmp_path, GOOD.replace("[probes]", text)))
     assert WISHES[key] in str(caught.value) and PAGE in str(caught.value)
     assert "did you mean" not in str(caught.value) and "unknown key" not in str(caught.value)
-
-
-@pytest.mark.parametrize("key", ["young_x", "c10"])
-def test_a_material_that_is_not_modelled_is_refused_as_such(tmp_path, key):
-    text = GOOD.replace("[material]", f'[material]\n{key} = "x"')
-    with pytest.raises(sb.SceneError, match=f"material.{key}: .*{PAGE}"):
-        sb.load(written(tmp_path, text))
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from comparisons.models.context import context
 from comparisons.models.expected_error import expected_error
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.solve import warm_both
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
 from comparisons.sweep.differences import error as error  # where others take it from
 from comparisons.sweep.here import here, with_room
@@ -60,6 +61,7 @@ def compare(
     for other in models:
         beside = resolve(scene, parse(other))
         named[unlike(shown_name(beside.spec.model), named)] = beside
+    warm_both(first.spec.model, against.spec.model)
     rows = []
     for name, model in named.items():
         rows.append(here(model, name))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -26,6 +27,8 @@ from comparisons.sweep.load import warnings as doubts
 from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
+from sheetbench.kernels import kept
+from sheetbench.numerics import fronts
 from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, scene_of
 
 COMPANION = "lumped-uniform"
@@ -61,7 +64,8 @@ def compare(
     for other in models:
         beside = resolve(scene, parse(other))
         named[unlike(shown_name(beside.spec.model), named)] = beside
-    warm_both(first.spec.model, against.spec.model)
+    if not kept(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first on this machine
+        warm_both(first.spec.model, against.spec.model)
     rows = []
     for name, model in named.items():
         rows.append(here(model, name))

@@ -7,7 +7,6 @@ first: what a process pays once, to import and compile, counts neither as set-up
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -141,13 +140,7 @@ def warm(model: str) -> None:
 
 
 def warm_both(one: str, other: str) -> None:
-    """Compile what two models need side by side, the other's in a process of its own, where a reference was
-    never solved on this machine and there are two cores."""
-    from sheetbench import kernels
-    from sheetbench.numerics import fronts
-
-    if kernels.kept(fronts.__file__) or (os.cpu_count() or 1) < 2:
-        return
+    """Compile what two models need side by side, the other's in a process of its own."""
     command = [sys.executable, "-c", f"from comparisons.models.solve import warm; warm({other!r})"]
     with stopped(), Popen(command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as beside:
         try:

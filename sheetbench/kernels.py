@@ -112,6 +112,13 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
         return locator
 
 
+def kept(file: str) -> bool:
+    """Return whether kernels of a file were compiled before, here or into the package."""
+    folder = Locator.get_suitable_cache_subpath(file)
+    places = SHIPPED, Path(os.environ["NUMBA_CACHE_DIR"])
+    return any(next((place / folder).glob("*.nbi"), None) for place in places)
+
+
 @cache
 def _make(folder: Path) -> None:
     """Make a folder that the user alone can enter; where it cannot be made numba looks for another."""

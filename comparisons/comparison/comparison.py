@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ from comparisons.models.context import context
 from comparisons.models.expected_error import expected_error
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.solve import warm_both
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
 from comparisons.sweep.differences import error as error  # where others take it from
 from comparisons.sweep.here import here, with_room
@@ -25,6 +27,8 @@ from comparisons.sweep.load import warnings as doubts
 from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
+from sheetbench.kernels import kept
+from sheetbench.numerics import fronts
 from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, scene_of
 
 COMPANION = "lumped-uniform"
@@ -60,6 +64,8 @@ def compare(
     for other in models:
         beside = resolve(scene, parse(other))
         named[unlike(shown_name(beside.spec.model), named)] = beside
+    if not kept(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first on this machine
+        warm_both(first.spec.model, against.spec.model)
     rows = []
     for name, model in named.items():
         rows.append(here(model, name))

@@ -7,9 +7,11 @@ first: what a process pays once, to import and compile, counts neither as set-up
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from subprocess import DEVNULL, Popen
 from typing import Any, Literal
 
 from comparisons.external import plugins
@@ -22,7 +24,7 @@ from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import FieldMesh, Iteration, Solution
 from sheetbench.choices import REFERENCES
-from sheetbench.clock import now
+from sheetbench.clock import now, stopped
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
@@ -135,3 +137,14 @@ def warm(model: str) -> None:
             _solve(resolve(load("one-edge-clamped"), coarse), None)
             return
     plugins.plugin(model)
+
+
+def warm_both(one: str, other: str) -> None:
+    """Compile what two models need side by side, the other's in a process of its own."""
+    command = [sys.executable, "-c", f"from comparisons.models.solve import warm; warm({other!r})"]
+    with stopped(), Popen(command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as beside:
+        try:
+            warm(one)
+            beside.wait()
+        finally:
+            beside.kill()

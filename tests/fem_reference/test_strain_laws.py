@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from cases import OBLONG, sheet
+from cases import CLAMP, OBLONG, sheet
 from commands import json_of, run
 from dynamic_cases import springs
 from rubbers import material
@@ -30,7 +30,6 @@ from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW, STRAIN_LAWS
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
-    Clamped,
     EdgeLoad,
     FactorTable,
     Gravity,
@@ -228,6 +227,12 @@ def test_the_law_is_an_option_of_the_reference(capsys):
         fem_reference.solve(bent(), "shell", elements=2, section=section, law="biot")
 
 
+def blown(thickness, rubber, pressure):
+    """A square, clamped all around, under a pressure [Pa]."""
+    loads = (Pressure(value=pressure),)
+    return sheet(0.1, 0.1, thickness, material=rubber, held="x0 x1 y0 y1", loads=loads)
+
+
 @pytest.mark.sweep(4)
 @pytest.mark.parametrize(
     ("law", "elements", "found"),
@@ -242,12 +247,10 @@ def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, elem
     """Neo-Hooke's has a limit point of inflation, Mooney's with c2 = c1/4 none up to here. On 4 elements the
     first steps overshoot: corrections grow before they shrink."""
     rubber = next(rubber for rubber in RUBBERS if rubber.law == law)
-    sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.001)
-    edges = tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
-    scene = Scene(name="blown", sheet=sheet, material=rubber, supports=edges, loads=(Pressure(value=20e3),))
+    scene = blown(0.001, rubber, 20e3)
     solution = fem_reference.solve(scene, "shell", elements=elements)
     assert solution.load_factor == pytest.approx(found, abs=0.01)
-    assert solution.displacement([[0.05, 0.05]])[0, 2] > 0.25 * sheet.length_x
+    assert solution.displacement([[0.05, 0.05]])[0, 2] > 0.25 * 0.1
     assert solution.comparable or f"beyond load factor {solution.load_factor:.4g}" in solution.message
 
 
@@ -256,10 +259,7 @@ def test_a_square_blown_up_is_followed_to_the_load_at_which_it_softens(law, elem
 def test_a_square_blown_up_to_a_quarter_of_its_side_converges_as_its_mesh_is_refined(elements):
     """Along the clamps it turns by 45° within a thickness. Solid: 25.231 and 25.244 mm on 10 and 16 bricks;
     CalculiX 25.19 on 9 x 9 a quarter. 24 elements are divided evenly, for the sheet bends much."""
-    sheet = Sheet(length_x=0.1, length_y=0.1, thickness=0.003)
-    edges = tuple(Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
-    scene = Scene(name="balloon", sheet=sheet, material=MOONEY, supports=edges, loads=(Pressure(value=9e3),))
-    found = fem_reference.solve(scene, "shell", elements=elements)
+    found = fem_reference.solve(blown(0.003, MOONEY, 9e3), "shell", elements=elements)
     assert found.status is Status.CONVERGED
     assert found.displacement([[0.05, 0.05]])[0, 2] == pytest.approx(25.244e-3, rel=3e-3)
 
@@ -277,7 +277,7 @@ def hanging(last):
     """ρ g a/E = 0.39 × the last factor of the weight's history."""
     history = FactorTable(time=(0.0, 1.0), factor=(1.0, last))
     gravity = Gravity(acceleration=(9.81, 0.0, 0.0), history=history)
-    return Scene(name="s", sheet=OBLONG, material=SOFT, gravity=gravity, supports=(Clamped(edge="x0"),))
+    return Scene(name="s", sheet=OBLONG, material=SOFT, gravity=gravity, supports=(CLAMP,))
 
 
 def test_the_weight_strain_is_that_of_the_last_factor():
@@ -301,12 +301,11 @@ def test_every_model_sees_that_it_is_stretched_by_more_than_half(model):
     """ν = 0 and a pull along x: E = 1.3, so that 1 + stretch is the root of q = E h (s + 3 s²/2 + s³/2)."""
     material = Material(young=5e4, poisson=0.0, density=1000.0)
     for stretch, outside in ((0.4, False), (0.6, True)):
-        pull = stretch if model == "plate" else stretch + 1.5 * stretch**2 + 0.5 * stretch**3
-        force = pull * material.young * OBLONG.thickness
-        if model == "lumped":
-            force = stretch * material.young * OBLONG.thickness
-        pull = EdgeLoad(edge="x1", force_per_length=(force, 0.0, 0.0))
-        scene = Scene("s", OBLONG, material, supports=(Clamped(edge="x0"),), loads=(pull,))
+        linear = model in ("plate", "lumped")
+        pull = stretch if linear else stretch + 1.5 * stretch**2 + 0.5 * stretch**3
+        force = (pull * material.young * OBLONG.thickness, 0.0, 0.0)
+        loads = (EdgeLoad(edge="x1", force_per_length=force),)
+        scene = Scene("s", OBLONG, material, supports=(CLAMP,), loads=loads)
         found = solved(scene, model)
         end = found.displacement(np.array([[0.2, 0.05]]))[0, 0] / 0.2
         assert end == pytest.approx(stretch, rel=0.05)
@@ -319,11 +318,7 @@ def test_a_law_for_large_strains_is_not_judged_as_a_linear_one():
 
 def made_of(young=200e9, **changed):
     """A sheet under its weight, of a stiff material unless layers or patches have their own."""
-    material = {"young": young, "poisson": 0.3, "density": 1000.0}
-    gravity = {"acceleration": [0.0, 0.0, -9.81]}
-    sheet = {"length_x": 1.0, "length_y": 1.0, "thickness": 0.08}
-    scene = {"name": "made", "sheet": sheet, "material": material, "gravity": gravity} | changed
-    return Scene.model_validate(scene | {"support": [{"kind": "clamped", "edge": "x0"}]})
+    return sheet(1.0, 1.0, 0.08, young, weight=9.81, **changed)
 
 
 def test_the_weight_strain_is_that_of_the_layers_and_patches():

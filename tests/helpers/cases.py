@@ -5,6 +5,9 @@ from typing import Any
 
 import numpy as np
 
+import fem_reference
+import lumped
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 
 SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
@@ -49,6 +52,19 @@ def sheet(
     if weight:
         given["gravity"] = Gravity(acceleration=(0.0, 0.0, -weight))
     return Scene(sheet=Sheet(x, y, thickness), **given | more)
+
+
+def equilibrium(
+    scene: Scene, model: str, grid: int | tuple[int, int], elements: int | tuple[int, int]
+) -> Solution:
+    """The converged answer of a `consistent` lattice of a grid, or of a reference of elements."""
+    if model == "lumped":
+        springs = lumped.calibrate(scene.sheet, scene.material, grid, "consistent")
+        found = lumped.solve(scene, springs)
+    else:
+        found = fem_reference.solve(scene, model, elements=elements)
+    assert found.status is Status.CONVERGED, found.message
+    return found
 
 
 def with_material(scene: Scene, **changes: float) -> Scene:

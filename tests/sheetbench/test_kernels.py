@@ -21,8 +21,9 @@ from numba.core.datamodel import default_manager
 from numba.core.errors import TypingError
 
 import lumped
+from comparisons.models import solve
 from lumped.dynamics.explicit.steps import march
-from sheetbench.kernels import MONTH, NOTICE, ROOT, X86_64_V3, Locator, _remove_old, made_of
+from sheetbench.kernels import MONTH, NOTICE, ROOT, X86_64_V3, Locator, _remove_old, kept, made_of
 from sheetbench.numerics import maps
 from sheetbench.numerics.maps import csr_arrays
 from sheetbench.numerics.typed import TypedTuple, typed
@@ -261,3 +262,19 @@ def test_they_give_what_compiled_ones_do():
     for name, found in here["numbers"]().items():
         flat, same = ([x for row in rows for x in row] for rows in (found, json.loads(ran.stdout)[name]))
         assert same == pytest.approx(flat, rel=1e-6, abs=1e-9 * max(map(abs, flat))), name
+
+
+def test_what_two_models_need_is_compiled_side_by_side_where_none_is_kept(monkeypatch, tmp_path):
+    started = []
+
+    def beside(command, **options):
+        started.append(command[-1])
+        return subprocess.Popen([sys.executable, "-c", ""], **options)
+
+    monkeypatch.setattr(solve, "Popen", beside)
+    solve.warm_both("lumped", "shell")
+    assert started == ["from comparisons.models.solve import warm; warm('shell')"]
+    maps.product(maps.Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
+    assert kept(maps.__file__)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert not kept(maps.__file__)

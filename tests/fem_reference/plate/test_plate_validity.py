@@ -2,25 +2,18 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import fem_reference
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Clamped, EdgeLoad
 from sheetbench.scenes.objects.supports import Motion
 
-SHEET = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
-SOFT = Material(young=5e6, poisson=0.0, density=1100.0)
 STIFFNESS = 5e6 * 0.001**3 / 12.0  # N·m, per width
 
 
-HELD = (Clamped(edge="x0"),)
-
-
-def solve(*loads, supports=HELD, weight=0.0, elements=2):
-    gravity = Gravity(acceleration=(0.0, 0.0, -weight)) if weight else None
-    scene = Scene(
-        name="plate", sheet=SHEET, material=SOFT, gravity=gravity, supports=supports, loads=loads
-    )  # fmt: skip
+def solve(*loads, elements=2, **more):
+    scene = sheet(0.2, 0.05, 0.001, 5e6, 0.0, 1100.0, loads=loads, **more)
     return fem_reference.solve(scene, model="plate", elements=elements)
 
 
@@ -56,8 +49,7 @@ def test_supports_that_close_up_buckle_it():
 def test_turns_beyond_a_directors_length_are_no_turns():
     """A strip under its weight q: its end turns by q a³/6D, linear in the load."""
     turn = 1100.0 * 0.001 * 0.2**3 / (6.0 * STIFFNESS)  # per m/s²
-    fine = solve(weight=0.9 / turn)
-    assert fine.status is Status.CONVERGED
+    assert solve(weight=0.9 / turn).status is Status.CONVERGED
     found = solve(weight=4.0 / turn)
     assert found.status is Status.STRAIN_OUTSIDE_MODEL
     assert "linear theory ends at 25 % of the load" in found.message, found.message

@@ -2,13 +2,10 @@
 
 import numpy as np
 import pytest
-from cases import GRAVITY, RUBBER, SHEET, WEIGHT
+from cases import CLAMP, GRAVITY, RUBBER, SHEET, WEIGHT, equilibrium, sheet
 from numpy.testing import assert_allclose
 
-import fem_reference
-import lumped
-from sheetbench.answers.solution import Status
-from sheetbench.scenes import Chain, Clamped, Curved, Gravity, Material, Scene, Sheet
+from sheetbench.scenes import Chain, Clamped, Curved, Scene
 
 OWN = 0.05 * 0.188 * 9.81  # N, of a chain
 POINTS = np.random.default_rng(0).uniform(0.0, 0.188, (60, 2))
@@ -19,33 +16,13 @@ def chain(**settings):
     return Chain(**{**data, **settings})
 
 
-def make_scene(supports, *actuators, sheet=SHEET, material=RUBBER, gravity=GRAVITY, **more):
-    return Scene(
-        name="corner", sheet=sheet, material=material, gravity=gravity, supports=supports,
-        actuators=actuators, **more,
-    )  # fmt: skip
-
-
-def solve(scene, model, grid=(17, 9)):
-    if model == "shell":
-        found = fem_reference.solve(scene, model="shell", elements=8)
-    else:
-        found = lumped.solve(scene, lumped.calibrate(SHEET, RUBBER, grid=grid, method="consistent"))
-    assert found.status is Status.CONVERGED, found.message
-    return found
-
-
-STRIP = Sheet(length_x=0.2, length_y=0.01, thickness=0.002)
-FLOPPY = Material(young=1e6, poisson=0.0, density=1000.0)
 RIGIDITY = 0.02 + 1e6 * 0.01 * 0.002**3 / 12.0  # N·m², of the chain and of the strip, which has 3e-4 of it
 
 
 def cantilever(segments, corner):
     """A chain along a narrow strip that is clamped at its short edge, deflecting by 5e-5 of its length."""
     one = chain(edge="y0", segments=segments, radius=1e-3)
-    support = Clamped(edge=corner)
-    weight = Gravity(acceleration=(0.0, 0.0, -0.01))
-    return make_scene((support,), one, sheet=STRIP, material=FLOPPY, gravity=weight)
+    return sheet(0.2, 0.01, 0.002, 1e6, 0.0, held=corner, weight=0.01, actuators=(one,))
 
 
 @pytest.mark.parametrize(("corner", "tip"), [("x0", (0.2, 0.0)), ("x1", (0.0, 0.0))])
@@ -53,18 +30,16 @@ def test_a_chain_that_starts_at_a_clamp_is_a_cantilever(corner, tip):
     """q L⁴/8(EI + EI_strip); the error is that of the trapezoidal rule, 1/parts²: as many as cells, as few as
     segments, 24 on finer grids."""
     exact = -(1000.0 * 0.01 * 0.002 + 0.05) * 0.01 * 0.2**4 / 8.0 / RIGIDITY
-    shell = fem_reference.solve(cantilever(8, corner), model="shell", elements=(16, 1))
+    shell = equilibrium(cantilever(8, corner), "shell", 0, (16, 1))
     assert shell.displacement([tip])[0, 2] == pytest.approx(exact, rel=1e-4)
     errors = {}
     for segments, cells, parts in ((2, 6, 6), (3, 12, 12), (2, 64, 24), (32, 64, 32)):
-        springs = lumped.calibrate(STRIP, FLOPPY, grid=(cells + 1, 3), method="consistent")
-        found = lumped.solve(cantilever(segments, corner), springs)
+        found = equilibrium(cantilever(segments, corner), "lumped", (cells + 1, 3), 0)
         errors[parts] = found.displacement([tip])[0, 2] / exact - 1.0
         assert 0.0 < errors[parts] < 1.0 / parts**2
     assert np.log2(errors[6] / errors[24]) / 2.0 == pytest.approx(2.0, abs=0.15)
 
 
-CLAMP = Clamped(edge="x0")
 CASES = {
     "weight": ((CLAMP,), (chain(),)),
     "bent": ((CLAMP,), (chain(curvature=4.0),)),
@@ -88,8 +63,8 @@ def test_the_coarse_lattice_agrees_with_the_shell_and_the_clamp_carries_all(name
     """Eight segments; hinged at the corner they were wrong by up to 240 %. Measured 1.0 to 6.3 %. Its
     share counts to the clamp, and to the first segment as the shell counts it."""
     supports, actuators = CASES[name]
-    scene = make_scene(supports, *actuators)
-    lattice, shell = solve(scene, "lumped"), solve(scene, "shell")
+    scene = Scene("corner", SHEET, RUBBER, GRAVITY, supports, actuators=actuators)
+    lattice, shell = (equilibrium(scene, model, (17, 9), 8) for model in ("lumped", "shell"))
     truth = shell.displacement(POINTS)
     assert np.abs(lattice.displacement(POINTS) - truth).max() < 0.07 * np.abs(truth).max()
     for support in supports:

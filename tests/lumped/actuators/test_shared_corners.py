@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
+from cases import GRAVITY, equilibrium, relative
 from numpy.testing import assert_allclose
 
-import fem_reference
 import lumped
-from sheetbench.answers.solution import Status
-from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, SceneError, Sheet
+from sheetbench.scenes import Chain, Clamped, Material, Scene, SceneError, Sheet
 
-WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
 RUBBER = Material(young=20e6, poisson=0.0, density=1200.0)
 WIDE = Sheet(length_x=0.2, length_y=0.1, thickness=0.002)
 
@@ -21,24 +19,13 @@ def chain(edge, curvature=5.0, segments=12, **settings):
 
 def make_scene(sheet, *chains, clamps=("x0",), **more):
     supports = tuple(Clamped(edge=edge) for edge in clamps)
-    return Scene("shared", sheet, RUBBER, WEIGHT, supports, actuators=chains, **more)
-
-
-def lattice(scene, grid):
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, method="consistent")
-    found = lumped.solve(scene, springs)
-    assert found.status is Status.CONVERGED, found.message
-    return found
-
-
-def points(sheet):
-    return np.random.default_rng(0).uniform(0.0, 1.0, (30, 2)) * (sheet.length_x, sheet.length_y)
+    return Scene("shared", sheet, RUBBER, GRAVITY, supports, actuators=chains, **more)
 
 
 @pytest.mark.parametrize("planes", [("normal", "normal"), ("inplane", "normal"), ("spatial", "inplane")])
 def test_each_chain_passes_on_its_weight_and_all_forces_balance(planes):
     chains = [chain(edge, 0.5, plane=plane) for edge, plane in zip(("y1", "x1"), planes, strict=True)]
-    found = lattice(make_scene(WIDE, *chains), (9, 5))
+    found = equilibrium(make_scene(WIDE, *chains), "lumped", (9, 5), 0)
     sheet = 1200.0 * 0.2 * 0.1 * 0.002 * 9.81
     for edge, length in (("y1", 0.2), ("x1", 0.1)):
         own = 0.03 * length * 9.81
@@ -76,11 +63,10 @@ def test_what_holds_at_a_shared_corner_is_what_holds_the_shells_rod(name):
         ]
         return make_scene(WIDE, *own, clamps=clamps)
 
-    shell = fem_reference.solve(chains((25, 13)), model="shell", elements=(12, 6))
-    assert shell.status is Status.CONVERGED
-    truth = shell.displacement(points(WIDE))
+    points = np.random.default_rng(0).uniform(0.0, 1.0, (30, 2)) * WIDE.lengths
+    truth = equilibrium(chains((25, 13)), "shell", 0, (12, 6)).displacement(points)
     off = [
-        np.abs(lattice(chains(grid), grid).displacement(points(WIDE)) - truth).max() / np.abs(truth).max()
+        relative(equilibrium(chains(grid), "lumped", grid, 0).displacement(points), truth)
         for grid in ((13, 7), (25, 13))
     ]
     assert off[1] < 0.02

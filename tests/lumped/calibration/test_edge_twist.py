@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import lumped
 from lumped.assembly import Assembly
 from lumped.calibration.edge_twist import edge_factors, layer_width
-from sheetbench.scenes import Clamped, Material, PointLoad, Scene, Sheet, load
+from sheetbench.scenes import PointLoad, load
 
 SEED = load("two-edges-clamped")
 # uz [m] at P1 to P4 of Habibi et al.'s sheet by a linear Mindlin plate of 80 elements a side, graded to its
@@ -30,14 +31,13 @@ def edge_factor(cells, width, twisting, shear, shares, lost, both):
 
 
 def factor(cells, both):
-    sheet, material = SEED.sheet, SEED.material
-    width = sheet.length_x / cells
-    rigidity = material.young * sheet.thickness**3 / 12 / (1 - material.poisson**2)
-    sheared = 5 / 6 * material.young / 2 / (1 + material.poisson) * sheet.thickness
+    seed, material = SEED.sheet, SEED.material
+    width = seed.length_x / cells
+    rigidity = material.young * seed.thickness**3 / 12 / (1 - material.poisson**2)
+    sheared = 5 / 6 * material.young / 2 / (1 + material.poisson) * seed.thickness
     shear = 1 / (1 / sheared + width**2 / 12 / rigidity)
     twisting = rigidity * (1 - material.poisson) / 2
-    found = edge_factor(cells, width, twisting, shear, 1 / 3, layer_width(sheet.thickness), both)
-    return found
+    return edge_factor(cells, width, twisting, shear, 1 / 3, layer_width(seed.thickness), both)
 
 
 @pytest.mark.parametrize(
@@ -128,17 +128,14 @@ def test_the_order_on_test_1(method, held, order):
 def test_torsion_of_a_strip(masses, slenderness, method):
     """Saint-Venant's b h³/3 (1 − 0.63 h/b), whose 0.63 is rounded: 0.1 % of h/b = 0.3."""
     length, width, force = 1.2, 0.12, 1e-9
-    sheet = Sheet(length_x=length, length_y=width, thickness=slenderness * width)
-    material = Material(young=1e6, poisson=0.3, density=1.0)
     pair = [PointLoad(at=(length, y), force=(0.0, 0.0, sign * force)) for y, sign in ((0, -1), (width, 1))]
-    clamp = (Clamped(edge="x0"),)
-    scene = Scene(name="strip", sheet=sheet, material=material, load=tuple(pair), support=clamp)
-    springs = lumped.calibrate(sheet, material, (10 * (masses - 1) + 1, masses), method)
+    scene = sheet(length, width, slenderness * width, loads=pair)
+    springs = lumped.calibrate(scene.sheet, scene.material, (10 * (masses - 1) + 1, masses), method)
     at = np.array([[x, y] for x in (0.48, 0.84) for y in (0.0, width)])
     heights = lumped.solve(scene, springs, linear=True).displacement(at)[:, 2].reshape(2, 2)
     rate = np.diff(np.diff(heights, axis=1)[:, 0])[0] / width / 0.36
-    modulus = material.young / (2 * (1 + material.poisson))
-    constant = width * sheet.thickness**3 / 3 * (1 - 0.63 * slenderness)
+    modulus = 1e6 / (2 * (1 + 0.3))
+    constant = width * scene.sheet.thickness**3 / 3 * (1 - 0.63 * slenderness)
     assert rate == pytest.approx(force * width / (modulus * constant), rel=2e-3)
 
 

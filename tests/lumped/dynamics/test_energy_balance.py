@@ -2,27 +2,22 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 from scipy.interpolate import PchipInterpolator
 
 import lumped
 from fem_reference.verification import settling_strip
-from sheetbench.scenes import Scene, load
+from sheetbench.scenes import load
 
 TIME = [round(0.005 * i, 3) for i in range(25)]
 RISEN = [[0.0, 0.0, round(0.015 * (1.0 - float(np.cos(np.pi * t / 0.12))), 9)] for t in TIME]
 
 
-def strip(motion=None, **more):
-    """150 × 75 × 4 mm, 6 MPa, clamped at x0."""
-    clamp = {"edge": "x0", "kind": "clamped", **({"motion": motion} if motion else {})}
-    sheet = {"length_x": 0.15, "length_y": 0.075, "thickness": 0.004}
-    material = {"young": 6e6, "poisson": 0.0, "density": 1100.0}
-    scene = {"name": "strip", "sheet": sheet, "material": material, "supports": [clamp]}
-    return Scene.model_validate(scene | more)
-
-
-def moved(interpolation="smooth", **more):
-    return strip({"time": TIME, "displacement": RISEN, "interpolation": interpolation}, **more)
+def moved():
+    """A strip whose clamp rises smoothly."""
+    motion = {"time": TIME, "displacement": RISEN, "interpolation": "smooth"}
+    clamp = {"edge": "x0", "kind": "clamped", "motion": motion}
+    return sheet(0.15, 0.075, 0.004, 6e6, 0.0, 1100.0, supports=[clamp])
 
 
 def drift(history):

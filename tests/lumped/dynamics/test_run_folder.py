@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 import tracemalloc
+from functools import partial
 
 import numpy as np
 import pytest
@@ -83,15 +84,20 @@ def test_a_killed_run_resumes_to_the_last_digit(tmp_path, scene, duration, how):
             fem_reference.simulate(scene, "plate", duration, elements=2, store=killed)
 
 
-STILL = {"integrator": "verlet", "every": 2e-4, "frames": 5}
 LENGTH = 0.011  # s, one checkpoint
+
+
+def run_in(folder, duration=LENGTH, **other):
+    """A small run that is kept in a folder."""
+    scene = make_scene(damping_time=1e-3)
+    options = {"integrator": "verlet", "every": 2e-4, "frames": 5, **other}
+    return lumped.simulate(scene, springs(scene, 3), duration, store=folder, **options)
 
 
 @pytest.fixture(scope="module")
 def run_kept(tmp_path_factory):
     folder = tmp_path_factory.mktemp("kept") / "run"
-    scene = make_scene(damping_time=1e-3)
-    return folder, lumped.simulate(scene, springs(scene, 3), LENGTH, store=folder, **STILL)
+    return folder, run_in(folder)
 
 
 @pytest.fixture
@@ -99,20 +105,14 @@ def kept(run_kept, tmp_path):
     """A folder with a finished run, and how to run it again."""
     folder, history = tmp_path / "run", run_kept[1]
     shutil.copytree(run_kept[0], folder)
-    scene = make_scene(damping_time=1e-3)
-
-    def again(duration=LENGTH, **other):
-        return lumped.simulate(scene, springs(scene, 3), duration, store=folder, **{**STILL, **other})
-
-    return folder, history, again
+    return folder, history, partial(run_in, folder)
 
 
 def test_a_longer_duration_goes_on_with_the_run(kept, tmp_path):
     """To the last bit what a run of that length gives; frames go on at their distance."""
     folder, _, again = kept
     longer = again(2.0 * LENGTH)
-    scene = make_scene(damping_time=1e-3)
-    at_once = lumped.simulate(scene, springs(scene, 3), 2.0 * LENGTH, store=tmp_path / "at once", **STILL)
+    at_once = run_in(tmp_path / "at once", 2.0 * LENGTH)
     assert longer.resumed_from == pytest.approx(50 * 2e-4)
     assert (folder / "samples.bin").read_bytes() == (tmp_path / "at once" / "samples.bin").read_bytes()
     assert longer.time[-1] == pytest.approx(2.0 * LENGTH) and longer.steps == at_once.steps
@@ -135,11 +135,8 @@ def half(content):
 
 
 def flipped(content):
-    return (
-        content[: len(content) // 3]
-        + bytes([content[len(content) // 3] ^ 1])
-        + content[len(content) // 3 + 1 :]
-    )
+    at = len(content) // 3
+    return content[:at] + bytes([content[at] ^ 1]) + content[at + 1 :]
 
 
 SHORT, CHANGED = "holds .* that the checkpoint counts", "is not what the run wrote: .*"
@@ -212,35 +209,28 @@ def test_a_planted_link_is_never_written_through(tmp_path, name):
     victim.write_text("mine")
     folder.mkdir()
     (folder / name).symlink_to(victim)
-    scene = make_scene(damping_time=1e-3)
     with contextlib.suppress(BadInput):
-        lumped.simulate(scene, springs(scene, 3), LENGTH, store=folder, **STILL)
+        run_in(folder)
     assert victim.read_text() == "mine"
 
 
 def test_a_full_disk_is_said_and_the_run_goes_on_when_there_is_room(tmp_path, run_kept):
     """A limit on file sizes stands for the disk: frames.bin fits, then samples.bin is full, at any place."""
     folder, history = tmp_path / "run", run_kept[1]
-    scene = make_scene(damping_time=1e-3)
-
-    def start():
-        return lumped.simulate(scene, springs(scene, 3), LENGTH, store=folder, **STILL)
-
     full = (run_kept[0] / "samples.bin").stat().st_size
     for most in (10, full // 2, full - 10):
         with at_most(most), pytest.raises(BadInput, match=r"run\S*: cannot be written, file too large: "):
-            start()
-    assert np.array_equal(start().probes["P4"], history.probes["P4"])
+            run_in(folder)
+    assert np.array_equal(run_in(folder).probes["P4"], history.probes["P4"])
 
 
 @pytest.mark.nightly
 def test_memory_does_not_grow_with_the_duration(tmp_path):
-    scene = make_scene(damping_time=1e-3)
 
     def peak(duration):
         tracemalloc.start()
-        options = {"integrator": "midpoint", "step": 1e-3, "every": 1e-3}
-        lumped.simulate(scene, springs(scene, 3), duration, store=tmp_path / str(duration), **options)
+        options = {"integrator": "midpoint", "step": 1e-3, "every": 1e-3, "frames": 0}
+        run_in(tmp_path / str(duration), duration, **options)
         found = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         return found

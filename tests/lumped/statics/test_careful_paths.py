@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from cases import sheet
+from cases import equilibrium, sheet
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.sparse.linalg import splu
 
-import fem_reference
 import lumped
 from sheetbench.answers.solution import Status
 from sheetbench.numerics import direct
@@ -15,14 +14,11 @@ from sheetbench.numerics.continuation import trace as tracer
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.multifrontal import NoFactorsError
-from sheetbench.scenes import Curved, EdgeLoad, Gravity, Material, Sheet, load
+from sheetbench.scenes import Curved, EdgeLoad, Gravity, load
 
-STRIP = Sheet(length_x=0.2, length_y=0.05, thickness=0.001)
-SOFT = Material(young=5e6, poisson=0.0, density=1100.0)
 PRESS, ACROSS = 0.0334127, 0.002  # N/m: 1.3 of Euler's load, and a little upwards
-COLUMN = sheet(
-    0.2, 0.05, 0.001, material=SOFT, loads=(EdgeLoad(edge="x1", force_per_length=(-PRESS, 0.0, ACROSS)),)
-)
+PRESSED = (EdgeLoad(edge="x1", force_per_length=(-PRESS, 0.0, ACROSS)),)
+COLUMN = sheet(0.2, 0.05, 0.001, 5e6, 0.0, 1100.0, loads=PRESSED)
 
 
 def elastica_tip():
@@ -42,12 +38,7 @@ def elastica_tip():
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_a_column_bends_the_way_it_is_pushed(model):
-    if model == "lumped":
-        springs = lumped.calibrate(STRIP, SOFT, grid=(33, 3), method="consistent")
-        found = lumped.solve(COLUMN, springs)
-    else:
-        found = fem_reference.solve(COLUMN, model="shell", elements=(16, 2))
-    assert found.status is Status.CONVERGED, found.message
+    found = equilibrium(COLUMN, model, (33, 3), (16, 2))
     assert not found.snaps
     tip = found.displacement([(0.2, 0.025)])[0, [0, 2]]
     np.testing.assert_allclose(tip, elastica_tip(), atol=5e-3 * 0.148)
@@ -78,21 +69,14 @@ def pulled(force, along=2):
     return sheet(0.15, 0.15, 0.002, 1e7, 0.45, 1200.0, loads=loads)
 
 
-def solve(scene, model):
-    if model == "shell":
-        return fem_reference.solve(scene, model="shell", elements=4)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9), method="consistent")
-    return lumped.solve(scene, springs)
-
-
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 @pytest.mark.parametrize("force", [300.0, 3000.0])
 def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model):
     """And tells of none where there is none, however small the share of the load that a step is."""
     scene = pulled(force)
-    looked = solve(scene, model)
+    looked = equilibrium(scene, model, 9, 4)
     monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 0)
-    plain = solve(scene, model)
+    plain = equilibrium(scene, model, 9, 4)
     assert plain.iterations < looked.iterations <= (1 + Limits.careful_budget_factor) * plain.iterations
     assert looked.message == plain.message and looked.snaps == plain.snaps == ()
     at = scene.probe_points()
@@ -101,7 +85,8 @@ def test_a_look_for_folds_costs_a_few_times_the_path(monkeypatch, force, model):
 
 def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long():
     """Before, 522 factorisations where the path had taken 25."""
-    found = solve(pulled(5e4, along=0), "lumped")
+    scene = pulled(5e4, along=0)
+    found = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, 9, "consistent"))
     assert found.status is Status.STRAIN_OUTSIDE_MODEL
     assert found.iterations < 200
 
@@ -109,8 +94,8 @@ def test_strains_that_the_springs_have_no_meaning_at_are_not_followed_for_long()
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, model):
     monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 20)
-    found = solve(pulled(300.0), model)
-    assert found.status is Status.CONVERGED and found.load_factor == 1.0
+    found = equilibrium(pulled(300.0), model, 9, 4)
+    assert found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message
 
 
@@ -119,21 +104,14 @@ def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, mod
     """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so; it
     took their number for 0, and the path for one that keeps to its branch."""
     monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 40)
-
-    def solved():
-        scene = load("one-edge-clamped")
-        springs = lumped.calibrate(
-            scene.sheet, scene.material, (7, 6)
-        )  # whose factors no other test has kept
-        return lumped.solve(scene, springs) if model == "lumped" else fem_reference.solve(scene, elements=4)
-
+    scene = load("one-edge-clamped")
     monkeypatch.setattr(direct, "SignedFactors", without_factors)
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
     monkeypatch.setattr(direct, "_superlu", lambda matrix, columns: Factor(matrix, splu(columns).solve))
-    found = solved()
+    found = equilibrium(scene, model, (7, 6), 4)  # whose factors no other test has kept
     monkeypatch.undo()
-    usual = solved()
+    usual = equilibrium(scene, model, (7, 6), 4)
     assert any("held to its branch" in note for note in found.remarks)
     assert found.displacement([(0.1, 0.1)]) == pytest.approx(usual.displacement([(0.1, 0.1)]), rel=1e-6)
 

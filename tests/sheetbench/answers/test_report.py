@@ -142,61 +142,55 @@ def files(folder):
     return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
 
 
+SHEET = about()["scene"]["sheet"]
+THICKER = {**SHEET, "thickness": 0.004}
+HERE, OTHER = about(), about(name="other", sheet=THICKER)
+SHELL, PLATE = {"--reference": "shell"}, {"--reference": "plate"}
+
+
+def entered(folder, verb, about=None, variant=None, **options):
+    return Folder(folder, verb, ["x"], about=about, variant=variant, **options)
+
+
 def test_the_same_scene_and_verb_again_is_fine_and_so_is_another_verb(tmp_path):
-    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
-    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
-    Folder(tmp_path, "advise", ["a"], about=about()).report(report("b.txt", "a.txt"))
+    for _ in range(2):
+        entered(tmp_path, "modes", HERE, SHELL).report(report("a.txt"))
+    entered(tmp_path, "advise", HERE, PLATE).report(report("b.txt", "a.txt"))
+    entered(tmp_path, "calibrate", {"sheet": SHEET})
     runs = json.loads((tmp_path / MANIFEST).read_text())["runs"]
     assert runs["modes"]["files"] == []  # what another verb has written since is that verb's
     assert runs["advise"]["files"] == ["b.txt", "a.txt", "answer.json"]
 
 
-def test_a_folder_of_another_scene_is_refused_with_what_differs(tmp_path):
-    Folder(tmp_path, "modes", ["m"], about=about()).report(report("a.txt"))
+@pytest.mark.parametrize(
+    ("first", "second", "differs"),
+    [
+        (("modes", HERE), ("modes", OTHER), r"another 'modes' \(of another scene, sheet\)"),
+        (("modes", HERE), ("compare", OTHER), r"another 'modes' \(of another scene, sheet\)"),
+        (("modes", HERE), ("calibrate", {"sheet": THICKER}), r"another 'modes' \(of another sheet\)"),
+        (("compare", HERE, SHELL), ("compare", HERE, PLATE), "of another --reference"),
+        (("stability",), ("compare", HERE), r"another 'stability' \(of another question\)"),
+        (("stability",), ("verify", {}), r"another 'stability' \(of another question\)"),
+    ],
+)
+def test_a_folder_of_something_else_is_refused_with_what_differs(tmp_path, first, second, differs):
+    entered(tmp_path, *first).report(report("map.csv"))
     before = files(tmp_path)
-    other = about(name="other", sheet={"length_x": 0.188, "length_y": 0.188, "thickness": 0.004})
-    for verb in ("modes", "compare"):
-        with pytest.raises(BadInput, match=r"holds files of another 'modes' \(of another scene, sheet\)"):
-            Folder(tmp_path, verb, ["m"], about=other)
+    with pytest.raises(BadInput, match="holds files of .*" + differs):
+        entered(tmp_path, *second)
     assert files(tmp_path) == before
-
-
-def test_springs_of_another_sheet_are_refused_beside_a_scene(tmp_path):
-    Folder(tmp_path, "modes", ["m"], about=about()).report(report())
-    same = {"sheet": about()["scene"]["sheet"]}
-    Folder(tmp_path, "calibrate", ["c"], about=same)
-    with pytest.raises(BadInput, match="of another sheet"):
-        Folder(tmp_path, "calibrate", ["c"], about={"sheet": {**same["sheet"], "thickness": 0.004}})
-
-
-def test_other_options_of_a_verb_are_refused_where_they_leave_other_files(tmp_path):
-    Folder(tmp_path, "compare", ["c"], about=about(), variant={"--reference": "shell"}).report(
-        report("shell.vtu")
-    )
-    with pytest.raises(BadInput, match="of another --reference"):
-        Folder(tmp_path, "compare", ["c"], about=about(), variant={"--reference": "plate"})
-    Folder(tmp_path, "modes", ["m"], about=about(), variant={"--reference": "plate"})
-
-
-def test_a_verb_does_not_write_among_files_of_another_that_is_about_something_else(tmp_path):
-    Folder(tmp_path, "stability", ["s"]).report(report("map.csv"))
-    before = files(tmp_path)
-    for verb, of in (("compare", about()), ("verify", {})):
-        with pytest.raises(BadInput, match=r"holds files of another 'stability' \(of another question\)"):
-            Folder(tmp_path, verb, ["c"], about=of)
-    assert files(tmp_path) == before
-    Folder(tmp_path, "compare", ["c"], about=about(), overwrite=True).report(report("a.txt"))
+    entered(tmp_path, *second, overwrite=True).report(report("a.txt"))
     assert files(tmp_path) == {"a.txt", "answer.json", MANIFEST}
 
 
 def test_overwrite_removes_what_the_manifest_lists_and_nothing_else(tmp_path):
-    first = Folder(tmp_path, "simulate", ["s"], about=about())
+    first = entered(tmp_path, "simulate", HERE)
     run_folder = first.reserve("run/")
     run_folder.mkdir()
     (run_folder / "samples.bin").write_text("x")
     first.report(report("old.txt"))
     (tmp_path / "mine.txt").write_text("mine")
-    again = Folder(tmp_path, "modes", ["m"], about=about(name="other"), overwrite=True)
+    again = entered(tmp_path, "modes", OTHER, overwrite=True)
     assert (tmp_path / "old.txt").exists()  # until there is something to put there
     again.report(report("new.txt"))
     assert files(tmp_path) == {"mine.txt", "new.txt", "answer.json", MANIFEST}
@@ -208,13 +202,13 @@ def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path):
     outside.write_text("keep")
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "elsewhere" / "kept.txt").write_text("keep")
-    Folder(inside, "modes", ["m"], about=about()).report(report())
+    entered(inside, "modes", HERE).report(report())
     (inside / "link").symlink_to(tmp_path / "elsewhere")
     manifest = json.loads((inside / MANIFEST).read_text())
     names = ["../outside.txt", str(outside), "link/kept.txt", "link/", "."]
     manifest["runs"]["modes"]["files"] += names
     (inside / MANIFEST).write_text(json.dumps(manifest))
-    Folder(inside, "modes", ["m"], about=about(), overwrite=True).report(report())
+    entered(inside, "modes", HERE, overwrite=True).report(report())
     assert outside.exists() and (tmp_path / "elsewhere" / "kept.txt").exists()
 
 
@@ -222,7 +216,7 @@ def test_a_manifest_cannot_lead_out_of_its_folder(tmp_path):
 def test_a_manifest_that_is_not_ours_is_refused(tmp_path, text):
     (tmp_path / MANIFEST).write_text(text)
     with pytest.raises(BadInput, match=r"its manifest\.json cannot be read"):
-        Folder(tmp_path, "modes", ["m"], about=about(), overwrite=True)
+        entered(tmp_path, "modes", HERE, overwrite=True)
 
 
 def test_a_questions_own_warnings_stand_before_those_about_its_scene(capsys):

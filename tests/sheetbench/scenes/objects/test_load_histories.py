@@ -78,10 +78,7 @@ def test_forces_and_tangents_at_a_time(time, factors, grid):
             ),
             EdgeLoad(edge="y0", moment_per_length=1.0, force_per_length=(0.0, 0.0, 1.0)),
         )
-        supports = (Clamped(edge="x0"),)
-        return Loads(
-            Scene(name="s", sheet=SHEET, material=MATERIAL, supports=supports, loads=loads), assembly
-        )
+        return Loads(Scene("s", SHEET, MATERIAL, supports=(Clamped(edge="x0"),), loads=loads), assembly)
 
     changing, still = of(1.0, 1.0, first=first, second=second), of(*factors)
     assert not changing.potential and not changing.conservative

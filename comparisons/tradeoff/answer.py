@@ -32,7 +32,9 @@ class Priced(Answer):
     chosen.
     """
 
-    PER, DRAWN = "", ""  # what a cost is for, in words; what draws the picture
+    PER = ""  # what a cost is for, in words
+    COST, SIZE = ("solve time [ms], one thread", 1e3), "size of a cell or element [mm]"  # of the picture
+    SIZED_ERROR = ""  # of the picture's right side, where it is not the error at the left
     scene: Scene
     rows: tuple[Any, ...]
     reference: Any
@@ -56,7 +58,7 @@ class Priced(Answer):
         return "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
 
     def figures(self) -> tuple[Picture, ...]:
-        drawn = Picture(self.file_name, self.DRAWN, (self,))
+        drawn = Picture(self.file_name, "comparisons.tradeoff.figure:compose", (self,))
         return (drawn,) if any(row.error for row in self.rows) else ()
 
     def result(self) -> str:
@@ -85,7 +87,7 @@ ORDERS = (
 class Tradeoff(Priced):
     """The rows of a scene; uncertainty: None where the reference did not converge on two meshes."""
 
-    file_name, DRAWN = "tradeoff", "comparisons.tradeoff.figure:compose"
+    file_name = "tradeoff"
     scene: Scene
     rows: tuple[TradeoffRow, ...]
     reference: TradeoffRow
@@ -107,6 +109,12 @@ class Tradeoff(Priced):
             }
             found.append({"series": name, "rows": len(rows), **orders})
         return found
+
+    @property
+    def curves(self) -> dict[str, tuple[list[int], float | None]]:
+        """Row numbers and observed order of the errors, by family."""
+        numbers = grouped([row.ask.spec.series for row in self.rows])
+        return {one["series"]: (numbers[one["series"]], one["error_order"]) for one in self.orders}
 
     def document(self) -> dict[str, Any]:
         return {
@@ -169,8 +177,9 @@ class DynamicTradeoff(Priced):
     errors of steps are measured against.
     """
 
-    file_name, DRAWN = "motion", "comparisons.tradeoff.motion_figure:compose"
-    PER = " per simulated second"
+    file_name, PER = "motion", " per simulated second"
+    COST, SIZE = ("solve time of a simulated second [s]", 1.0), "step [ms]"
+    SIZED_ERROR = "error of the steps alone [%]"
     scene: Scene
     duration: float
     lowest_period: float
@@ -196,6 +205,11 @@ class DynamicTradeoff(Priced):
                 errors = [row.step_error for row in rows]
                 found[name] = error_order([row.step for row in rows], errors, self.step_uncertainty)
         return found
+
+    @property
+    def curves(self) -> dict[str, tuple[list[int], float | None]]:
+        """Row numbers and observed order in the step, by series."""
+        return {name: (numbers, self.orders.get(name)) for name, numbers in self.series.items()}
 
     def document(self) -> dict[str, Any]:
         return {

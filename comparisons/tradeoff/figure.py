@@ -1,4 +1,4 @@
-"""The picture of a trade-off: error against time with the front drawn, and error against cell size."""
+"""The picture of a trade-off: error against time with the front drawn, and against cell size or step."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from matplotlib.text import Annotation
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from comparisons.pictures.labels import spread
-from comparisons.sweep.front import grouped
-from comparisons.tradeoff.answer import Priced, Tradeoff
-from comparisons.tradeoff.row import TradeoffRow
+from comparisons.tradeoff.answer import DynamicTradeoff, Priced, Tradeoff
+from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
 
@@ -25,40 +24,40 @@ SIZE = "size of a row"
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 
 
-def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
-    """The figure: error against time at the left, against the size of a cell at the right."""
+def compose(found: Tradeoff | DynamicTradeoff, style: FigureStyle = PLAIN) -> Figure:
+    """The figure: error against time at the left; at the right against the size of a cell, or what steps miss
+    against the step."""
     figure = Figure(layout="constrained")
-    ratios = None if style.narrow else (1.35, 1.0)
-    left, right = figure.subplots(*style.panels(2), sharey=True, width_ratios=ratios)
-    families = grouped([row.ask.spec.series for row in tradeoff.rows])
+    ratios, alike = None if style.narrow else (1.35, 1.0), not found.SIZED_ERROR
+    left, right = figure.subplots(*style.panels(2), sharey=alike, width_ratios=ratios)
     colours = cycle(SERIES)  # lattices take the first ones
-    orders = {family["series"]: family["error_order"] for family in tradeoff.orders}
-    on_front = set(tradeoff.front)
-    for name, numbers in families.items():
-        known = [i for i in numbers if tradeoff.rows[i].error]  # logarithmic axes have no zero
+    on_front = set(found.front)
+    for name, (numbers, slope) in found.curves.items():
+        known = [i for i in numbers if found.rows[i].error and found.rows[i].cost]  # logarithms have no zero
         if not known:
             continue
-        rows = [tradeoff.rows[i] for i in known]
-        model = rows[0].ask.spec.model
+        rows: list[TradeoffRow | MotionRow] = [found.rows[i] for i in known]
+        model = rows[0].model
         colour = REFERENCE_COLOURS.get(model) or next(colours)
         line: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
         if model in REFERENCE_COLOURS:
             line["ls"] = (0, (4, 1.5))
-        label = plain(name)
-        if orders[name] is not None:
-            label = f"{label}  (order {orders[name]:z.1f})"
-        _against_time(left, rows, [i in on_front for i in known], line, label)
-        sized = [(1e3 * row.cell_size, 100 * (row.error or 0.0)) for row in rows if row.cell_size]
-        right.plot([h for h, _ in sized], [e for _, e in sized], **line)
-    _front(left, tradeoff)
+        label = plain(name) if slope is None else f"{plain(name)}  (order {slope:z.1f})"
+        _against_time(left, rows, [i in on_front for i in known], line, label, found.COST[1])
+        sized = [(1e3 * h, 100 * e) for h, e in (row.sized for row in rows) if h and e]
+        if sized:
+            right.plot(*zip(*sized, strict=True), **line)
+    _front(left, found)
     for axis, note in ((left, "uncertainty of the reference"), (right, "")):
-        logarithmic(axis)
-        floor(axis, tradeoff, note)
-    left.set_xlabel("solve time [ms], one thread")
+        if axis.lines:
+            logarithmic(axis)
+        if note or alike:
+            floor(axis, found, note)
+    left.set_xlabel(found.COST[0])
     left.set_ylabel("error at the probes [%]")
-    right.set_xlabel("size of a cell or element [mm]")
-    if style.narrow:
-        right.set_ylabel("error at the probes [%]")
+    right.set_xlabel(found.SIZE)
+    if style.narrow or not alike:
+        right.set_ylabel(found.SIZED_ERROR or "error at the probes [%]")
     left.set_title("Error against time, and the front", fontsize=8, fontweight="bold", loc="left")
     right.set_title("Observed convergence", fontsize=8, fontweight="bold", loc="left")
     handles, labels = left.get_legend_handles_labels()
@@ -66,7 +65,7 @@ def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
     below: dict[str, Any] = {"handlelength": 1.9, "columnspacing": 0.8, "frameon": False, "fontsize": 7}
     figure.legend(handles, labels, loc="outside lower center", ncols=names, **below)
     if style.titled:
-        title = plain(tradeoff.scene.title or tradeoff.scene.name, longest=110)
+        title = plain(found.scene.title or found.scene.name, longest=110)
         figure.suptitle(title, x=0.01, ha="left", fontsize=8.5)
     height = style.panels(2)[0] * PANEL + NAMES * -(-len(labels) // names) + TITLE * style.titled
     figure.set_size_inches(style.width, height)
@@ -77,37 +76,32 @@ def compose(tradeoff: Tradeoff, style: FigureStyle = PLAIN) -> Figure:
 
 
 def _against_time(
-    axis: Axes, rows: list[TradeoffRow], on_front: list[bool], line: dict[str, Any], label: str
-) -> None:
+    axis: Axes, rows: list[TradeoffRow | MotionRow], on_front: list[bool], line: dict[str, Any],
+    label: str, scale: float,
+) -> None:  # fmt: skip
     """A family: its medians as markers (filled on the front), its spread as bars, sizes written beside."""
-    median = np.array([1e3 * (row.seconds or 0.0) for row in rows])
+    median = np.array([scale * (row.cost or 0.0) for row in rows])
     error = [100 * (row.error or 0.0) for row in rows]
     axis.plot(median, error, label=label, markerfacecolor="white", **line)
     for row, t, e, kept in zip(rows, median, error, on_front, strict=True):
-        samples = [1e3 * s for s in row.samples]
+        samples = [scale * s for s in row.samples] or [t]
         axis.plot([min(samples), max(samples)], [e, e], color=line["color"], lw=0.6, alpha=0.6, zorder=1)
         if kept:
             axis.plot([t], [e], color=line["color"], marker=line["marker"], ms=4.6, zorder=4)
             axis.annotate(
-                _size(row), (t, e), (0, 0), textcoords="offset points", fontsize=6, color=line["color"],
+                row.mark, (t, e), (0, 0), textcoords="offset points", fontsize=6, color=line["color"],
                 gid=SIZE,
             )  # fmt: skip
 
 
-def _size(row: TradeoffRow) -> str:
-    """Counts along both sides, or one where they are alike."""
-    counts = [size.split("×")[:2] for size in row.ask.spec.size.split(":")]
-    return ":".join(along[0] if len(set(along)) == 1 else "×".join(along) for along in counts)
-
-
-def _front(axis: Axes, tradeoff: Tradeoff) -> None:
+def _front(axis: Axes, found: Priced) -> None:
     """The front as a staircase: what can be had in a given time."""
-    rows = [tradeoff.rows[i] for i in tradeoff.front]
+    rows, (_, scale) = [found.rows[i] for i in found.front], found.COST
     if not rows:
         return
-    times = [1e3 * (row.seconds or 0.0) for row in rows]
-    errors = [100 * max(row.error or 0.0, tradeoff.uncertainty or 0.0) for row in rows]
-    latest = max(1e3 * (row.seconds or 0.0) for row in tradeoff.rows)
+    errors = [100 * max(row.error or 0.0, found.uncertainty or 0.0) for row in rows]
+    times = [scale * (row.cost or 0.0) for row in rows]
+    latest = max(scale * (row.cost or 0.0) for row in found.rows)
     band: dict[str, Any] = {"color": "#d4a017", "lw": 4.5, "alpha": 0.35, "solid_joinstyle": "round"}
     times, errors = [*times, max(latest, times[-1])], [*errors, errors[-1]]
     axis.step(times, errors, where="post", zorder=0, label="front: the best in that time", **band)

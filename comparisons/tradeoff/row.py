@@ -54,6 +54,21 @@ class TradeoffRow(Solved):
         return min(self.ask.scene.sheet.lengths) / cells if cells else None
 
     @property
+    def model(self) -> str:
+        return self.ask.spec.model
+
+    @property
+    def sized(self) -> tuple[float | None, float | None]:
+        """Size of a cell [m] and the error of it."""
+        return self.cell_size, self.error
+
+    @property
+    def mark(self) -> str:
+        """Counts along both sides, or one where they are alike."""
+        counts = [size.split("×")[:2] for size in self.ask.spec.size.split(":")]
+        return ":".join(along[0] if len(set(along)) == 1 else "×".join(along) for along in counts)
+
+    @property
     def cost(self) -> float | None:
         """What the front and the cheapest are of."""
         return self.seconds
@@ -170,6 +185,15 @@ class MotionRow:
     def name(self) -> str:
         """The run and its steps."""
         return f"{self.run} with steps of {milliseconds(self.step)}" if self.step else self.run
+
+    @property
+    def sized(self) -> tuple[float | None, float | None]:
+        """The step [s] and what it misses."""
+        return self.step, self.step_error
+
+    @property
+    def mark(self) -> str:
+        return milliseconds(self.step) if self.step else self.size
 
     @property
     def cost(self) -> float | None:

@@ -53,6 +53,7 @@ def compose(found: Tradeoff | DynamicTradeoff, style: FigureStyle = PLAIN) -> Fi
             logarithmic(axis)
         if note or alike:
             floor(axis, found, note)
+    left.margins(x=0.12)  # for the sizes beside the outermost rows
     left.set_xlabel(found.COST[0])
     left.set_ylabel("error at the probes [%]")
     right.set_xlabel(found.SIZE)

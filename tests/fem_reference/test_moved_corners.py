@@ -40,9 +40,7 @@ def chain(**changes):
 
 
 def make_scene(supports, *actuators, gravity=GRAVITY):
-    return Scene(
-        name="corner", sheet=OBLONG, material=SILICONE, gravity=gravity, support=supports, actuator=actuators
-    )
+    return Scene("corner", OBLONG, SILICONE, gravity, supports, actuators=actuators)
 
 
 LIFT, PULL, ABOUT_ITSELF = (0.0, 0.0, 0.01), (0.01, 0.0, 0.0), (0.0, 0.3, 0.0)

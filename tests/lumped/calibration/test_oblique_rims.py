@@ -149,8 +149,7 @@ def calibrated(scene, masses):
 @pytest.mark.parametrize("scene", sheets(), ids=lambda scene: scene.name)
 @pytest.mark.parametrize("masses", [9, 33])
 def test_every_cell_keeps_a_positive_energy_and_the_table_is_read_back(scene, masses):
-    """At corners, where what sides take adds up, and in cells a sixth as long as the sheet is thick. A
-    negative `shear` of rims was refused where a scene gave it back."""
+    """At corners, where what sides take adds up, and in cells a sixth as long as the sheet is thick."""
     found = calibrated(scene.replace(thickness=6.0 * scene.sheet.thickness), masses).springs
     rows, columns = np.nonzero(np.array(found.axial.x if hasattr(found.axial, "x") else found.axial))
     edges = frozenset({"x0", "x1", "y0", "y1"})

@@ -190,8 +190,8 @@ def test_points_between_masses_are_as_near_as_masses(grading, held):
 
 
 def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch):
-    """What two edges take of their corner cell's twisting stiffness adds: with less than nothing left there the
-    sheet has an unstable equilibrium. Here h/10: 33 × 33 masses at grading 1, and even grids."""
+    """What two edges take of their corner cell's twisting stiffness adds; with less than nothing left there
+    the sheet has an unstable equilibrium. Here h/10: 33 × 33 masses at grading 1, and even grids."""
     sheet = Sheet(length_x=0.02, length_y=0.02, thickness=0.01)
     scene = load("two-edges-clamped").replace(sheet=sheet.model_dump(), probes={})
 

@@ -51,7 +51,7 @@ def test_a_support_that_speeds_up_pulls_its_own_masses_along():
 
 
 def test_dampers_of_a_fine_narrow_lattice_take_what_the_motion_loses():
-    """The settling strip's first half second; by velocities before a stage's last correction 6 % were lost."""
+    """The settling strip's first half second; with velocities before a stage's last correction 6 % off."""
     strip = settling_strip.scene()
     cell = strip.sheet.length_x / 32
     narrow = strip.replace(sheet=strip.sheet.replace(length_y=2.0 * cell), probes={"tip": (0.18, cell)})

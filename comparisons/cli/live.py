@@ -42,10 +42,7 @@ def command(
     from comparisons.live.panel import Panel
     from comparisons.live.server import Server
     from comparisons.models.resolve import resolve
-    from sheetbench.errors import BadInput
 
-    if not 0 <= port <= 65535:
-        raise BadInput(f"--port = {port}: from 0 to 65535")
     loaded = load_static(scene)
     meant = resolve(loaded, lattice.spec).spec
     panel = Panel(loaded, elements, meant.but(grid=lattice.grid))

@@ -164,10 +164,10 @@
 
   // Sliders that the calibration has no use for.
   function settle() {
-    const { said, graded, k } = panel.calibrations[calibration.value];
+    const { said, takes } = panel.calibrations[calibration.value];
     at("method").textContent = `How k is found from E, ν and h: ${said}.`;
-    sliders.get("grading").enable(graded);
-    sliders.get("k")?.enable(k);
+    sliders.get("grading").enable(takes.includes("grading"));
+    sliders.get("k")?.enable(takes.includes("k"));
     sliders.get("grid").enable(calibration.value !== "scene");
   }
 

@@ -12,16 +12,7 @@ import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import (
-    Chain,
-    Clamped,
-    Curved,
-    EdgeMotion,
-    Held,
-    Hinged,
-    Scene,
-    Symmetric,
-)
+from sheetbench.scenes import Chain, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Symmetric
 from sheetbench.scenes.objects.supports import Motion
 
 WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1

@@ -9,16 +9,7 @@ from lumped.assembly import Assembly
 from lumped.statics.structure import LIMITS
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import (
-    Clamped,
-    EdgeLoad,
-    Held,
-    Hinged,
-    PerDirection,
-    PointLoad,
-    Pressure,
-    SpringSet,
-)
+from sheetbench.scenes import Clamped, EdgeLoad, Held, Hinged, PerDirection, PointLoad, Pressure, SpringSet
 
 pytestmark = pytest.mark.smoke
 

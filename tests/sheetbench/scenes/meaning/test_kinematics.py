@@ -6,15 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
-from sheetbench.scenes import (
-    Chain,
-    Clamped,
-    CurvatureTable,
-    Curved,
-    EdgeMotion,
-    Sheet,
-    Symmetric,
-)
+from sheetbench.scenes import Chain, Clamped, CurvatureTable, Curved, EdgeMotion, Sheet, Symmetric
 from sheetbench.scenes.meaning.kinematics import UP, MovedEdge, TurnedEdge, bent_or_tilted
 from sheetbench.scenes.objects.tables import PiecewiseCurve
 

@@ -247,12 +247,8 @@ def test_springs_that_are_not_central_keep_no_moments_and_are_not_asked_to():
 
 
 WEIGHT = 9.81 * 1678.0 * 0.188**2 * 0.003
-EDGE_MOVED = {
-    "kind": "motion",
-    "edge": "x1",
-    "time": [0.0, 1.0],
-    "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.01]],
-}
+LIFTED = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.01]]
+EDGE_MOVED = {"kind": "motion", "edge": "x1", "time": [0.0, 1.0], "displacement": LIFTED}
 ACTUATED = {
     "a moved edge": make_scene(supports=[CLAMP], actuators=[EDGE_MOVED]),
     "a held base": make_scene(supports=[], actuators=[{"edge": "y1", "base": "start"}]),

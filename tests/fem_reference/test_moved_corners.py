@@ -12,16 +12,7 @@ import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import (
-    Chain,
-    Clamped,
-    Curved,
-    EdgeMotion,
-    Held,
-    Hinged,
-    Scene,
-    Symmetric,
-)
+from sheetbench.scenes import Chain, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Symmetric
 from sheetbench.scenes.objects.supports import Motion
 
 WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1
@@ -40,9 +31,7 @@ def chain(**changes):
 
 
 def make_scene(supports, *actuators, gravity=GRAVITY):
-    return Scene(
-        name="corner", sheet=OBLONG, material=SILICONE, gravity=gravity, support=supports, actuator=actuators
-    )
+    return Scene("corner", OBLONG, SILICONE, gravity, supports, actuators=actuators)
 
 
 LIFT, PULL, ABOUT_ITSELF = (0.0, 0.0, 0.01), (0.01, 0.0, 0.0), (0.0, 0.3, 0.0)

@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
+from cases import equilibrium, relative
 from dynamic_cases import make_scene
 
-import fem_reference
 import lumped
 from fem_reference.discrete.static import Static
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.statics import solid
 from fem_reference.surface.mesh import mesh_of
-from sheetbench.answers.solution import Status
 from sheetbench.numerics.direct import NearFactor
 
 EDGES = ("x0", "x1", "y0", "y1")
@@ -24,9 +23,8 @@ FREE = [{"edge": edge, "kind": "clamped"} for edge in EDGES[:3]]
 
 def pressed(supports, value=300.0, **material):
     """The catalogue's sheet under pressure alone."""
-    return make_scene(
-        supports=supports, loads=[{"kind": "pressure", "value": value}], gravity=False, **material
-    )
+    loads = [{"kind": "pressure", "value": value}]
+    return make_scene(supports=supports, loads=loads, gravity=False, **material)
 
 
 def problem_of(scene, grid=(4, 5, 2)):
@@ -83,12 +81,9 @@ def test_on_a_free_edge_the_tangent_is_unsymmetric_and_solved_with_its_symmetric
 def test_lattice_and_shell_agree_under_pressure(supports):
     scene = pressed(supports)
     points = np.array([[0.094, 0.094], [0.094, 0.15], [0.188, 0.188]])
-    found = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(17, 17)))
-    truth = fem_reference.solve(scene, "shell", elements=8)
-    assert found.status is truth.status is Status.CONVERGED
+    found, truth = (equilibrium(scene, model, 17, 8) for model in ("lumped", "shell"))
     assert ("unsymmetric" in found.message) == (supports is FREE)
-    miss = np.abs(found.displacement(points) - truth.displacement(points)).max()
-    assert miss < 0.01 * np.abs(truth.displacement(points)).max()
+    assert relative(found.displacement(points), truth.displacement(points)) < 0.01
 
 
 @pytest.mark.parametrize("model", ["shell", "solid"])
@@ -124,8 +119,6 @@ def arch(value):
 def test_an_arch_is_pressed_through_in_lattice_and_shell(value, side):
     """Their paths go past folds and end at stable shapes: the inertia and the energy of a pressure tell."""
     scene, middle = arch(value), np.array([[0.094, 0.094]])
-    lattice = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(13, 3)))
-    shell = fem_reference.solve(scene, "shell", elements=(8, 2))
-    assert lattice.status is shell.status is Status.CONVERGED
-    heights = [side * found.displacement(middle)[0, 2] for found in (lattice, shell)]
+    found = [equilibrium(scene, model, (13, 3), (8, 2)) for model in ("lumped", "shell")]
+    heights = [side * each.displacement(middle)[0, 2] for each in found]
     assert min(heights) > 0.01 and heights[0] == pytest.approx(heights[1], rel=0.1)

@@ -98,10 +98,8 @@ def test_ends_tilted_alike_and_opposite_bend_the_strip_to_one_curvature_and_to_t
     clamps = Clamped(edge="x0", tilt=SMALL), Clamped(edge="x1", tilt=second * SMALL)
     x = np.linspace(0.0, OBLONG.length_x, 17)
     found = solve(make_scene(*clamps, *CUTS), model, size)
-    w, exact = (
-        found.displacement(np.column_stack([x, 0.0 * x + 0.05]))[:, 2],
-        bent_beam(SMALL, second * SMALL, x, shear),
-    )
+    w = found.displacement(np.column_stack([x, 0.0 * x + 0.05]))[:, 2]
+    exact = bent_beam(SMALL, second * SMALL, x, shear)
     assert w == pytest.approx(exact, abs=within * np.abs(exact).max())
 
 

@@ -158,9 +158,8 @@ P3 = [(0.15, 0.075)]
 def bent(share):
     """With a share of the weight, by its density."""
     density, supports = 1200.0 * (share or 1.0), (Curved(edge="x0", curvature=-8.0),)
-    return cases.sheet(
-        0.15, 0.15, 0.002, 1e7, 0.45, density, weight=9.81 if share else 0.0, supports=supports
-    )
+    weight = 9.81 if share else 0.0
+    return cases.sheet(0.15, 0.15, 0.002, 1e7, 0.45, density, weight=weight, supports=supports)
 
 
 def sag(found):

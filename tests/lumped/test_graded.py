@@ -96,9 +96,7 @@ def shell_of(young, name):
     ],
 )
 def test_narrow_layers_at_the_edges(method, young, name, masses_, held):
-    """Error at the probes of the largest displacement, against the shell: cell by cell as a prototype of this
-    construction had it (0.91, 0.39, 1.18, 0.04 %), and as measured with the edges' twist. Even grids have
-    6.5, 1.8, 3.4 and 0.86 %, with or without."""
+    """Error at the probes against the shell; even grids have 6.5, 1.8, 3.4 and 0.86 %."""
     scene, reference = shell_of(young, name)
     springs = lumped.calibrate(scene.sheet, scene.material, masses_, method, grading=0.5)
     points = scene.probe_points()
@@ -192,10 +190,8 @@ def test_points_between_masses_are_as_near_as_masses(grading, held):
 
 
 def test_two_free_edges_leave_their_corner_its_twisting_stiffness(monkeypatch):
-    """Cells much narrower than the layer in which a free edge lets its twist go keep little of their twisting
-    stiffness; what two edges take from their corner's cell adds, and with less than nothing left there the
-    sheet has an unstable equilibrium. Here h/10: 33 × 33 of Habibi et al.'s sheet at grading 1, and even
-    grids."""
+    """What two edges take of their corner cell's twisting stiffness adds; with less than nothing left there
+    the sheet has an unstable equilibrium. Here h/10: 33 × 33 masses at grading 1, and even grids."""
     sheet = Sheet(length_x=0.02, length_y=0.02, thickness=0.01)
     scene = load("two-edges-clamped").replace(sheet=sheet.model_dump(), probes={})
 

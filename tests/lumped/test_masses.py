@@ -57,9 +57,8 @@ def test_six_frequencies_on_six_supports(name):
 @pytest.mark.parametrize("grading", [0.0, 0.6])
 @pytest.mark.parametrize("layers", [2, 3])
 def test_moments_of_the_mass(layers, grading):
-    """Total, first, second and mixed moments are the sheet's: products of linear motions are integrated
-    exactly, on uneven cells too, and rotary inertia is the sheet's however far apart the layers are.
-    Tributary masses have a second moment l²/(2 L²) too large."""
+    """Products of linear motions are integrated exactly, on uneven cells too, and rotary inertia is the
+    sheet's however far apart layers are. Tributary masses have a second moment l²/(2 L²) too large."""
     lattice = build(SHEET, (5, 6, layers), 0.003, twisting=EVERY, grading=grading)
     found = mass_matrix(SCENE, lattice, "higher-order").toarray()
     mass, (a, b) = 1000.0 * 0.2 * 0.3 * 0.002, SHEET.lengths

@@ -21,10 +21,8 @@ HEAVY += ["rich", "typer", "lumped", "fem_reference", "comparisons", "sheetbench
 def python(*arguments, **environment):
     """What a fresh interpreter prints."""
     around = {**os.environ, **environment}
-    done = subprocess.run(
-        [sys.executable, *arguments], capture_output=True, text=True, check=True, env=around
-    )
-    return done.stdout.strip()
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True, env=around).stdout.strip()
 
 
 def test_importing_sheetbench_imports_nothing_heavy_and_a_scene_is_read_without_any_solver():
@@ -106,9 +104,8 @@ def test_grids_are_numbers_or_tuples():
 
 
 def test_a_saved_scene_holds_every_digit(tmp_path):
-    moved = sb.EdgeMotion(
-        kind="motion", time=[0.0, 1.0], edge="x1", displacement=[[0.0] * 3, [0.01, 0.0, 0.0]]
-    )
+    way = [[0.0] * 3, [0.01, 0.0, 0.0]]
+    moved = sb.EdgeMotion(kind="motion", time=[0.0, 1.0], edge="x1", displacement=way)
     scene = sb.Scene(
         name='it\'s "quoted"',
         sheet=sb.Sheet(0.1 + 0.2, 0.2, 1e-3 / 3),

@@ -129,8 +129,7 @@ caching.IndexDataCacheFile.save = save
 
 
 def test_a_kernel_is_kept_by_one_process_at_a_time_in_folders_of_its_user_alone(tmp_path):
-    """Else a process would load, for its own arguments, what another compiled for others: and crash. Folders
-    are the user's whatever the umask."""
+    """Else a process would load what another compiled for other arguments, and crash."""
     said = subprocess.run(
         ["sh", "-c", 'umask 0 && exec "$0" -c "$1"', sys.executable, ALONE + ASK],
         env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},

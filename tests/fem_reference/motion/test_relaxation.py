@@ -28,11 +28,8 @@ def test_a_held_strain_relaxes_as_its_prony_series(model):
     assert run.status is Status.CONVERGED
     found, time = run.reactions["x1"][:, 0], run.time
     branches, held = material.branches, time > 2.0 * RAMP
-    ramp = [t / RAMP * -np.expm1(-RAMP / t) for t in branches.times]
-    series = 1.0 + sum(
-        a * g * np.exp(-(time - RAMP) / t)
-        for a, t, g in zip(branches.stiffness, branches.times, ramp, strict=True)
-    )
+    fading = [t / RAMP * -np.expm1(-RAMP / t) * np.exp(-(time - RAMP) / t) for t in branches.times]
+    series = 1.0 + np.array(branches.stiffness) @ fading
     at_rest = 1e6 * PULL / 0.1 * 0.02 * 0.002
     assert np.abs(found)[held] == pytest.approx(at_rest * series[held], rel=1e-6)
 

@@ -3,7 +3,7 @@ sampling."""
 
 import numpy as np
 import pytest
-from cases import CONVERGED, RUBBER, SHEET
+from cases import CONVERGED
 
 import fem_reference
 from fem_reference.shell import coarse_start, statics
@@ -11,14 +11,7 @@ from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.scenes import (
-    Clamped,
-    Gravity,
-    Material,
-    Pressure,
-    Scene,
-    Sheet,
-)
+from sheetbench.scenes import Gravity, Pressure, Sheet
 
 
 def solve(scene, elements=16, **options):
@@ -90,21 +83,13 @@ def test_sampling_is_exact_everywhere_on_the_sheet():
 
 def test_a_standing_sheet_that_is_too_soft_is_unstable():
     """Weight along a sheet that stands on its clamp: upright is an equilibrium, if a stable one."""
-    standing = {
-        "sheet": SHEET,
-        "supports": (Clamped(edge="x0"),),
-        "gravity": Gravity(acceleration=(-9.81, 0, 0)),
-    }
-    soft = Scene(name="t", material=Material(young=5e5, poisson=0.48, density=1678.0), **standing)
-    stiff = Scene(name="t", material=Material(young=5e8, poisson=0.48, density=1678.0), **standing)
-    assert solve(soft, 4).status is Status.UNSTABLE
-    assert solve(stiff, 4).status is Status.CONVERGED
+    standing = scenes.load("one-edge-clamped").replace(gravity=Gravity(acceleration=(-9.81, 0, 0)))
+    for young, status in ((5e5, Status.UNSTABLE), (5e8, Status.CONVERGED)):
+        assert solve(standing.replace(young=young), 4).status is status
 
 
 def test_an_absurd_load_ends_with_a_status():
-    scene = Scene(
-        name="t", sheet=SHEET, material=RUBBER, supports=(Clamped(edge="x0"),), loads=(Pressure(value=1e12),)
-    )
+    scene = scenes.load("one-edge-clamped").replace(gravity=None, loads=(Pressure(value=1e12),))
     solution = solve(scene, 3)
     assert solution.status is not Status.CONVERGED and solution.load_factor < 1.0 and solution.message
     assert np.all(np.isfinite(solution.mesh.point_data["displacement"]))
@@ -115,21 +100,16 @@ def test_meshes_are_near_square_and_graded_ones_are_finer_at_the_edges():
     for graded in (False, True):
         mesh = rectangle(sheet, 4, graded)
         assert mesh.nelements == 64
-        assert {name: len(facets) for name, facets in mesh.boundaries.items()} == {
-            "x0": 4,
-            "x1": 4,
-            "y0": 16,
-            "y1": 16,
-        }
+        counts = {name: len(facets) for name, facets in mesh.boundaries.items()}
+        assert counts == {"x0": 4, "x1": 4, "y0": 16, "y1": 16}
     x = np.unique(mesh.p[0])
     assert x[1] < 0.5 * (x[9] - x[8]) and x[-1] - x[-2] == pytest.approx(x[1])
 
 
 def test_a_path_whose_steps_were_halved_takes_longer_ones_again():
     """75 factorisations; 286 were easy steps followed by no longer ones."""
-    scene = scenes.load("one-edge-clamped")
-    heavy = scene.model_copy(update={"gravity": Gravity(acceleration=(0.0, 0.0, -30.0 * 9.81))})
-    found = solve(heavy, 2)
+    heavy = Gravity(acceleration=(0.0, 0.0, -30.0 * 9.81))
+    found = solve(scenes.load("one-edge-clamped").replace(gravity=heavy), 2)
     assert found.status is Status.CONVERGED and found.iterations < 150
 
 

@@ -7,7 +7,7 @@ import fem_reference
 from fem_reference.surface.mesh import mesh_of
 from fem_reference.uncertainty import solve_with_bar
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import BadInput, Scene, Sheet
+from sheetbench.scenes import BadInput, Material, Scene, Sheet
 
 ROOT = {"shape": {"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.1)}}, "young": 1e8}
 
@@ -22,16 +22,11 @@ def fin(own=(12, 6), **keys):
     points = np.column_stack([x, low + (0.1 - 2.0 * low) * t])
     mesh = {"points": [tuple(p) for p in points], "quads": [tuple(q) for q in quads.reshape(-1, 4).tolist()]}
     outline = [(0.0, 0.0), (0.2, 0.02), (0.2, 0.08), (0.0, 0.1)]
-    scene = {
-        "name": "fin",
-        "sheet": Sheet(0.2, 0.1, 0.003, **({"mesh": mesh} if own else {"outline": outline})),
-        "material": {"young": 1e7, "poisson": 0.4, "density": 1000.0},
-        "patch": [ROOT],
-        "gravity": {"acceleration": (0.0, 0.0, -9.81)},
-        "support": [{"kind": "clamped", "edge": "x0"}],
-        "probes": {"tip": (0.2, 0.05), "corner": (0.2, 0.08), "middle": (0.1, 0.05)},
-    }
-    return Scene(**{**scene, **keys})
+    plan = Sheet(0.2, 0.1, 0.003, **({"mesh": mesh} if own else {"outline": outline}))
+    probes = {"tip": (0.2, 0.05), "corner": (0.2, 0.08), "middle": (0.1, 0.05)}
+    material, gravity = Material(1e7, 0.4, 1000.0), {"acceleration": (0.0, 0.0, -9.81)}
+    held = {"supports": [{"kind": "clamped", "edge": "x0"}], "gravity": gravity, **keys}
+    return Scene("fin", plan, material, patches=[ROOT], probes=probes, **held)
 
 
 @pytest.mark.sweep(2)
@@ -62,7 +57,7 @@ def test_sixteenths_of_a_mesh_are_it_or_cut_up_or_our_own():
 
 def test_a_shape_between_the_sides_of_elements_is_refused():
     askew = {"kind": "clamped", "where": {"circle": {"centre": (0.03, 0.05), "radius": 0.02}}}
-    scene = fin(support=[askew])
+    scene = fin(supports=[askew])
     with pytest.raises(BadInput, match=r"sheet\.mesh: its sides do not lie on the border of the circle"):
         fem_reference.solve(scene, "shell")
     assert fem_reference.solve(scene, "plate", elements=12).status is Status.CONVERGED  # a mesh of ours
@@ -72,7 +67,7 @@ def test_a_shape_between_the_sides_of_elements_is_refused():
 def test_a_part_of_an_edge_is_loaded_where_elements_end(high, share):
     part = {"rectangle": {"x": (0.199, 0.2), "y": (0.0, high)}}  # thinner than an element
     pull = {"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 0.2), "where": part}
-    scene = fin(load=[pull], gravity=None)
+    scene = fin(loads=[pull], gravity=None)
     if share is None:
         with pytest.raises(BadInput, match=r"do not lie on the border of the rectangle .* 114 % of the part"):
             fem_reference.solve(scene, "plate")

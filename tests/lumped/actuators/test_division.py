@@ -48,8 +48,7 @@ def composite_elastica():
     "grid", [(25, 3), (37, 3), (49, 3), *(pytest.param(n, marks=pytest.mark.nightly) for n in (9, 17))]
 )
 def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
-    """With cells as long as parts, shorter by halves and by what is no whole number: 0.04, 0.04 and 0.05 %
-    off. (Undivided, six segments were 3.8 to 4.8 % off; a polygon's edge with 24 0.04, 0.79 and 3.5.)"""
+    """Cells as long as parts, shorter by halves, and by no whole number: 0.04, 0.04 and 0.05 % off."""
     chain = {"segments": segments, "bending_stiffness": RIGIDITY, "line_density": 0.03, "radius": 0.0015,
              "curvature": CURVATURE, "base": "start"}  # fmt: skip
     chains = [{**chain, "edge": edge} for edge in ("y0", "y1")]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import sheet
 
 import lumped
 from lumped.calibration.cell_by_cell import each_cell
@@ -63,10 +64,10 @@ def test_a_table_is_read_as_it_was_written(name):
 
 def test_an_even_sheet_is_calibrated_once():
     """A second call costs no closed form; another sheet has its own."""
-    sheet, material = Sheet(0.1, 0.1, 0.002), Material(1e6, 0.3, 1e3)
-    first = lumped.calibrate(sheet, material, 5)
-    assert lumped.calibrate(sheet, material, 5) is first
-    assert lumped.calibrate(sheet.replace(thickness=0.003), material, 5).springs != first.springs
+    plan, material = Sheet(0.1, 0.1, 0.002), Material(1e6, 0.3, 1e3)
+    first = lumped.calibrate(plan, material, 5)
+    assert lumped.calibrate(plan, material, 5) is first
+    assert lumped.calibrate(plan.replace(thickness=0.003), material, 5).springs != first.springs
 
 
 def test_constructions_of_the_literature_say_what_they_miss_of_fibres_at_an_angle():
@@ -80,11 +81,6 @@ LENGTH, WIDTH, THICK, THIN, YOUNG, DENSITY = 0.2, 0.02, 3e-3, 1e-3, 5e6, 1000.0
 SHEET, MATERIAL = Sheet(LENGTH, WIDTH, THICK), Material(YOUNG, 0.0, DENSITY)
 
 
-def cantilever(**others):
-    clamped = [{"edge": "x0", "kind": "clamped"}]
-    return Scene(name="taper", sheet=SHEET, material=MATERIAL, supports=clamped, **others)
-
-
 def tapered(grid):
     """A strip from 3 to 1 mm: of every cell the thickness in its middle."""
     middles = (np.arange(grid[0] - 1) + 0.5) / (grid[0] - 1)
@@ -95,7 +91,7 @@ def tapered(grid):
 def test_masses_and_weight_are_the_cells():
     grid = (9, 3)
     springs = lumped.calibrate(SHEET, MATERIAL, grid=grid, cells=tapered(grid))
-    scene = cantilever(gravity={"acceleration": [0.0, 0.0, -9.81]})
+    scene = sheet(LENGTH, WIDTH, THICK, material=MATERIAL, weight=9.81)
     problem = lumped.build_problem(scene, springs)
     weight = -problem.loads.dead[:, 2]
     whole = DENSITY * WIDTH * LENGTH * (THICK + THIN) / 2.0

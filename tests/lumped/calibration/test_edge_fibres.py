@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from cases import relative, sheet
 
 import fem_reference
 import lumped
 from lumped.assembly import Assembly
-from sheetbench.scenes import Clamped, Gravity, Material, PointLoad, Scene, Sheet
+from sheetbench.scenes import Clamped, Material, PointLoad
 
 STRONG = dict(young_1=100e6, young_2=2e6, poisson_12=0.3, shear_12=1e6)
 ORDINARY = dict(young_1=20e6, young_2=2e6, poisson_12=0.3, shear_12=1.2e6, shear_13=3e6, shear_23=0.5e6)
@@ -17,10 +18,7 @@ SIDES = frozenset({"y0", "y1"})
 
 def strip(width, angle, fibres=STRONG, length=0.1, **keys):
     material = Material(kind="orthotropic", density=1e3, angle=float(np.radians(angle)), **fibres)
-    sheet = Sheet(length_x=length, length_y=width, thickness=THICKNESS)
-    gravity = Gravity(acceleration=(0.0, 0.0, -9.81))
-    support = (Clamped(edge="x0"),)
-    scene = Scene(name="strip", sheet=sheet, material=material, support=support, gravity=gravity)
+    scene = sheet(length, width, THICKNESS, material=material, weight=9.81)
     return scene.replace(**keys) if keys else scene
 
 
@@ -105,7 +103,7 @@ def test_the_layer_at_an_edge_has_the_shear_of_no_force_across_it():
     points = np.array([(0.1, 0.0), (0.1, 0.01), (0.1, 0.02), (0.05, 0.01)])
     shell = fem_reference.solve(scene, "shell", elements=8).displacement(points)
     found = lumped.solve(scene, calibrated(scene, (41, 9))).displacement(points)
-    assert np.abs(found - shell).max() < 0.01 * np.abs(shell).max()
+    assert relative(found, shell) < 0.01
 
 
 @pytest.mark.nightly
@@ -118,5 +116,5 @@ def test_a_clamped_square_has_its_shears_coupled(angle):
     points = np.array([(0.01, 0.01), (0.015, 0.005)])
     shell = fem_reference.solve(scene, "shell", elements=12).displacement(points)
     found = [lumped.solve(scene, calibrated(scene, (n, n))).displacement(points) for n in (9, 17)]
-    far, near = (np.abs(u - shell).max() / np.abs(shell).max() for u in found)
+    far, near = (relative(u, shell) for u in found)
     assert near < far / 3.0 and near < 0.01  # of second order

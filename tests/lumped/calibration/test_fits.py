@@ -71,17 +71,9 @@ def test_frequency_slopes_against_differences():
     _, slopes = frequency_slopes(scene, springs, ["mid_area", *names], 3)
     assert not slopes["mid_area"].any()
     for name in names:
-        k = (
-            getattr(getattr(springs.springs, name[:-2]), name[-1])
-            if name[-2] == "_"
-            else getattr(springs.springs, name)
-        )
-        sides = [
-            lumped.modes(
-                scene, springs.with_constant(name, k * (1 + sign * 1e-4)), 3, "tributary"
-            ).frequencies
-            for sign in (1, -1)
-        ]
+        k = springs.constants.value(name)
+        moved = [springs.with_constant(name, k * (1 + sign * 1e-4)) for sign in (1, -1)]
+        sides = [lumped.modes(scene, one, 3, "tributary").frequencies for one in moved]
         expected = (sides[0] - sides[1]) / (2e-4 * k)
         assert slopes[name] == pytest.approx(expected, rel=1e-5, abs=1e-9 * sides[0][0] / k)
 
@@ -114,11 +106,8 @@ def test_what_cannot_be_told_apart_is_said():
 def test_misuse(method):
     with pytest.raises(ValueError, match="needs targets"):
         lumped.calibrate(SHEET, MATERIAL, (5, 5), method)
-    wrong = (
-        [ModalTarget(TRAINING[0], np.array([1.0]))]
-        if method == "fit-static"
-        else [StaticTarget(TRAINING[0], POINTS, np.zeros((64, 3)))]
-    )
+    modal, static = ModalTarget(TRAINING[0], np.ones(1)), StaticTarget(TRAINING[0], POINTS, 0.0 * POINTS)
+    wrong = [modal if method == "fit-static" else static]
     with pytest.raises(ValueError, match="all of them"):
         lumped.calibrate(SHEET, MATERIAL, (5, 5), method, targets=wrong)
     with pytest.raises(ValueError, match="takes no targets"):

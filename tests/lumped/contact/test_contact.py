@@ -107,9 +107,8 @@ def test_mean_force_does_the_energys_work_and_resistance_takes_power(item):
         return force
 
     along = (secant(end + h * step) - secant(end - h * step)).ravel() / (2 * h)
-    assert np.linalg.norm(applied(problem, blocks, step) - along) < 0.2 * np.linalg.norm(
-        along
-    )  # its main part
+    off = applied(problem, blocks, step) - along
+    assert np.linalg.norm(off) < 0.2 * np.linalg.norm(along)  # its main part
 
     v, force = 0.1 * rng.normal(size=u.shape), np.zeros_like(u)
     power = contact.add_resistance((u, still), v, force)
@@ -255,10 +254,8 @@ def test_without_an_obstacle_nothing_of_contact_runs():
         return found
 
     assert len(calls(laid_strip(0.05))) > 300  # and has imported all
-    assert set(calls(laid_strip(0.05, obstacles=()))) <= {
-        "contacts",
-        "<genexpr>",
-    }  # an empty tuple, once a solve
+    # an empty tuple, once a solve
+    assert set(calls(laid_strip(0.05, obstacles=()))) <= {"contacts", "<genexpr>"}
 
 
 def test_what_statics_refuse():

@@ -5,9 +5,7 @@ import pytest
 from dynamic_cases import ROD, make_scene, run, system
 
 from lumped.dynamics import INTEGRATORS, State
-from lumped.dynamics.implicit.compiled_newton import (
-    CompiledNewton,
-)
+from lumped.dynamics.implicit.compiled_newton import CompiledNewton
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.runs.observer import LatticeObserver
 from sheetbench import scenes

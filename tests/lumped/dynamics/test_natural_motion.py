@@ -60,8 +60,5 @@ def test_a_muscle_is_an_input_of_a_linear_system():
     np.testing.assert_allclose(linear.jacobian[:, number], slope, rtol=1e-5, atol=1e-9)
     result = lumped.sensitivity(scene, springs(scene), ["patch1.natural.kxx"])
     np.testing.assert_allclose(result.derivatives["patch1.natural.kxx"][0], slope, rtol=1e-5, atol=1e-9)
-    assert lumped.linearise(cantilever(Natural())).inputs[-3:] == (
-        "natural.kxx",
-        "natural.kyy",
-        "natural.kxy",
-    )
+    curvatures = ("natural.kxx", "natural.kyy", "natural.kxy")
+    assert lumped.linearise(cantilever(Natural())).inputs[-3:] == curvatures

@@ -55,8 +55,7 @@ RUNS = [  # scene, duration with two checkpoints [s], integrator of the lattice 
 @pytest.mark.parametrize(("scene", "duration", "how"), RUNS)
 def test_a_killed_run_resumes_to_the_last_digit(tmp_path, scene, duration, how):
     """From a copy of its folder at a moment between two samples, which is what kill -9 leaves there. In one
-    process: one that compiles kernels links other copies of those whose sums may be taken in any order, so
-    that its last digits may be others than where they come from the cache."""
+    process: kernels that it compiles itself and those of the cache may differ in the last digits."""
     whole, killed, after = tmp_path / "whole", tmp_path / "killed", []
 
     def kill(time):

@@ -123,16 +123,9 @@ def test_neo_hookean_is_hyperelastic_of_a_material_without_another_law():
         lumped.calibrate(SHEET, rubber("gent"), grid=5, method="neo-hookean")
 
 
-YOUNG, THICK = 5e6, 2e-3
-SOFT = {"young": YOUNG, "poisson": 0.45, "density": 1000.0}
-
-
 def strip(supports, loads=(), **others):
     """200 × 100 × 2 mm of silicone."""
-    sheet = {"length_x": 0.2, "length_y": 0.1, "thickness": THICK}
-    material = {**SOFT, **others.pop("material", {})}
-    tables = {"name": "strip", "sheet": sheet, "material": material, "supports": supports, "loads": loads}
-    return Scene.model_validate({**tables, **others})
+    return Scene("strip", SHEET, Material(5e6, 0.45, 1000.0, **others), supports=supports, loads=loads)
 
 
 def lattice(scene, grid=(4, 3), **options):
@@ -164,7 +157,7 @@ def test_the_largest_frequency_does_not_grow_under_stretch():
 def test_midpoint_steps_far_too_long_are_a_status_not_a_traceback():
     """200 % of strain in three steps: numbers overflow, and with dampers in the tangent too."""
     load = {"kind": "edge", "edge": "x1", "force_per_length": [4000.0, 0.0, 0.0]}
-    scene = strip([{"edge": "x0", "kind": "clamped"}], [load], material={"damping_time": 2e-4})
+    scene = strip([{"edge": "x0", "kind": "clamped"}], [load], damping_time=2e-4)
     history = lumped.simulate(scene, lattice(scene, (9, 5)), duration=0.02, integrator="midpoint")
     assert history.status is Status.DIVERGED and "at 0 s" in history.message
 

@@ -104,8 +104,7 @@ def _corners(sides):
 @pytest.mark.parametrize("natural", [False, True])
 @pytest.mark.parametrize("name", SIDES)
 def test_forces_of_cells_of_any_rest_shape_are_the_energys_gradient(name, natural):
-    """Whatever the angle between a cell's sides at rest: a right one was taken for granted. Where that is not
-    free of stress too."""
+    """Whatever the angle between a cell's sides at rest, and where that is not free of stress."""
     sides = SIDES[name]
     area = np.array([np.linalg.norm(np.cross(*sides))])
     q = of_stiffness(STIFFNESS, sides[None], area)

@@ -101,8 +101,7 @@ def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, mod
 
 @pytest.mark.parametrize("model", ["lumped", "shell"])
 def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, model):
-    """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so; it
-    took their number for 0, and the path for one that keeps to its branch."""
+    """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so."""
     monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 40)
     scene = load("one-edge-clamped")
     monkeypatch.setattr(direct, "SignedFactors", without_factors)

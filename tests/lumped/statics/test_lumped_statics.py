@@ -9,16 +9,7 @@ from lumped.assembly import Assembly
 from lumped.statics.structure import LIMITS
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import (
-    Clamped,
-    EdgeLoad,
-    Held,
-    Hinged,
-    PerDirection,
-    PointLoad,
-    Pressure,
-    SpringSet,
-)
+from sheetbench.scenes import Clamped, EdgeLoad, Held, Hinged, PerDirection, PointLoad, Pressure, SpringSet
 
 pytestmark = pytest.mark.smoke
 
@@ -57,8 +48,7 @@ TEN_TIMES_SOFTER = {"two-edges-clamped": (3, -60.1), "one-edge-clamped": (2, -15
 @pytest.mark.parametrize(("soft", "most"), [(1, 12), (10, LIMITS.careful_after)])
 @pytest.mark.parametrize("method", ["consistent", "hyperelastic"])
 def test_values_and_factorisations_from_flat(name, masses, soft, most, method):
-    """Paths of more than `careful_after` factorisations would be followed once more, with care. 9 masses took
-    6 where what was extrapolated was S alone: the material's part had the stretch of the moment."""
+    """Paths of more than `careful_after` factorisations would be followed once more, with care."""
     scene = softer(SEED[name], soft)
     solution = solve(scene, (masses, masses), method)
     assert solution.status is Status.CONVERGED

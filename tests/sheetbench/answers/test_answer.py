@@ -88,14 +88,8 @@ def test_fields_are_chosen_left_out_and_properties_may_be_columns():
     assert [c.name for c in chosen.columns] == ["twice", "model"] and chosen.rows[0] == (6, "a")
     left = Table.of(Row, ROWS, "", without=("moved", "grid"), details=("error",))
     assert [(c.name, c.detail) for c in left.columns][1:3] == [("off by", True), ("front", False)]
-    assert [c.name for c in Table.of(Row, [], "").columns] == [
-        "model",
-        "grid",
-        "moved",
-        "off by",
-        "front",
-        "steps",
-    ]
+    names = ["model", "grid", "moved", "off by", "front", "steps"]
+    assert [c.name for c in Table.of(Row, [], "").columns] == names
 
 
 def test_pandas_files_a_figure_and_a_prompt_follow_from_it(tmp_path):

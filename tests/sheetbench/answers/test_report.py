@@ -26,12 +26,8 @@ NUMBERS = Column("a", "m", "mm", 1e3, ".4g")
 
 
 def test_a_row_with_a_unit_is_shown_in_it_and_kept_in_si():
-    columns = (
-        Column("name"),
-        Column("unit"),
-        Column("value", form=".4g"),
-        Column("off", "", "%", 100.0, ".1f"),
-    )
+    values = (Column("value", form=".4g"), Column("off", "", "%", 100.0, ".1f"))
+    columns = (Column("name"), Column("unit"), *values)
     table = Table("", columns, (("young", unit("Pa"), 4.1e6, 0.5), ("poisson", unit(""), 0.3, 0.5)))
     assert table.shown_rows() == [["young", "MPa", "4.1", "50.0"], ["poisson", "", "0.3", "50.0"]]
     assert "young,Pa,4100000.0,0.5" in table.to_csv()
@@ -72,11 +68,8 @@ def test_latex_is_plain_on_one_line_a_row():
     assert len(text.splitlines()) == 9 and "\x1b" not in text
     row = text.splitlines()[5]
     assert r"\$" in row and r"\textbackslash{}" in row and row.count(" & ") == 1
-    assert (
-        Report("x", "t", {}, tables=(hostile_table(),))
-        .to_latex()
-        .startswith("% needs \\usepackage{booktabs}")
-    )
+    whole = Report("x", "t", {}, tables=(hostile_table(),)).to_latex()
+    assert whole.startswith("% needs \\usepackage{booktabs}")
 
 
 HOSTILE_SCENE = """

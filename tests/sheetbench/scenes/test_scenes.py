@@ -4,6 +4,7 @@ from inspect import signature
 
 import numpy as np
 import pytest
+from cases import sheet
 from scene_files import BAD, GOOD, LOOSE, written
 
 from sheetbench import scenes
@@ -65,9 +66,8 @@ def test_what_a_scene_takes_without_a_name_and_in_which_order():
 
 
 def test_catalogue_scenes_load_and_stand_still():
-    assert {"two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down"} <= set(
-        scenes.catalogue()
-    )
+    published = {"two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down"}
+    assert published <= set(scenes.catalogue())
     for name in scenes.catalogue():
         scene = scenes.load(name)
         assert scene.name == name
@@ -91,15 +91,8 @@ def test_absent_probes_are_centre_mid_sides_and_far_corner_where_nothing_holds(h
         "motion": {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.01]]},
     }
     parts = [{"edge": edge, "kind": kind, **more.get(kind, {})} for edge, kind in held]
-    scene = scenes.Scene.model_validate(
-        {
-            "name": "strip",
-            "sheet": {"length_x": 0.2, "length_y": 0.1, "thickness": 0.001},
-            "material": {"young": 1e6, "poisson": 0.3, "density": 1000.0},
-            "support": [part for part in parts if part["kind"] != "motion"],
-            "actuator": [part for part in parts if part["kind"] == "motion"],
-        }
-    )
+    supports, moved = ([p for p in parts if (p["kind"] == "motion") is is_one] for is_one in (False, True))
+    scene = sheet(0.2, 0.1, 0.001, supports=supports, actuators=moved)
     assert list(scene.probes) == ["P1", "P2", "P3", "P4"]
     assert scene.probe_points() == pytest.approx(np.array([(0.1, 0.05), *at.values()]))
 

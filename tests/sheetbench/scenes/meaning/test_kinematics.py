@@ -6,15 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
-from sheetbench.scenes import (
-    Chain,
-    Clamped,
-    CurvatureTable,
-    Curved,
-    EdgeMotion,
-    Sheet,
-    Symmetric,
-)
+from sheetbench.scenes import Chain, Clamped, CurvatureTable, Curved, EdgeMotion, Sheet, Symmetric
 from sheetbench.scenes.meaning.kinematics import UP, MovedEdge, TurnedEdge, bent_or_tilted
 from sheetbench.scenes.objects.tables import PiecewiseCurve
 
@@ -93,8 +85,7 @@ def test_a_moved_edge_is_a_rigid_bar(time):
 
 @pytest.mark.parametrize("time", [0.05, 0.1, 0.3, 0.6, 0.9])
 def test_the_velocity_of_a_moved_edge_is_its_derivative(time):
-    """One-sided differences of second order of positions, whose error is h² of the third derivative, and
-    rounding over h."""
+    """One-sided differences of second order: h² of the third derivative, and rounding over h."""
     edge, points, h = MovedEdge(MOTION, SHEET), on_edge("x1"), 1e-5
     now, soon, later = (edge.placed(points, time=time + k * h).lifted(HEIGHT) for k in range(3))
     assert_allclose(

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 
 from sheetbench.answers.balance import dead_force
 from sheetbench.scenes import BadInput, Clamped, Scene, SceneError, Sheet, free_rigid_motions
@@ -19,21 +20,15 @@ AREA = 0.2 * 0.1 - 0.2 * 0.02 - np.pi * 0.02**2
 
 def fin(outline=FIN, cutout=(HOLE,), support=(ROOT,), **keys):
     material = {"young": 5e6, "poisson": 0.4, "density": 1000.0}
-    sheet = {
-        "length_x": 0.2,
-        "length_y": 0.1,
-        "thickness": 0.003,
-        **({"outline": outline} if outline else {}),
-    }
+    sheet = {"length_x": 0.2, "length_y": 0.1, "thickness": 0.003, "outline": outline}
     scene = {"name": "fin", "sheet": sheet, "material": material, "cutout": cutout, "support": support}
     return Scene(**{**scene, **keys})
 
 
 def test_area_mass_edges_and_weight():
     scene = fin(gravity={"acceleration": (0.0, 0.0, -10.0)})
-    assert (
-        scene.region.area == pytest.approx(AREA) and scene.shaped_by == "sheet.outline, cutout, support.where"
-    )
+    assert scene.region.area == pytest.approx(AREA)
+    assert scene.shaped_by == "sheet.outline, cutout, support.where"
     assert scene.uniform and scene.drawn_by == scene.shaped_by
     assert mass_of(scene) == pytest.approx(3.0 * AREA)
     assert [edge_length(scene, edge) for edge in ("x0", "x1")] == pytest.approx([0.1, 0.06])
@@ -63,24 +58,16 @@ def test_loads_on_a_part_count_what_of_it_is_sheet():
 
 def test_probes_nobody_chose_lie_on_the_sheet():
     scene = fin()
-    assert all(scene.region.buffer(1e-9).contains_properly(p) for p in map(_point, scene.probes.values()))
+    region = scene.region.buffer(1e-9)
+    assert all(region.contains_properly(shapely.Point(place)) for place in scene.probes.values())
     assert scene.probes["P1"] != (0.1, 0.05) and fin(cutout=()).probes["P1"] == (0.1, 0.05)
-
-
-def _point(place):
-    import shapely
-
-    return shapely.Point(place)
 
 
 def test_what_a_shape_holds_stops_motions():
     assert free_rigid_motions(fin()) == []
     held = {"kind": "held", "components": ["z"], "where": DISC}
-    assert free_rigid_motions(fin(support=[held])) == [
-        "translation along x",
-        "translation along y",
-        "rotation about z",
-    ]
+    free = ["translation along x", "translation along y", "rotation about z"]
+    assert free_rigid_motions(fin(support=[held])) == free
 
 
 @pytest.mark.parametrize(

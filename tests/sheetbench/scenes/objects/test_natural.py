@@ -128,10 +128,8 @@ def test_what_cannot_be_is_refused(make, said):
 
 
 def test_components_are_parameters():
-    of = scene(
-        natural=Natural(curvature=(5.0, 0.0, 0.0)),
-        patches=(Patch(shape=rectangle(0.0, 0.1), natural=Natural()),),
-    )
+    root = Patch(shape=rectangle(0.0, 0.1), natural=Natural())
+    of = scene(natural=Natural(curvature=(5.0, 0.0, 0.0)), patches=(root,))
     assert (parameter(of, "natural.kxx").value, parameter(of, "natural.kxx").unit) == (5.0, "1/m")
     assert put(of, "natural.exy", 0.1).natural.strain == (0.0, 0.0, 0.1)
     assert put(of, "patch1.natural.kyy", 2.0).patches[0].natural.curvature == (0.0, 2.0, 0.0)

@@ -59,6 +59,7 @@ class Server(ThreadingHTTPServer):
     """The panel, its secret address, and who answers; port: 0 takes any that is free."""
 
     def __init__(self, panel: Panel, port: int = 0) -> None:
+        self.turn, self.shells = threading.Lock(), Processes(1)  # which a port that is taken closes again
         try:
             super().__init__((LOOPBACK, port), Desk)
         except (OSError, OverflowError) as error:
@@ -66,7 +67,6 @@ class Server(ThreadingHTTPServer):
         self.panel, self.assets, self.token = panel, _assets(panel), secrets.token_urlsafe(32)
         self.hosts = {f"{name}:{self.server_port}" for name in (LOOPBACK, "localhost")}
         self.address = f"http://{LOOPBACK}:{self.server_port}/{self.token}/"
-        self.turn, self.shells = threading.Lock(), Processes(1)
 
     def server_close(self) -> None:
         """Answer no more."""

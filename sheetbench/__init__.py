@@ -20,7 +20,7 @@ if _TYPE_CHECKING:
     from comparisons.codes.cell import cell_of as cell
     from comparisons.comparison.comparison import error
     from comparisons.identification.measurements import Displacements
-    from comparisons.models.spec import Elements, External, Lattice, LatticePair
+    from comparisons.models.spec import Elements, External, Lattice
     from sheetbench.answers.history import History
     from sheetbench.answers.solution import Solution, Status
     from sheetbench.face import solve, study
@@ -59,7 +59,7 @@ _MODULES = {  # all else is of sheetbench.scenes
     "comparisons.codes.cell": "Cell cell",
     "comparisons.comparison.comparison": "error",
     "comparisons.identification.measurements": "Displacements",
-    "comparisons.models.spec": "Elements External Lattice LatticePair",
+    "comparisons.models.spec": "Elements External Lattice",
     "sheetbench.answers.history": "History",
     "sheetbench.answers.solution": "Solution Status",
     "sheetbench.face": "solve study",
@@ -69,7 +69,7 @@ _NAME_THERE = {"cell": "cell_of"}
 
 __all__ = [
     "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
-    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "LatticePair", "Mass",
+    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "Mass",
     "Material", "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric",
     "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "identify", "load", "modes",
     "new", "report", "scenes", "score", "simulate", "solve", "stability", "study", "tradeoff", "verify",

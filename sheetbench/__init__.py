@@ -14,6 +14,8 @@ from __future__ import annotations
 from importlib import import_module as _import_module
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
+from sheetbench.choices import FUNCTIONS as _FUNCTIONS
+
 if _TYPE_CHECKING:
     import sheetbench.scenes as scenes
     from comparisons.codes.cell import Cell
@@ -51,10 +53,6 @@ if _TYPE_CHECKING:
     calibrate = check = compare = crosscheck = identify = modes = new = report = score = _verb("")
     simulate = stability = tradeoff = verify = calibrate
 
-_VERBS = (
-    "new", "check", "compare", "simulate", "tradeoff", "stability", "crosscheck", "calibrate", "identify",
-    "modes", "score", "verify", "report",
-)  # fmt: skip
 _MODULES = {  # all else is of sheetbench.scenes
     "comparisons.codes.cell": "Cell cell",
     "comparisons.comparison.comparison": "error",
@@ -85,7 +83,7 @@ def __getattr__(name: str) -> object:
         return _import_module("sheetbench.scenes")
     if name not in __all__:
         raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
-    if name in _VERBS:
+    if name in _FUNCTIONS:
         return _import_module("sheetbench.face").verb(name)
     module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
     return getattr(module, _NAME_THERE.get(name, name))

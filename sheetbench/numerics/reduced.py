@@ -23,7 +23,6 @@ from sheetbench.numerics.direct import (
     Count,
     DirectSolver,
     Factor,
-    Inertia,
     NearFactor,
     SingularMatrixError,
 )
@@ -70,23 +69,10 @@ class Reduction(NamedTuple):
         return sp.csc_array((data, self.rows, self.pointers), shape=(size, size))
 
 
-class BandedFactor(Factor):
-    """Cholesky factors in a band: of a positive definite matrix, which is made where it is needed."""
-
-    def __init__(self, band: banded.Band, factors: np.ndarray, matrix: Callable[[], sp.csc_array]):
-        self._band, self._matrix, self.factors = band, matrix, factors
-        self._backward_error = CHOLESKY
-        self.inertia = Inertia(len(band.order), 0, 0)
-
-    @cached_property
-    def matrix(self) -> sp.csc_array:  # type: ignore[override]
-        """The matrix, both triangles."""
-        return self._matrix()
-
-    def solve_unrefined(self, b: np.ndarray) -> np.ndarray:
-        """x with A x = b as the factors have it, neither refined nor checked."""
-        found: np.ndarray = banded.solve_unrefined(self.factors, self._band.width, self._band.order, b)
-        return found
+def banded_factor(band: banded.Band, factors: np.ndarray, matrix: Callable[[], sp.csc_array]) -> Factor:
+    """Return Cholesky factors in a band: of a positive definite matrix, which is made where it is needed."""
+    solve = partial(banded.solve_unrefined, factors, band.width, band.order)
+    return Factor(matrix, solve, 0, backward_error=CHOLESKY)
 
 
 class ReducedSystem:
@@ -168,7 +154,7 @@ class ReducedSystem:
         if self.band is not None:
             factors, definite = banded.factored(blocks, self.band)
             if definite:
-                return BandedFactor(self.band, factors, partial(self.matrix, blocks))
+                return banded_factor(self.band, factors, partial(self.matrix, blocks))
         matrix = self.matrix(blocks)
         if self._saddle is None:
             return self._solver.factor(matrix, more)
@@ -176,7 +162,7 @@ class ReducedSystem:
             raise SingularMatrixError("an entry of the matrix is not finite")
         close_by, augmented = self._saddle.quasi_definite(matrix)
         near = self._solver.factor(close_by)
-        return NearFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.inertia)
+        return NearFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.negative, near.zero)
 
 
 def reduced(pattern: BlockPattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:

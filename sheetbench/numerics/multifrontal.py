@@ -2,8 +2,7 @@
 
 A front takes its entries of the matrix and what is left of the fronts of its halves, eliminates its own
 unknowns and leaves the rest to the front that it is half of (see `fronts`). It is stored by columns of the
-lower triangle, a row each; PANEL columns are eliminated together, and others updated two at a time, with
-operands that stay in registers; BLAS updates what is beyond a block of a wide front.
+lower triangle, a row each; PANEL columns are eliminated together, and others updated two at a time.
 
 Of a positive definite matrix these are Cholesky's factors. S has the inertia of any other (Sylvester); as no
 rows are exchanged, its factors may grow beyond the matrix: where L² exceeds GROWTH times the diagonal, which
@@ -29,8 +28,6 @@ from sheetbench.numerics.panels import (
 )
 from sheetbench.numerics.typed import inner, njit
 
-BLOCK = 48  # columns
-WIDE = 160  # from here on a front is eliminated by blocks
 ROUNDING_PIVOT = 1e-13  # of the diagonal, up to which a pivot counts as rounding
 GROWTH = 1e3
 
@@ -119,60 +116,45 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel
     and the others into what is left; False at a pivot that is not finite, or nothing but rounding. panel:
     room (PANEL, width), where columns that are missing are zero."""
     width, own = dense.shape[1], len(signs)
-    block = BLOCK if width > WIDE else max(own, 1)
     shares, sign, rows = np.zeros((PANEL, PANEL)), np.zeros(PANEL), panel.ravel()
-    for b0 in range(0, own, block):
-        b1 = min(own, b0 + block)
-        limit = b1 if width > WIDE else width
-        for k0 in range(b0, b1, PANEL):
-            start = min(b1, k0 + PANEL)
-            if start < k0 + PANEL:
-                panel[:] = 0.0
-                shares[:] = 0.0
-                sign[:] = 0.0
-            for k in range(k0, start):
-                column, p = dense[k], k - k0
-                pivot = np.abs(column[k])
-                if not (pivot > ROUNDING_PIVOT * diagonal[k] and pivot > 0.0 and pivot < np.inf):
-                    return False
-                sign[p] = 1.0 if column[k] > 0.0 else -1.0
-                column[k] = np.sqrt(pivot)
-                signs[k], shares[p, p] = sign[p], sign[p] / column[k]
-                for j in range(k + 1, start):
-                    column[j] *= shares[p, p]
-                    shares[p, j - k0] = sign[p] * column[j]
-                    for i in range(k + 1, j + 1):
-                        dense[i, j] -= shares[p, i - k0] * column[j]
-                for i in range(start, width):
-                    panel[p, i] = column[i]
-            eliminate(triangle(shares.ravel(), 0, PANEL), rows, start, width, width - start)
-            for p in range(start - k0):
-                column = dense[k0 + p]
-                for i in range(start, width):
-                    column[i] = panel[p, i]
-            _update(rows, sign, dense, start, limit)
-        if limit < width:
-            left, signed = np.empty((width - limit, b1 - b0)), np.empty((width - limit, b1 - b0))
-            for k in range(b0, b1):
-                for i in range(limit, width):
-                    left[i - limit, k - b0], signed[i - limit, k - b0] = dense[k, i], signs[k] * dense[k, i]
-            for j0 in range(0, width - limit, BLOCK):
-                products = np.dot(signed[j0 : j0 + BLOCK], left[j0:].T)
-                for j in range(len(products)):
-                    column = dense[limit + j0 + j, limit + j0 :]
-                    for i in range(j, len(column)):
-                        column[i] -= products[j, i]
+    for k0 in range(0, own, PANEL):
+        start = min(own, k0 + PANEL)
+        if start < k0 + PANEL:
+            panel[:] = 0.0
+            shares[:] = 0.0
+            sign[:] = 0.0
+        for k in range(k0, start):
+            column, p = dense[k], k - k0
+            pivot = np.abs(column[k])
+            if not (pivot > ROUNDING_PIVOT * diagonal[k] and pivot > 0.0 and pivot < np.inf):
+                return False
+            sign[p] = 1.0 if column[k] > 0.0 else -1.0
+            column[k] = np.sqrt(pivot)
+            signs[k], shares[p, p] = sign[p], sign[p] / column[k]
+            for j in range(k + 1, start):
+                column[j] *= shares[p, p]
+                shares[p, j - k0] = sign[p] * column[j]
+                for i in range(k + 1, j + 1):
+                    dense[i, j] -= shares[p, i - k0] * column[j]
+            for i in range(start, width):
+                panel[p, i] = column[i]
+        eliminate(triangle(shares.ravel(), 0, PANEL), rows, start, width, width - start)
+        for p in range(start - k0):
+            column = dense[k0 + p]
+            for i in range(start, width):
+                column[i] = panel[p, i]
+        _update(rows, sign, dense, start)
     return True
 
 
 @inner(fastmath=REORDERED)
-def _update(rows: np.ndarray, sign: np.ndarray, dense: np.ndarray, start: int, limit: int) -> None:
-    """Take the products of a panel's rows (PANEL · width,) off the columns start … limit."""
+def _update(rows: np.ndarray, sign: np.ndarray, dense: np.ndarray, start: int) -> None:
+    """Take the products of a panel's rows (PANEL · width,) off the columns from `start` on."""
     width = np.uint64(dense.shape[1])
     signs = load_each(0, sign, 0, 1, PANEL)
-    for j in range(start, limit, 2):
+    for j in range(start, dense.shape[1], 2):
         f, g = times(signs, load_each(0, rows, j, width, PANEL)), NOTHING
-        if j + 1 < limit:
+        if j + 1 < dense.shape[1]:
             g = times(signs, load_each(0, rows, j + 1, width, PANEL))
         one, two = dense[j], dense[j + 1]  # what is above the second's diagonal is never looked at
         for i in range(j, dense.shape[1]):

@@ -291,6 +291,6 @@ def _require_on_sheet(measured: Measured, scene: Scene) -> None:
         if off_sheet(scene, (x, y)):
             raise BadInput(
                 f"{measured.name_of(row)}: x, y = {x:g}, {y:g} is off the sheet: 0 ≤ x ≤ "
-                f"{scene.sheet.length_x:g} m, 0 ≤ y ≤ {scene.sheet.length_y:g} m, within its outline, not in a "
+                f"{scene.sheet.length_x:g} m, 0 ≤ y ≤ {scene.sheet.length_y:g} m, in its outline, not in a "
                 "cutout"
             )

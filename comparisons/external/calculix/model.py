@@ -213,8 +213,8 @@ def _version(program: str | None) -> str | None:
     if program is None:
         return None
     printed = ""
-    with suppress(Failed):
-        printed = output_of([program, "-v"], Path.cwd(), 10.0, fine=(0, SAYS_ITS_VERSION))
+    with suppress(Failed), TemporaryDirectory() as folder:
+        printed = output_of([program, "-v"], Path(folder), 10.0, fine=(0, SAYS_ITS_VERSION))
     match = re.search(r"Version +(\S+)", printed, re.IGNORECASE)
     return match.group(1) if match else "of unknown version"
 

@@ -158,7 +158,7 @@ def _without(found: Description, absent: np.ndarray) -> Description:
         cells=tuple(replace(table, corners=new[table.corners]) for table in found.cells),
         holds=tuple(replace(h, masses=several(h.masses)) for h in found.holds if there[h.masses[0]]),
         pressed=new[found.pressed],
-        contact=found.contact | {"contact_corners": new[found.contact["contact_corners"]]},
+        contact=found.contact | {"contact_masses": new[found.contact["contact_masses"]]},
         couples=tuple(
             replace(
                 c,

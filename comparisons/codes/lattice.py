@@ -47,11 +47,11 @@ CONTACT = """
 - `obstacles.csv`: rigid bodies where they are at last, in `a` a plane's unit normal, towards the sheet, or a
   cylinder's axis.
 - `contacts.csv`: points in cells of the mid-surface that may touch an obstacle, numbered from 0, with their
-  area and k in N/m³. A point is at X = Σ weight × corner, a corner being the mean of its masses. With y =
-  X − position, φ = y·n on a plane, n its normal; |y| − radius and n = y/|y| on a sphere; the same on a
-  cylinder with y less its part along the axis. Depth d = offset − φ; where d > 0, E = ½ k d² area, and the
-  gradient by X is −k d area n, weight times that on each corner. The offset is half the thickness and 1e-9
-  of it. The energy of `states.csv` is that of springs and contact.
+  area and k in N/m³. A point is at X = Σ weight × mass. With y = X − position, φ = y·n on a plane, n its
+  normal; |y| − radius and n = y/|y| on a sphere; the same on a cylinder with y less its part along the axis.
+  Depth d = offset − φ; where d > 0, E = ½ k d² area, and the gradient by X is −k d area n, weight times that
+  on each mass. The offset is half the thickness and 1e-9 of it. The energy of `states.csv` is that of springs
+  and contact.
 """
 PAGE = """\
 # {title}
@@ -111,7 +111,7 @@ Drag on every mass: {rate:g} 1/s × mass × velocity, against its motion.
   columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
   the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
   and −F on the bottom mass.
-{plan}{notes}{contact}
+{plan}{notes}
 ## The same as arrays
 
 `lattice.npz` (NumPy) and `lattice.mat` (MATLAB, Octave: add 1 to numbers of masses), p = {layers}:
@@ -143,8 +143,9 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         layers=layers,
         plan="" if scene.uniform and not scene.pierced else PLAN,
         natural=NATURAL if scene.natural_by else "",
-        contact=CONTACT if scene.obstacles else "",
-        notes=notes + "".join(f"\nFor one code: `{name}`.\n" for name in others),
+        notes="".join(
+            [notes, *(f"\nFor one code: `{name}`.\n" for name in others), *[CONTACT] * bool(scene.obstacles)]
+        ),
         arrays="\n".join(f"- `{name}` {markdown(note)}" for name, note in NAMES.items()),
     )
 

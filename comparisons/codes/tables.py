@@ -63,15 +63,11 @@ NAMES = {  # and what they are
     "couple_after": "(e, p) of the one after it",
     "couple_moment": "(e,) [N m]",
     "obstacle_kind": "(o,) names",
-    "obstacle_position": "(o, 3) of a plane's point, a centre, a point of an axis, where it is at last [m]",
-    "obstacle_direction": "(o, 3) unit normal or axis, 0 of a sphere",
-    "obstacle_radius": "(o,) [m], 0 of a plane",
+    "obstacle_place": "(o, 7) last position [m], unit normal or axis, 0 of a sphere, radius [m], 0 of a plane",
     "contact_obstacle": "(t,) obstacle that a point may touch, from 0",
-    "contact_corners": "(t, 4, p) masses whose mean is a corner",
-    "contact_weights": "(t, 4) of the corners",
-    "contact_area": "(t,) [m2]",
-    "contact_offset": "(t,) distance at which it touches [m]",
-    "contact_stiffness": "(t,) k of the pressure k d [N/m3]",
+    "contact_masses": "(t, q) around a point",
+    "contact_weights": "(t, q) of these masses, whose weighted mean it is",
+    "contact_values": "(t, 3) area [m2], distance at which it touches [m], k of the pressure k d [N/m3]",
     "state_name": "(q,) names",
     "state_displacement": "(q, n, 3) [m]",
     "state_force": "(q, n, 3) gradient of the energy of springs and contact [N]",
@@ -209,12 +205,12 @@ def natural(lattice: Description) -> str:
 
 def contacts(lattice: Description) -> dict[str, str]:
     """Return the tables of obstacles and of their points."""
-    joined = np.array([[*map(_joined, masses)] for masses in lattice.contact["contact_corners"].tolist()])
-    columns = list((lattice.contact | {"contact_corners": joined}).values())
-    four = (f"{name}_{n}" for name in ("corner", "weight") for n in range(1, 5))
+    kind, place, which, masses, *others = lattice.contact.values()
+    around = (f"{name}_{n}" for name in ("mass", "weight") for n in range(1, 1 + masses.shape[1]))
+    header = ",".join(["obstacle", *around, "area,offset,stiffness"])
     return {
-        "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius", _rows(*columns[:4])),
-        "contacts.csv": _csv(",".join(["obstacle", *four, "area,offset,stiffness"]), _rows(*columns[4:])),
+        "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius", _rows(kind, place)),
+        "contacts.csv": _csv(header, _rows(which, masses, *others)),
     }
 
 

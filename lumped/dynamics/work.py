@@ -23,9 +23,7 @@ def work(system: System, before: State, after: State) -> float:
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
     for item in system.items if system.pushed else ():
         ends = (item.exerted((s.u, system.drive(s.time)), s.v).sum(axis=0) for s in (before, after))
-        done += (
-            0.5 * sum(ends, np.zeros(3)) @ (item.displacement(after.time) - item.displacement(before.time))
-        )
+        done += 0.5 * sum(ends, np.zeros(3)) @ (item.place(after.time) - item.place(before.time))
     if coupling is not None:
         then, now = system.drive(before.time), system.drive(after.time)
         for u in (before.u, after.u):
@@ -56,7 +54,7 @@ def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) 
         force = np.zeros_like(end)
         item.add_force((end, drive), force, since)
         item.add_resistance((0.5 * (start.u + end), system.drive(middle)), rate, force)
-        done -= force.sum(axis=0) @ (item.displacement(last) - item.displacement(start.time))
+        done -= force.sum(axis=0) @ (item.place(last) - item.place(start.time))
     return float(done)
 
 

@@ -57,7 +57,7 @@ def solution(
         reactions |= coupling.reactions(exerted)
     at = u, Drive(state.load_factor)
     reactions |= {item.name: item.exerted(at).sum(axis=0) for item in problem.items}
-    contacts = {item.name: item.report(at) for item in problem.items}
+    contacts = {item.name: item.report(at) for item in problem.contacts}
     pressures = [pressure for _, pressure in contacts.values()]
     pressed = {"contact_pressure": np.sum(pressures, axis=0)} if pressures else {}
     nx, ny, layers = lattice.grid

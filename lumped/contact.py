@@ -16,8 +16,6 @@ reasons, and what energy they take.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -58,7 +56,7 @@ class Contact(LatticeItem):
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle = name, obstacle
-        self.place, self.velocity = partial(obstacle.place, 1.0), obstacle.velocity
+        self.place, self.velocity = obstacle.place, obstacle.velocity
         self.moves = obstacle.motion is not None
         self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
@@ -88,9 +86,8 @@ class Contact(LatticeItem):
 
     def near(self, at: Placed, of: Any = ...) -> Near:
         """Return where points (m, p) of patches are."""
-        u, drive = at
-        places = self.weights @ (self._rest[of] + u[self.nodes[of]])
-        return near(self.obstacle, places, self.offset[of], drive.load_factor, drive.time)
+        places = self.weights @ (self._rest[of] + at[0][self.nodes[of]])
+        return near(self.obstacle, places, self.offset[of], at[1])
 
     def _pressed(self, at: Placed, since: Since = None) -> tuple[Any, Near, Pressed]:
         """Return which patches may touch, where their points are and how they are pressed; since: what a step
@@ -106,9 +103,7 @@ class Contact(LatticeItem):
         places = self._rest + at[0][self.nodes]
         middle = places.mean(axis=1, keepdims=True)  # no point is farther from it than a mass
         reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1)) + 1.01 * self.offset.max(axis=1)
-        of = np.flatnonzero(
-            near(self.obstacle, middle[:, 0], reach, at[1].load_factor, at[1].time).depth > 0.0
-        )
+        of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
         found = self.near(at, of)
         return of, found, self._law(found.depth, of)
 
@@ -174,22 +169,12 @@ class Contact(LatticeItem):
         pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
         return ContactState.of(depth / self.thickness, self.area), pressure
 
-
-def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:
-    """Return obstacles and points of contacts of a lattice of so many layers, named as in `lattice.npz`
-    (`comparisons.codes.tables`): with φ the distance of a point from its obstacle each has the energy
-    ½ stiffness area ⟨offset − φ⟩²."""
-    bodies, none = [one.obstacle for one in contacts], np.empty((0, 4 * layers))
-    parts = [(np.empty(0, int), none.astype(int), none, np.empty((0, 3)))]
-    for number, one in enumerate(contacts):
-        place = np.full(one.area.size, number), np.repeat(one.nodes, len(one.weights), axis=0)
-        values = np.stack([one.area, one.offset, one.full], axis=2).reshape(-1, 3)
-        parts.append((*place, np.tile(one.weights, (len(one.nodes), 1)), values))
-    which, masses, weights, values = map(np.concatenate, zip(*parts, strict=True))
-    places = [[*body.place(), *body.direction, body.radius] for body in bodies]
-    return {
-        "obstacle_kind": np.array([body.kind for body in bodies]),
-        "obstacle_place": np.nan_to_num(np.reshape(places, (-1, 7)), posinf=0.0),
-        **{"contact_obstacle": which, "contact_masses": masses, "contact_weights": weights},
-        "contact_values": values,
-    }
+    def table(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return masses (t, q) around its points and their weights (t, q); and (t, 10) the obstacle's place,
+        direction and radius, 0 of a plane [m], a point's area [m²], offset [m] and stiffness [N/m³]: with φ
+        its distance a point has the energy ½ stiffness area ⟨offset − φ⟩²."""
+        body, (cells, points) = self.obstacle, self.area.shape
+        place = np.nan_to_num([*body.place(), *body.direction, body.radius], posinf=0.0)
+        values = [*np.broadcast_to(place, (cells, points, 7)).T, self.area.T, self.offset.T, self.full.T]
+        masses, weights = np.repeat(self.nodes, points, axis=0), np.tile(self.weights, (cells, 1))
+        return masses, weights, np.stack(values).T.reshape(-1, 10)

@@ -20,12 +20,12 @@ Since = Placed | None  # where a step begins, of which a mean is returned
 
 class LatticeItem(Protocol):
     """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does, with its
-    place (3,) [m] and velocity (3,) [m/s] at a time [s]; resists: whether it takes energy. One that inherits
-    this leaves out what has a default here."""
+    place (3,) [m] by how far commands are and velocity (3,) [m/s] at a time [s]; resists: whether it takes
+    energy. One that inherits this leaves out what has a default here."""
 
     name: str
     moves: bool
-    place: Callable[[float], np.ndarray]
+    place: Callable[[float, float | None], np.ndarray]
     velocity: Callable[[float], np.ndarray]
     resists: bool
 

@@ -48,7 +48,7 @@ class Touching(SheetItem):
 
     def near(self, shape: SheetShape) -> Near:
         """Return where points (faces, m, 9) are."""
-        return near(self.obstacle, self._points(shape.vectors), self.offset, *shape.sheet.instant(shape.at))
+        return near(self.obstacle, self._points(shape.vectors), self.offset, shape.sheet.instant(shape.at))
 
     def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
         """Return where points are, and how they are pressed."""
@@ -62,11 +62,9 @@ class Touching(SheetItem):
         """Return forces at points (faces, m, 9, 3) [N], those of dashpot and friction among them, and the
         derivatives of these by the points' velocities (faces, m, 9, 3, 3)."""
         found, (_, load, _) = self._pressed(shape)
-        rubbed, by_rate = found.resistance(load, self._points(shape.rates) - self._velocity(shape))
+        velocity = self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
+        rubbed, by_rate = found.resistance(load, self._points(shape.rates) - velocity)
         return load[..., None] * found.normal + rubbed, rubbed, by_rate
-
-    def _velocity(self, shape: SheetShape) -> np.ndarray:
-        return self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
 
     def force(self, shape: SheetShape) -> np.ndarray:
         return self._onto(shape, self._pulled(shape)[0])
@@ -98,7 +96,7 @@ class Touching(SheetItem):
     stored = potential
 
     def exchanged(self, shape: SheetShape) -> tuple[float, float]:
-        velocity, (pull, rubbed, _) = self._velocity(shape), self._pulled(shape)
+        velocity, (pull, rubbed, _) = self.obstacle.velocity(shape.at), self._pulled(shape)
         taken = rubbed.sum(axis=(0, 1, 2)) @ velocity - self._onto(shape, rubbed) @ shape.v
         return float(taken), float(pull.sum(axis=(0, 1, 2)) @ velocity)
 

@@ -54,8 +54,7 @@ def gradient(lattice, along, u):
 
 def contact(lattice, along, x, g):
     """Energy [J] of points that touch obstacles; its gradient is added to g."""
-    place, normal, radius = np.split(lattice["obstacle_place"][lattice["contact_obstacle"]], [3, 6], axis=1)
-    area, offset, k = np.hsplit(lattice["contact_values"], 3)
+    place, normal, radius, area, offset, k = np.hsplit(lattice["contact_values"], [3, 6, 7, 8, 9])
     y, curved = along["contact"] @ x - place, radius > 0
     y = y - curved * dot(y, normal) * normal
     length = np.where(curved, np.sqrt(dot(y, y)), dot(y, normal))
@@ -138,7 +137,7 @@ def stiffness(lattice, along, shared, u, force, h):
 
 def part_of(lattice, along, part, share):
     """The lattice with a part of its natural state and with a share of the stiffness of contact."""
-    found = {**lattice, "contact_values": lattice["contact_values"] * [1, 1, share]}
+    found = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
     rest = lattice["positions"]
     flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
     for kind in ("area", "strain", "coupling"):

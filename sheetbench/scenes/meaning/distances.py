@@ -10,10 +10,9 @@ With y the position of a point less the obstacle's, across its axis if it has on
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.objects.fields import SceneFields
@@ -25,34 +24,27 @@ GRID = 65  # points a side of the outline, or along an edge, that a distance is 
 
 
 class Near(NamedTuple):
-    """Points beside an obstacle: y (…, 3) [m], φ (…) [m] and n (…, 3); the offset (…) [m] is the distance at
-    which they touch it."""
+    """Points beside an obstacle: y (…, 3) [m], |y| (…) [m], infinite by a plane, n (…, 3), and the depth (…)
+    [m], how much less φ is than where they touch it, < 0 of one that is clear."""
 
     obstacle: AnyObstacle
     across: np.ndarray
-    distance: np.ndarray
+    length: np.ndarray
     normal: np.ndarray
-    offset: np.ndarray | float
-
-    @property
-    def depth(self) -> np.ndarray:
-        """How far they are in it (…) [m], < 0 of one that is clear."""
-        return np.asarray(self.offset - self.distance)
+    depth: np.ndarray
 
     @property
     def curvature(self) -> np.ndarray:
         """∇n (…, 3, 3) [1/m]."""
-        length = (self.distance + self.obstacle.radius)[..., None, None]
-        return np.asarray((projector(self.obstacle) - dyad(self.normal)) / length)
+        return np.asarray((projector(self.obstacle) - dyad(self.normal)) / self.length[..., None, None])
 
     def mean(self, start: Near) -> Near:
         """Return points y₀ + y₁, whose n̄ = (y₀ + y₁)/(|y₀| + |y₁|) has n̄·Δy = Δφ exactly since a start, as
         Δ|y|² = (y₀ + y₁)·Δy, and whose ∇n is half as large."""
         if isinstance(self.obstacle, Plane):
             return self
-        across, length = start.across + self.across, start.distance + self.distance + self.obstacle.radius
-        normal = across / (length + self.obstacle.radius)[..., None]
-        return Near(self.obstacle, across, length, normal, self.offset)
+        across, length = start.across + self.across, start.length + self.length
+        return Near(self.obstacle, across, length, across / length[..., None], self.depth)
 
     def resistance(self, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return forces (…, 3) [N] of dashpot and friction on points that a load p (…) [N] presses and that
@@ -73,7 +65,7 @@ class Near(NamedTuple):
         if isinstance(self.obstacle, Plane):
             return 1.0
         x, v = start.across, self.across - start.across
-        core = 0.5 * self.obstacle.radius + self.offset
+        core = self.depth + self.length - 0.5 * self.obstacle.radius
         a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
         hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)
         first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
@@ -90,14 +82,16 @@ def projector(obstacle: AnyObstacle) -> np.ndarray:
     return np.eye(3) - dyad(obstacle.direction)
 
 
-def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray | float, *at: float | None) -> Near:
-    """Return where places (…, 3) [m] are beside an obstacle, which is where `place` has it."""
+def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]) -> Near:
+    """Return where points x (…, 3) [m] that touch at a distance, the offset (…) [m], are beside an obstacle
+    in its `place`."""
     y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
-        return Near(obstacle, y, y @ obstacle.direction, np.broadcast_to(obstacle.direction, y.shape), offset)
+        normal, distance = np.broadcast_to(obstacle.direction, y.shape), y @ obstacle.direction
+        return Near(obstacle, y, distance + np.inf, normal, offset - distance)
     y = y @ projector(obstacle)
     length = np.maximum(np.sqrt((y * y).sum(axis=-1)), 1e-300)
-    return Near(obstacle, y, length - obstacle.radius, y / length[..., None], offset)
+    return Near(obstacle, y, length, y / length[..., None], offset - (length - obstacle.radius))
 
 
 def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
@@ -120,8 +114,8 @@ def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarra
     return _gap(scene, obstacle, [*plan, foot] if shapely.intersects_xy(scene.region, *foot) else plan, 0.0)
 
 
-def _gap(scene: SceneFields, obstacle: AnyObstacle, plan: ArrayLike, *at: float) -> tuple[float, np.ndarray]:
-    found = near(obstacle, np.pad(plan, ((0, 0), (0, 1))), 0.5 * scene.sheet.thickness, 1.0, *at)
+def _gap(scene: SceneFields, one: AnyObstacle, plan: Any, time: float | None) -> tuple[float, np.ndarray]:
+    found = near(one, np.pad(plan, ((0, 0), (0, 1))), np.array(0.5 * scene.sheet.thickness), (1.0, time))
     deepest = found.depth.argmax()
     return -float(found.depth[deepest]), -found.normal[deepest]
 
@@ -134,7 +128,7 @@ def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
         gaps = {"position: the flat sheet begins": nearest(scene, obstacle)[0]}
         for edge in edges:
             where = f"motion: in its last place edge {edge}, which is held, is"
-            gaps[where] = _gap(scene, obstacle, np.linspace(*scene.sheet.edge_ends(edge), GRID))[0]
+            gaps[where] = _gap(scene, obstacle, np.linspace(*scene.sheet.edge_ends(edge), GRID), None)[0]
         for where, gap in gaps.items():
             inside = f"{where} {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
             yield f"{name}.", inside if gap < -INSIDE * scene.sheet.thickness else None

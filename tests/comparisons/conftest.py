@@ -1,7 +1,9 @@
-"""One run of every verb's small command, which all tests judge that would run it again."""
+"""One run of every verb's small command, which all tests judge that would run it again; coarse limits."""
 
 import pytest
 from verbs import keep, write_inputs
+
+from comparisons.codes import coefficients, setup
 
 
 @pytest.fixture(scope="session")
@@ -18,3 +20,9 @@ def kept(tmp_path_factory):
         return found[name]
 
     return kept
+
+
+@pytest.fixture
+def coarse_limits(monkeypatch):
+    """The error of however fine a mesh is found on 2 × 2 elements: for tests of what else a set-up holds."""
+    monkeypatch.setattr(setup, "limit_error", lambda *given: coefficients.limit_error(*given, elements=2))

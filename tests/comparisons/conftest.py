@@ -1,9 +1,12 @@
-"""One run of every verb's small command, which all tests judge that would run it again; coarse limits."""
+"""One run of every verb's small command and one comparison, which all tests judge that would make them again;
+coarse limits."""
 
 import pytest
 from verbs import keep, write_inputs
 
 from comparisons.codes import coefficients, setup
+from comparisons.comparison.comparison import compare
+from comparisons.models.spec import Lattice
 
 
 @pytest.fixture(scope="session")
@@ -20,6 +23,12 @@ def kept(tmp_path_factory):
         return found[name]
 
     return kept
+
+
+@pytest.fixture(scope="session")
+def compared():
+    """Habibi et al.'s first test by 5 × 5 × 2 masses and by a shell of 6 elements."""
+    return compare("two-edges-clamped", Lattice(5), elements=6)
 
 
 @pytest.fixture

@@ -26,13 +26,7 @@ ROOT, ROOT_3 = sqrt(2.0), sqrt(3.0)
 BENDING = {  # over k l, relaxed: a node between alternate diagonals gives way to curvature
     "one-diagonal": {"D11": 1.0, "D22": 1.0, "D12": 0.0, "D66": (1 + ROOT) / 2, "D16": 0.5, "D26": 0.5},
     "alternate-diagonals": {"D11": (3 - ROOT) / 2, "D12": (1 - ROOT) / 2, "D66": ROOT / 2, "D16": 0.0},
-    "equilateral": {
-        "D11": sqrt(3) / 2,
-        "D22": sqrt(3) / 2,
-        "D12": -sqrt(3) / 6,
-        "D66": sqrt(3) / 3,
-        "D16": 0.0,
-    },
+    "equilateral": {"D11": ROOT_3 / 2, "D22": ROOT_3 / 2, "D12": -ROOT_3 / 6, "D66": ROOT_3 / 3, "D16": 0.0},
 }
 
 
@@ -82,7 +76,7 @@ def test_the_nearest_hinge_is_nearest():
     best = nearest(cell_of("equilateral", 0.01, 0.0), MATERIAL, THICKNESS)
     nu = MATERIAL.poisson
     target = np.array([1.0, 1.0, nu * ROOT, 1 - nu])  # 11, 22, √2·12, 2·66 in Mandel's norm
-    given = np.array([sqrt(3) / 2, sqrt(3) / 2, -sqrt(3) / 6 * ROOT, 2 * sqrt(3) / 3])
+    given = np.array([ROOT_3 / 2, ROOT_3 / 2, -ROOT_3 / 6 * ROOT, 2 * ROOT_3 / 3])
     assert best["hinge"] * 0.01 == pytest.approx(RIGIDITY * (target @ given) / (given @ given), rel=1e-6)
     assert best["lambda_h"] == pytest.approx(nu * MATERIAL.young * THICKNESS / (1 - nu**2))
 

@@ -86,6 +86,11 @@ STRAIN_LAWS = {
     "biot": "linear in the elongation, as the lattice's springs are",
     "neo-hookean": "compressible, for rubbers and silicones",
 }
+FUNCTIONS = (  # the verbs that are functions too
+    *("new", "check", "compare", "simulate", "tradeoff", "stability", "crosscheck", "calibrate", "identify"),
+    *("modes", "score", "verify", "report"),
+)
+VERBS = (*FUNCTIONS, "live", "study")
 SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")  # of the reference set
 REPRODUCED = ("errors", "tables", "settling", "nearest")  # parts of the published study
 VARIED = {  # of a scene's stability

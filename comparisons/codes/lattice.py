@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.codes.files import script, to_sofa
-from comparisons.codes.tables import NAMES, arrays, natural, plan, tables
+from comparisons.codes.tables import NAMES, arrays, natural, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.escape import markdown
@@ -28,10 +28,6 @@ if TYPE_CHECKING:
     from lumped import Calibration, Description
 
 
-PLAN = (
-    "- `plan.csv`: what each cell of the plan is made of in its middle, the number of its patch, and its "
-    "share that is on the sheet; its springs and masses have that already.\n"
-)
 OWN = ("material", "layer", "patch", "cutout")  # lines of a scene in words
 MISSING = "Masses beyond the outline and in cutouts are left out; `i`, `j`, `k` number lines and layers.\n"
 NATURAL = """
@@ -111,7 +107,7 @@ Drag on every mass: {rate:g} 1/s × mass × velocity, against its motion.
   columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
   the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
   and −F on the bottom mass.
-{plan}{notes}{contact}
+{notes}{contact}
 ## The same as arrays
 
 `lattice.npz` (NumPy) and `lattice.mat` (MATLAB, Octave: add 1 to numbers of masses), p = {layers}:
@@ -141,7 +137,6 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
         rate=lattice.damping_rate,
         layers=layers,
-        plan="" if scene.uniform and not scene.pierced else PLAN,
         natural=NATURAL if scene.natural_by else "",
         contact=CONTACT if scene.obstacles else "",
         notes=notes + "".join(f"\nFor one code: `{name}`.\n" for name in others),
@@ -172,9 +167,7 @@ def lattice_files(
     own = {} if code is None or code == SOFA else {READERS[code]: script(READERS[code])}
     if code == SOFA:
         own = {"sofa.scn": to_sofa(lattice, scene)}
-    differing = {} if scene.uniform and not scene.pierced else {"plan.csv": plan(lattice, scene)}
-    if scene.natural_by:
-        differing["natural.csv"] = natural(lattice)
+    differing = {"natural.csv": natural(lattice)} if scene.natural_by else {}
     texts = {**tables(lattice), **differing, "README.md": page(lattice, scene, calibration, own), **own}
     values = arrays(lattice)
     found: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}

@@ -15,9 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.composition import composition_at, shares_of
-
 if TYPE_CHECKING:
     from lumped import Description
 
@@ -163,18 +160,6 @@ def tables(lattice: Description) -> dict[str, str]:
         "states.csv": _csv("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
         **(contacts(lattice) if len(lattice.contact["obstacle_kind"]) else {}),
     }
-
-
-def plan(lattice: Description, scene: Scene) -> str:
-    """Return the table of the plan's cells: place of the first corner on the grid, middle [m], the share that
-    is on the sheet, and what the sheet is made of there."""
-    x, y = (np.unique(lattice.positions[:, axis]) for axis in (0, 1))
-    share = shares_of(scene.region, x, y)
-    rows, columns = np.nonzero(share)
-    middle = np.column_stack([0.5 * (x[1:] + x[:-1])[columns], 0.5 * (y[1:] + y[:-1])[rows]])
-    found = composition_at(scene, middle)
-    values = _rows(columns, rows, middle, share[rows, columns], *found.values())
-    return _csv(",".join(["i,j,x,y,share", *found]), values)
 
 
 def _followers(lattice: Description) -> Iterator[Row]:

@@ -82,9 +82,6 @@ class Comparison(Compared, Answer):
         bar: dict[str, Any] = {}
         if solution is self.reference and self.bar is not None:
             bar = self.bar.as_dict() | (self.model_error.as_dict() if self.model_error else {"model": None})
-        elif (own := self.bars.get(solution.model)) is not None:
-            named = dict(zip(self.scene.probes, own, strict=True))
-            bar = {"error": (off := self.bar_of(solution)), "mesh": off, "probes": named}
         expected = self.expected if solution is self.solutions[0] else None
         return {
             **solution.document(self.scene),
@@ -123,11 +120,12 @@ class Comparison(Compared, Answer):
     def _displacements(self) -> Table:
         off = {(d.probe, d.of): d.relative for d in self.differences}
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
-        models = [(s.model, self.probes(s), self.relative_bars(s)) for s in ordered]
+        models = [(s.model, self.probes(s)) for s in ordered]
+        bars = {(probe, self.reference.model): bar for probe, bar in self.relative_bars.items()}
         rows = (
-            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get(probe))
+            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get((probe, model)))
             for probe, (x, y) in self.scene.probes.items()
-            for model, moved, bars in models
+            for model, moved in models
         )
         return Table.listed("Displacement of the mid-surface", MOVED, rows, "table", grouped=True)
 
@@ -209,18 +207,14 @@ class Comparison(Compared, Answer):
             " · ".join(solution.label for solution in self.solutions),
             f"difference: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."
-            + " ±: mesh or grid error of the model at the probe."
-            * bool(self.bars),
+            + " ±: mesh error of the reference at the probe."
+            * (self.bar is not None),
         ]
 
     def _bar_notes(self) -> list[str]:
         """Return the reference's error bar in words, the models that differ from it by less, what is due to
         laws of strain."""
         found, model = [self.laws] if self.laws else [], self.reference.model
-        for solution in self.solutions:
-            if solution.bar is not None:
-                own = few(100.0 * (self.bar_of(solution) or 0.0))
-                found.append(f"{solution.model}: grid error ± {own} %, from its two grids.")
         if self.bar is None:
             return found
         found.append(self.bar.note(model))

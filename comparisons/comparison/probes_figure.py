@@ -39,7 +39,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     axis = figure.add_subplot()
     found = {(d.probe, d.of): 100.0 * d.relative for d in comparison.differences if d.relative is not None}
     drawn = [max(LEAST, value) for value in found.values()]
-    own = comparison.relative_bars(reference)
+    own = comparison.relative_bars
     bars = [100.0 * own[probe] for probe in probes] if own else []
     bottom = 0.5 * min([*drawn, *(bar for bar in bars if bar > 0.0)])
     for place, bar in enumerate(bars):

@@ -32,7 +32,7 @@ from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Tabl
 from sheetbench.choices import REFERENCES
 
 OWN = "answers"
-OWN_MODELS = ("lumped", "lumped-pair", *REFERENCES)
+OWN_MODELS = ("lumped", *REFERENCES)
 SIZES = ("grid", "elements")
 WHOSE = YOURS, OURS, OTHERS = "yours", "ours", "other program"
 

@@ -113,9 +113,9 @@ def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
     (odd,) = found.outliers
     assert (odd.row, odd.component, odd.measured) == (16, "uz", 0.15)
     assert f"{file}, line 18: uz = 0.15 m" in found.warnings[0]
-    assert "Without this row: young" in found.warnings[0]
     assert not any("poor fit" in said for said in found.warnings) and not found.explained
-    low, high = found.without["young"].interval
+    file.write_text(file.read_text().replace(rows[16], rows[16].rpartition(",")[0] + ","))
+    low, high = identify(SEED, file, lattice=Lattice(3), refine=False).unknowns["young"].interval
     assert low < SEED.material.young < high and high / low < 1.04
 
 

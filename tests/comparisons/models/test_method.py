@@ -25,11 +25,11 @@ def held(*edges, poisson=0.3, softer=1.0):
 
 
 def test_a_trade_names_the_springs_that_auto_takes():
-    """Each once, on grids and pairs of grids, with the reason; what is named outright stays."""
+    """Each once, on every grid, with the reason; what is named outright stays."""
     methods = "consistent,consistent-membrane,auto"
-    found, reasons = of_lattices(RUBBER, Lattice(), "3,5", "3:5", methods)
+    found, reasons = of_lattices(RUBBER, Lattice(), "3,5", methods)
     names = [candidate.settings["calibration"] for candidate in found]
-    assert names == [*2 * ["consistent"], *2 * [MEMBRANE], "consistent", MEMBRANE]
+    assert names == [*2 * ["consistent"], *2 * [MEMBRANE]]
     assert reasons == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)
 
 
@@ -60,8 +60,6 @@ def test_it_chooses_where_nothing_but_a_grading_is_asked():
     assert "calibration_reason" not in solve(scene, "lumped", grid=3).settings
     assert sb.calibrate(scene, grid=3, grading="auto").method == MEMBRANE
     assert sb.calibrate(scene, grid=3).method == "consistent"
-    pair = solve(scene, "lumped-pair", grid=5, coarser=3, calibration="auto").settings
-    assert (pair["calibration"], pair["calibration_reason"]) == (MEMBRANE, "x0 alone holds the sheet")
 
 
 @pytest.mark.parametrize(("pull", "method"), [(4000.0, "neo-hookean"), (40.0, MEMBRANE)])

@@ -16,7 +16,6 @@ SPECS: dict[str, Spec] = {
     "lumped:grid=9x13x2,k=550.0,grading=0.5:x0,linear=true": sb.Lattice(
         (9, 13, 2), k=550.0, grading="0.5:x0", linear=True
     ),
-    "lumped-pair:grid=9,coarser=5,calibration=consistent": sb.LatticePair(9, 5, "consistent"),
     "shell:elements=8x4,law=biot": sb.Elements("shell", (8, 4), law="biot"),
     "solid:elements=4,layers=2": sb.Elements("solid", 4, layers=2),
     "calculix:elements=4": sb.External("calculix", {"elements": 4}),

@@ -21,11 +21,11 @@ from math import log
 import numpy as np
 from scipy.optimize import brentq
 
-from fem_reference import solve
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
 from fem_reference.sheets import SHEETS
 from fem_reference.verification.rows import EXACT, Row, relatively
+from fem_reference.verification.specimens import moved
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.scenes import Material
 
@@ -121,5 +121,4 @@ def _held(model: str, material: Material, stretches: list[float]) -> float:
 def _stretch(model: str, law: str, way: str, strain: float) -> float:
     pull = stress(law, way, strain) * MATERIAL.young * SHEET.thickness
     scene = pulled((pull, pull if way == "both ways" else 0.0))
-    moved = solve(scene, model, elements=2, law=law).displacement(np.array([SHEET.lengths]))
-    return float(moved[0, 0]) / SHEET.length_x
+    return float(moved(scene, SHEET.lengths, model, 2, law=law)[0]) / SHEET.length_x

@@ -3,13 +3,10 @@
 import pytest
 
 import sheetbench as sb
-from comparisons.models import training as targets
 from comparisons.models.method import FAR, MEMBRANE, method_for, resolve_calibration
-from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice
 from comparisons.tradeoff.choices import of_lattices
-from sheetbench.errors import BadInput
 from sheetbench.face import solve
 from sheetbench.scenes import Clamped, Scene, load
 from studies.transfer.scenes import transfer_scenes
@@ -79,15 +76,3 @@ def test_rubber_gets_the_springs_of_its_law():
     for lattice in (Lattice(), Lattice(calibration="auto")):
         assert resolve_calibration(scene, (9, 9, 2), lattice) == chosen
     assert resolve_calibration(scene, (9, 9, 2), Lattice(calibration="uniform"))[0] == "uniform"
-
-
-def test_fits_are_trained_on_the_sheet_held_by_one_and_two_edges_or_on_the_scene_that_is_given():
-    one, two = targets.training_scenes(RUBBER.sheet, RUBBER.material)
-    assert [s.edge for s in one.supports] == ["x0"] and [s.edge for s in two.supports] == ["x0", "y0"]
-    assert two.gravity == load("two-edges-clamped").gravity
-    names = ("two-edges-clamped", "one-edge-clamped")
-    found, other = (sb.calibrate(one, calibration="fit-static", grid=5).document() for one in names)
-    assert found["springs"] != other["springs"] and found["fit"]["residual"] < 0.01
-    assert set(found["fit"]["half_widths"]) <= set(found["springs"])
-    with pytest.raises(BadInput, match="nothing moves"):
-        resolve(RUBBER, Lattice(3, "fit-static")).calibrated([RUBBER.replace(gravity=None)])

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sheetbench.scenes import Scene
+
 if TYPE_CHECKING:
     from lumped import Description
 

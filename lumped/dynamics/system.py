@@ -65,9 +65,12 @@ class System:
         shared = masses(scene, lattice, self.assembly.inertia, self.assembly.cells)
         self.lattice_mass = shared if mass is None else mass
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
-        self.natural = problem.assembly.natural  # whose springs' rest data change: they are not packed
-        springs = self.assembly.springs if self.natural is None else ()
-        self.packing = pack(lattice, springs, self.damping.dampers)
+        self.natural = problem.assembly.natural
+        branches = scene.material.branches
+        self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
+        # whether the compiled loops over `packing` have the springs' forces
+        self.packed = self.maxwell is None and self.natural is None and self.assembly.conservative
+        self.packing = pack(lattice, self.assembly.springs if self.packed else (), self.damping.dampers)
         self.scratch = scratch(self.packing)
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
@@ -94,11 +97,7 @@ class System:
         self._own[entries.col[identity]] = entries.row[identity]
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
-        branches = scene.material.branches
-        self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
         self.growing = self.natural if self.natural is not None and self.natural.moves else None
-        # whether the compiled loops over `packing` have the springs' forces
-        self.packed = self.maxwell is None and self.natural is None
         self.prescribed = PrescribedMotion(scene, problem)
 
     @property
@@ -215,7 +214,8 @@ class System:
         stiffness: float,
         ends: tuple[State, np.ndarray] | None = None,
     ) -> np.ndarray:
-        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. ends: of a
+        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. How C
+        changes with the shape is left out: it is unsymmetric, of the order of the turn in a step. ends: of a
         step of which the items have the mean force's derivative by its end."""
         own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
@@ -228,15 +228,11 @@ class System:
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if self.shared_mass:
             blocks[self._bodies[0]] += mass * self._bodies[1]
-        if not self.problem.conservative or self.coupling is not None:
-            others = np.zeros_like(blocks)
-            if not self.problem.conservative:
-                self.damping.add_displacement_tangent(u, v, others)
-            if self.coupling is not None:
-                slots = self.assembly.coupling_slots
-                self.coupling.add_tangent(u, self.drive(time), slots, others)
-                np.add.at(blocks, slots, mass * self._chain_mass)
-            blocks += stiffness * others
+        if self.coupling is not None:
+            slots, of_chains = self.assembly.coupling_slots, np.zeros_like(blocks)
+            self.coupling.add_tangent(u, self.drive(time), slots, of_chains)
+            np.add.at(blocks, slots, mass * self._chain_mass)
+            blocks += stiffness * of_chains
         self.damping.add_velocity_tangent(u, v, damping, blocks)
         for item in self.items:
             if ends is None:

@@ -32,8 +32,6 @@ class Family(ABC):
 
     loops: ClassVar[Any]
     measures: ClassVar[int] = 4  # that a spring's memory holds room for
-    conservative: ClassVar[bool] = True  # whether there is an energy, and so a symmetric tangent
-    no_stress: ClassVar[np.ndarray]  # for which the tangent takes its own
 
     def __len__(self) -> int:
         return len(self.nodes)
@@ -42,11 +40,6 @@ class Family(ABC):
     @abstractmethod
     def arrays(self) -> Any:
         """Return what the loops take after the displacement, `LinkArrays` or `CellArrays`."""
-
-    def add_force(self, u: np.ndarray, force: np.ndarray) -> float:
-        """Add the internal force; return the energy [J]."""
-        energy: float = self.loops.add_forces(u, self.arrays, force)
-        return energy
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
         """Add the force over a step whose work is the energy stored in it."""
@@ -63,13 +56,6 @@ class Family(ABC):
         """Return stresses with which, and with the material part M, the tangent is a sum of squares; with
         negative area springs (ν < 1/3) only while strains are small."""
 
-    def add_tangent(
-        self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0, lower: bool = False
-    ) -> None:
-        """Add the tangent with this stress, and M + share (D − M), to the 3×3 blocks [N/m], or to those on
-        and below the diagonal."""
-        self.loops.add_tangent(u, self.arrays, stress, False, share, lower, blocks)
-
     @abstractmethod
     def energies(self, u: np.ndarray) -> np.ndarray:
         """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J]."""
@@ -83,15 +69,6 @@ class Family(ABC):
         """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
         stiffness [N·s/m] in its place, of stress M ġ; they take the power ġ·M ġ."""
         return self.scaled(time)
-
-    def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the dampers' force by the velocity to the 3×3 blocks."""
-        self.scaled(scale).add_tangent(u, self.no_stress, blocks, 0.0)
-
-    def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
-        """Add the derivative of the dampers' force at the velocity v (n, 3) [m/s] by the displacement to the
-        3×3 blocks, unsymmetric."""
-        self.loops.add_damping_tangent(u, v, self.arrays, blocks)
 
     def scaled(self, factor: float) -> Self:
         """Return the springs or dampers with so many times their stiffness."""
@@ -112,7 +89,6 @@ class Links(Family):
 
     loops: ClassVar[Any] = links
     measures: ClassVar[int] = 1
-    no_stress: ClassVar[np.ndarray] = np.empty(0)
 
     @cached_property
     def arrays(self) -> LinkArrays:
@@ -145,26 +121,17 @@ class Links(Family):
 class DirectionalLinks(Links):
     """Links of the per-direction law of Habibi et al., stiffness (m, 3); neither energy nor stress."""
 
-    conservative: ClassVar[bool] = False
-
-    def add_force(self, u: np.ndarray, force: np.ndarray) -> float:
-        """Add the force; return no energy, 0 [J]."""
+    def add_force(self, u: np.ndarray, force: np.ndarray) -> None:
+        """Add the internal force."""
         links.add_directional_forces(u, self.arrays, force)
-        return 0.0
 
-    def add_tangent(
-        self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0, lower: bool = False
-    ) -> None:
-        """Add the tangent, whatever the stress; it is unsymmetric, all of it is added."""
+    def add_tangent(self, u: np.ndarray, blocks: np.ndarray) -> None:
+        """Add the tangent to the 3×3 blocks [N/m]; it is unsymmetric."""
         links.add_directional_tangent(u, self.arrays, blocks)
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
         """Add the force in the middle of the step, for want of an energy."""
         self.add_force(0.5 * (start + end), force)
-
-    def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return zero: this law has no energy."""
-        return np.zeros(len(self))
 
     def damped(self, time: float) -> Links:
         """Return dampers along the links, of the mean stiffness."""
@@ -189,7 +156,6 @@ class SpringCells(Family):
     natural: np.ndarray | None = None
 
     loops: ClassVar[Any] = cells
-    no_stress: ClassVar[np.ndarray] = np.empty((0, 4))
 
     @cached_property
     def constants(self) -> np.ndarray:

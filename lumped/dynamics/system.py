@@ -120,48 +120,38 @@ class System:
         """The actuators' commands at a time."""
         return Drive(1.0, time)
 
-    def internal(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, float, np.ndarray]:
-        """Elastic energy, power taken by the dampers, and both their forces, actuators with their multipliers
-        included."""
-        energy, force = (0.0, np.zeros_like(u)) if self.packed else self.elastic(u, time)
-        damped = self.packing.damped
-        stored, power = add_forces(u, v, self.packed, damped, self.packing, self.scratch, force)
-        power += self.damping.add_other_forces(u, v, force)
-        if self.coupling is not None and self.packed:
-            energy += self.coupling.add_force(u, self.drive(time), force)
+    def internal(
+        self, u: np.ndarray, v: np.ndarray, time: float, elastic: bool = True, damped: bool = True
+    ) -> tuple[float, float, np.ndarray]:
+        """Elastic energy, power taken by the dampers, and both their forces or one of them: springs with
+        their branches, actuators with their multipliers, items."""
+        energy, power, force, at = 0.0, 0.0, np.zeros_like(u), (u, self.drive(time))
+        packed, resists = elastic and self.packed, damped and self.packing.damped
+        if elastic and self.maxwell is not None:
+            energy = self.maxwell.add_force(u, force)
+        elif elastic and not packed:
+            energy, force = self.assembly.at(time=time).force(u)
+        if packed or resists:
+            stored, power = add_forces(u, v, packed, resists, self.packing, self.scratch, force)
+            energy += stored
+        if damped:
+            power += self.damping.add_other_forces(u, v, force)
+        if elastic and self.coupling is not None:
+            energy += self.coupling.add_force(*at, force)
         for item in self.items:
-            energy += item.add_force((u, self.drive(time)), force) if self.packed else 0.0
-            power += item.add_resistance((u, self.drive(time)), v, force)
-        return energy + stored, power, force
+            energy += item.add_force(at, force) if elastic else 0.0
+            power += item.add_resistance(at, v, force) if damped else 0.0
+        return energy, power, force
 
     @cached_property
     def kinks(self) -> np.ndarray:
         """Times at which something changes its course, sorted [s]."""
         return np.array(kinks(self.scene))
 
-    def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
-        """Elastic energy and internal force, actuators with their multipliers and branches included."""
-        force = np.zeros_like(u)
-        if self.maxwell is not None:
-            energy = self.maxwell.add_force(u, force)
-        elif not self.packed:
-            energy, force = self.assembly.at(time=time).force(u)
-        else:
-            energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
-        if self.coupling is not None:
-            energy += self.coupling.add_force(u, self.drive(time), force)
-        for item in self.items:
-            energy += item.add_force((u, self.drive(time)), force)
-        return energy, force
-
     def damping_force(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Power taken and damping force."""
-        force, power = np.zeros_like(u), 0.0
-        if self.packing.damped:
-            _, power = add_forces(u, v, False, True, self.packing, self.scratch, force)
-        for item in self.items:
-            power += item.add_resistance((u, self.drive(time)), v, force)
-        return power + self.damping.add_other_forces(u, v, force), force
+        _, power, force = self.internal(u, v, time, elastic=False)
+        return power, force
 
     def power(self, state: State) -> float:
         """Power [W] that goes into dampers and branches."""

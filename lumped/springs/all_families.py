@@ -85,12 +85,6 @@ class AllFamilies:
         """Return its norm."""
         return float(np.linalg.norm(self.link_stiffness))
 
-    @cached_property
-    def _areas(self) -> Any:
-        """The area springs alone, of the layers' cells, the mid-surface's and the faces."""
-        found = [self._cells.get(at) for at in (1, 2, 3)]
-        return typed(tuple([_no_cells()[3] if each is None else each.area_alone for each in found]))
-
     def damped(self, time: float) -> list[Family]:
         """Return the dampers of the families, with `time` [s], of all links together."""
         links, *others = [family.damped(time) for family in self.families]
@@ -103,16 +97,12 @@ class AllFamilies:
     def survey(self, u: np.ndarray, layers: int) -> Survey:
         """Return what the springs of a lattice of so many layers store at u, and how far they are
         strained."""
-        kind, names = self.links.kind, len(self.links.names)
-        found = survey(np.ascontiguousarray(u), self.springs, self._areas, kind, names, layers)
-        energies, sums = (
-            self.links.by_name(found[0][:names].tolist()),
-            found[0][names:].reshape(3, 2).tolist(),
-        )
-        for at, family in self._found.items():
-            if at > 0:
-                energies |= family.by_name(sums[at - 1])
-        return Survey(energies, *found[1:])
+        names, cells = list(self.links.names), self._cells
+        energies, *rest = survey(np.ascontiguousarray(u), self.springs, self.links.kind, len(names), layers)
+        names += [cells[at].name if at in cells else "" for at in (1, 2, 3)]
+        by_name = dict(zip(names, energies.tolist(), strict=True))
+        by_name.pop("", None)
+        return Survey(by_name, *rest)
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""
@@ -293,14 +283,14 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
             squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
             found = of_rubber(springs, squares, every_area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield SpringCells(nodes, stiffness, slots, sides, area, ("", "rubber"), False, RUBBER, others)
+            yield SpringCells(nodes, stiffness, slots, sides, area, "rubber", False, RUBBER, others)
             continue
         strains = kept_cells(springs.strains(family.name))
         strains = strains + (1 if family.name == "area" else -layers) * edges[lattice.kept]
         stiffness = np.column_stack([kept_cells(springs.along(family.name, 0)), strains])
         if stiffness.any():
-            names = family.name, "strain" if family.name == "area" else "mid_strain"
-            yield SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, names)
+            name = "cells" if family.name == "area" else "mid_cells"
+            yield SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, name)
 
 
 def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
@@ -315,7 +305,7 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
         stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
         others = stiffness[:, 3:] / area[:, None]
-        yield SpringCells(nodes, stiffness, slots, sides, area, ("", "face_shear"), True, FACE, others)
+        yield SpringCells(nodes, stiffness, slots, sides, area, "face_shear", True, FACE, others)
 
 
 FAMILIES: tuple[Callable[[Lattice, MassPattern, Constants], Iterator[Family]], ...] = (

@@ -192,13 +192,12 @@ def add_remembering_forces(
 
 
 @njit(cache=True, error_model="numpy")
-def energies(u: np.ndarray, cells: CellArrays, part: Tag) -> np.ndarray:
-    """Energy of every cell by a part of its law's constants, and by all others, (c, 2) [J]."""
-    out = np.empty((len(cells.nodes), 2))
+def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
+    """Energy of every cell, (c,) [J]."""
+    out = np.empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
         d, g, area, _ = measure(u, cells, c)
-        out[c, 0] = respond(part, d, g, area, constants_of(part, c))[0]
-        out[c, 1] = respond(cells.law, d, g, area, constants_of(cells.law, c))[0] - out[c, 0]
+        out[c] = respond(cells.law, d, g, area, constants_of(cells.law, c))[0]
     return out
 
 

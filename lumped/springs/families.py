@@ -56,15 +56,6 @@ class Family(ABC):
         """Return stresses with which, and with the material part M, the tangent is a sum of squares; with
         negative area springs (ν < 1/3) only while strains are small."""
 
-    @abstractmethod
-    def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J]."""
-
-    @abstractmethod
-    def by_name(self, sums: list[float]) -> dict[str, float]:
-        """Return sums of energies [J], by kind of link or of both kinds of springs on cells, under the names
-        that the springs have in a spring set."""
-
     def damped(self, time: float) -> Family:
         """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
         stiffness [N·s/m] in its place, of stress M ġ; they take the power ġ·M ġ."""
@@ -113,9 +104,6 @@ class Links(Family):
         """Return ½ k e² of every link."""
         return 0.5 * self.stiffness * self.elongations(u) ** 2
 
-    def by_name(self, sums: list[float]) -> dict[str, float]:
-        return dict(zip(self.names, sums, strict=True))
-
 
 @dataclass(frozen=True, eq=False)
 class DirectionalLinks(Links):
@@ -144,12 +132,12 @@ class SpringCells(Family):
     """Springs on the cells of the layers, of the mid-surface or on upright faces: nodes (c, 4, p), stiffness
     (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides, or
     (c, 7) with what couples these, which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area
-    (c,) [m²]; the names of area springs and of all others; their law, and what constants it has beside
+    (c,) [m²]; their name among energies; their law, and what constants it has beside
     (c, n); natural: area and δg₀ (4, c) of a sheet that is not flat at rest."""
 
     sides: np.ndarray
     area: np.ndarray
-    names: tuple[str, str]
+    name: str
     upright: bool = False  # faces between the layers
     law: CellLaw = AREA_AND_STRAINS
     others: np.ndarray | None = None
@@ -183,26 +171,10 @@ class SpringCells(Family):
         return np.column_stack([found, np.maximum(s[:, 3:], 0.0)])
 
     def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
-        less that of the links along its sides."""
-        stored: np.ndarray = cells.energies(u, self.arrays, self.area_alone)
+        """Return the energy of every cell's springs, (c,) [J]; of rubber that of the membrane less that of
+        the links along its sides."""
+        stored: np.ndarray = cells.energies(u, self.arrays)
         return stored
-
-    @cached_property
-    def area_alone(self) -> Any:
-        """Return the law's constants of the area springs alone."""
-        areas = self.constants.copy()
-        areas[:, 1:] = 0.0
-        return self.law.tag(areas)
-
-    @cached_property
-    def _there(self) -> tuple[bool, bool]:
-        return bool(self.stiffness[:, 0].any()), bool(self.stiffness[:, 1:].any())
-
-    def by_name(self, sums: list[float]) -> dict[str, float]:
-        return {
-            name: sum for name, sum, has in zip(self.names, sums, self._there, strict=True) if name and has
-        }
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""

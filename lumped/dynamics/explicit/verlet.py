@@ -67,7 +67,7 @@ class Verlet(Integrator):
         if motion.moving:
             u = u + motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
             half = half + motion.rate(time) - motion.rate(state.time)
-        force = system.external(u, time) - system.elastic(u, time)[1]
+        force = system.external(u, time) - system.internal(u, u, time, damped=False)[2]
         predicted = system.damping_force(u, state.v + h * state.a, time)[1] if system.resists else 0.0
         acceleration = system.accelerate(force - predicted)
         if not np.isfinite(acceleration).all():

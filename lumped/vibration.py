@@ -71,8 +71,7 @@ def modes(
     if about == "deformed":
         problem, at = _equilibrium(scene, calibration)
     else:
-        if scene.actuators or scene.obstacles:
-            scene = scene.replace(actuators=(), obstacles=())
+        scene = scene.replace(actuators=(), obstacles=())
         problem = build_problem(scene, calibration)
         at = np.zeros_like(problem.loads.dead)
     transform = problem.constraints.transform

@@ -6,6 +6,7 @@ import socket
 import stat
 import webbrowser
 from base64 import b64decode
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -145,17 +146,11 @@ def test_sliders_have_ends_and_begin_at_the_scene(name):
 
 def test_answers_are_those_of_compare(address, panel):
     values = {"grid": 5, "elements": 3, "thickness": 0.0025, "curvature_x0": 3.0, "gravity": 0.5}
-    (_, lattice), (_, shell) = (
-        posted(address, of, query_of(panel, 7, **values)) for of in ("lattice", "shell")
-    )
-    scene = sb.load("curved-edge")
-    weight = tuple(0.5 * g for g in scene.gravity.acceleration)
-    bent = [s.replace(curvature=3.0) if s.kind == "curved" else s for s in scene.supports]
-    scene = scene.replace(
-        sheet=scene.sheet.replace(thickness=0.0025),
-        gravity=scene.gravity.replace(acceleration=weight),
-        supports=tuple(bent),
-    )
+    question = query_of(panel, 7, **values)
+    (_, lattice), (_, shell) = (posted(address, of, question) for of in ("lattice", "shell"))
+    weight = tuple(0.5 * g for g in SCENE.gravity.acceleration)
+    bent = [s.replace(curvature=3.0) if s.kind == "curved" else s for s in SCENE.supports]
+    scene = SCENE.replace(thickness=0.0025, gravity={"acceleration": weight}, supports=bent)
     both = sb.compare(scene, grid=5, calibration="consistent", elements=3, uncertainty=False)
     assert (lattice["number"], shell["number"]) == (7, 7)
     for message, solution in zip((lattice, shell), both.solutions, strict=True):
@@ -206,13 +201,12 @@ def test_a_question_that_is_too_long_is_not_read(address):
 def test_few_connections_are_open_at_once(address):
     place = urlsplit(address)
     patience = server.Desk.timeout / 2  # s: those that are let in are closed by silence, later
-    idle = [socket.create_connection((place.hostname, place.port), patience) for _ in range(2 * CONNECTIONS)]
-    try:
-        closed = [one for one in idle[-CONNECTIONS // 2 :] if one.recv(1) == b""]
-        assert len(closed) == CONNECTIONS // 2
-    finally:
-        for one in idle:
-            one.close()
+    with ExitStack() as opened:
+        idle = [
+            opened.enter_context(socket.create_connection((place.hostname, place.port), patience))
+            for _ in range(2 * CONNECTIONS)
+        ]
+        assert [one.recv(1) for one in idle[-CONNECTIONS // 2 :]] == [b""] * (CONNECTIONS // 2)
 
 
 def test_no_command_line_has_the_secret_address(capsys, monkeypatch):

@@ -25,6 +25,7 @@ from fem_reference.plate.validity import buckling_load, strained
 from fem_reference.shell.directors import projected
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface import supports as surface_supports
+from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.mesh import on_boundary, require_upright
@@ -104,8 +105,8 @@ class DiscretePlate(DiscreteShell):
     def of_unit_directors(self, change: np.ndarray) -> np.ndarray:
         return change.ravel()
 
-    def position(self, q: np.ndarray) -> np.ndarray:
-        return self.flat
+    def surface(self, q: np.ndarray) -> Surface:
+        return super().surface(np.zeros(self.size))
 
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float

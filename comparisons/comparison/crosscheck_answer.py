@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from comparisons.external.answer import InstalledCode
+from comparisons.external.answer import ExternalCode
 from comparisons.sweep.limits import Limit, Pair, pairs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.solution import Status
@@ -45,7 +45,7 @@ class Crosscheck(Answer):
     file_name = "crosscheck"
     scenes: tuple[Scene, ...]
     limits: dict[str, tuple[Limit, ...]]
-    codes: tuple[InstalledCode, ...]
+    codes: Mapping[str, ExternalCode]
 
     def against(self, scene: str) -> Limit | None:
         """Return what the other models of a scene are compared with: the shell, else the first with a bar."""
@@ -63,9 +63,9 @@ class Crosscheck(Answer):
             "solutions": [_document(one) for one in self._each()],
             "pairs": [{names.get(key, key): v for key, v in asdict(pair).items()} for pair in self.pairs],
             "judges": [
-                {"name": one.code.name, "version": one.version, "needs": one.code.needs}
-                | {"status": "absent" if one.version is None else "found"}
-                for one in self.codes
+                {"name": one.name, "version": (version := one.version()), "needs": one.needs}
+                | {"status": "absent" if version is None else "found"}
+                for one in self.codes.values()
             ],
             "failed": self.failures,
         }
@@ -108,7 +108,7 @@ class Crosscheck(Answer):
             if (bar := one.uncertainty) is not None
         ]
         needs = "absent: needs {}".format
-        codes = [(one.code.name, one.code.called, one.version or needs(one.code.needs)) for one in self.codes]
+        codes = [(one.name, one.called, one.version() or needs(one.needs)) for one in self.codes.values()]
         return [
             Table.listed("Extrapolated answers", (scene, *LIMITS), limits, "crosscheck", grouped=not single),
             Table.listed("Extrapolated displacements", (scene, *MOVED), moved, "displacements"),
@@ -162,7 +162,7 @@ class Crosscheck(Answer):
         return [*self.failures, *unsound]
 
     def choices(self) -> dict[str, Any]:
-        codes = {one.code.name: one.version for one in self.codes}
+        codes = {one.name: one.version() for one in self.codes.values()}
         return {"scenes": [scene.name for scene in self.scenes], "judges": codes}
 
     @property

@@ -246,8 +246,6 @@ def _moving(measured: Measured) -> bool:
 
 def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> None:
     """Raise BadInput for springs that do not depend on the unknowns."""
-    if resolve(scene, lattice, own=False).fitted:
-        raise BadInput(f"calibration = '{lattice.calibration}': its springs do not depend on the unknowns")
     if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
         raise BadInput(
             f"unknown = '{fixed[0]}': with k = {lattice.k:g} N/m given the springs do not depend on it; "
@@ -272,8 +270,7 @@ def _check(scene: Scene, fit: Fit) -> None:
             f"offset = {fit.offset:g} m: of a cloud's points from the mid-surface; displacements are "
             "the mid-surface's"
         )
-    if scene.pierced:
-        _require_on_sheet(measured, scene)
+    _require_on_sheet(measured, scene)
     count = int(measured.measured.sum()) if isinstance(measured, Displacements) else len(measured.points)
     if count <= len(names):
         raise BadInput(f"{count} measured numbers cannot give intervals of {len(names)} unknowns")
@@ -282,13 +279,16 @@ def _check(scene: Scene, fit: Fit) -> None:
 def _require_on_sheet(measured: Measured, scene: Scene) -> None:
     """Raise BadInput for a point where there is no sheet, and for a cloud of a sheet that is no rectangle."""
     if isinstance(measured, Surface):
-        raise BadInput(
-            f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a sheet "
-            "with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
-        )
-    for row, point in enumerate(measured.points.tolist()):
-        if off_sheet(scene, (point[0], point[1])):
+        if scene.pierced:
             raise BadInput(
-                f"{measured.name_of(row)}: x, y = {point[0]:g}, {point[1]:g}: there is no sheet, by its "
-                "outline or a cutout"
+                f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a "
+                "sheet with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
+            )
+        return
+    for row, (x, y) in enumerate(measured.points.tolist()):
+        if off_sheet(scene, (x, y)):
+            raise BadInput(
+                f"{measured.name_of(row)}: x, y = {x:g}, {y:g} is off the sheet: 0 ≤ x ≤ "
+                f"{scene.sheet.length_x:g} m, 0 ≤ y ≤ {scene.sheet.length_y:g} m, in its outline, not in a "
+                "cutout"
             )

@@ -139,10 +139,7 @@ def test_settings_that_make_no_mesh_are_refused(judge):
 
 def test_judges_are_found_among_the_plug_ins():
     assert all(isinstance(judge, ExternalCode) for judge in JUDGES)
-    looked = {one.code.name: one.version for one in external.find_codes()}
-    assert {"calculix", "kratos"} <= looked.keys()
-    for name, version in looked.items():
-        assert version == external.known_codes()[name].version()
+    assert {"calculix", "kratos"} <= external.find_codes().keys()
     with pytest.raises(BadInput, match="--judges"):
         external.find_codes(["mujoco"])
 

@@ -1,5 +1,8 @@
 """The discrete shell: positions and directors, five unknowns a node.
 
+Reissner and Mindlin's, of large displacements and rotations, with the energy ½ h E:C:E + h³/24 κ:C:κ +
+½ k h G γ·γ, k = 5/6, or that of another law (`laws`).
+
 q: displacements u and changes d − e_z of the directors of all nodes, (2 n, 3), then those of the rods' own
 third director m, one more director at every node of their edges, (p, 3): in all 2 n + p vectors. Unknowns are
 u and two tangent-plane components β of every director: δd = T β with T ⊥ d. The constraint |d|² = 1 is linear

@@ -3,6 +3,13 @@
 q: displacements of all nodes, (n, levels, 3), then changes of the rods' own vectors. Held components c of a
 column, u = Z c (see `supports`), go to their targets in the first step.
 
+    ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
+
+total Lagrangian, on 27-node bricks that lock neither in a thin sheet nor as ν → ½ (`element`). At every edge
+the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns round, at a clamp
+the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers converge like 1/n (a
+full clamp's stress is singular besides): the mesh is graded towards the edges.
+
 Loads act on the sheet as a surface, its mean position x̄ and director D (see `mesh`), with the shell's
 work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
 on D a traction linear in ζ. To first order in the strain the power of pressure and moment is the shell's.

@@ -63,7 +63,6 @@ class Comparison(Compared, Answer):
         return {
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
-            "laws": self.laws,
             "apart": self.disagreement,
             "differences": [asdict(difference) for difference in self.differences],
             "errors": [
@@ -158,10 +157,7 @@ class Comparison(Compared, Answer):
         off = self.error(lattice)
         error_text = "" if off is None else f": error at the probes {100 * off:.2f} %"
         described = f"{self.scene.name}: {lattice.label} against {reference.label}{error_text}"
-        return (
-            Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),
-            Picture("probes", "comparisons.comparison.probes_figure:compose", (self,)),
-        )
+        return (Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),)
 
     def files(self) -> dict[str, Write]:
         """Return the solutions as VTU, each on its own mesh and all on one."""
@@ -212,9 +208,8 @@ class Comparison(Compared, Answer):
         ]
 
     def _bar_notes(self) -> list[str]:
-        """Return the reference's error bar in words, the models that differ from it by less, what is due to
-        laws of strain."""
-        found, model = [self.laws] if self.laws else [], self.reference.model
+        """Return the reference's error bar in words, and the models that differ from it by less."""
+        found, model = list[str](), self.reference.model
         if self.bar is None:
             return found
         found.append(self.bar.note(model))

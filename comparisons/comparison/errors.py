@@ -47,17 +47,16 @@ class Compared:
     """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
-    reference's mesh leaves uncertain, where that was requested; laws: a sentence where lattice and reference
-    have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
-    expected: the error to expect of the chosen lattice's grid, or why there is none. several: whether more
-    than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
-    sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
+    reference's mesh leaves uncertain, where that was requested. disagreement: a sentence where both are at
+    rest and far apart. expected: the error to expect of the chosen lattice's grid, or why there is none.
+    several: whether more than one equilibrium is known; other_branch: whether the first two are known to be
+    different ones. busy: sentences on times taken on a busy machine. law_chosen: the reference's law of
+    strain, by the user.
     """
 
     scene: Scene
     solutions: tuple[Solution, ...]
     bar: ErrorBar | None = None
-    laws: str = ""
     disagreement: str = ""
     expected: ExpectedError | NoEstimate | None = None
     several: bool = False

@@ -10,7 +10,7 @@ P is the force per area of the unstrained section; a strip that is sheared keeps
     P_i = 2 λ_i (f′ + c₀₁ (I₁ − λ_i²)) + (Λ ln J − m)/λ_i
 
 and P = 0 along t. The strip is loaded by P, and the stretch that it shows is held to ε; of rubbers, at λ =
-0.7, 1.5 and 2, the force that holds it. P = E ε (1 + c ε + …) one way, with c of `pulled_strip.curving`.
+0.7, 1.5 and 2, the force that holds it.
 """
 
 from __future__ import annotations

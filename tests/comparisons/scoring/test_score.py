@@ -57,7 +57,7 @@ def test_an_error_is_that_of_the_design(write):
     ours = {"lumped": "ours", "plate": "ours", "shell": "ours"}
     others = dict.fromkeys(["mujoco", "kratos", "calculix"], "other program")
     assert whose == {"answers": "yours", **ours, **others}
-    assert found.leaderboard[between].seconds is None and "answers" not in found.front
+    assert found.leaderboard[between].seconds is None
     others = [one for one in found.leaderboard if one.model != "answers"]
     near = min(others, key=lambda one: abs(np.log(one.score / 0.02)))
     place = f"you rank {between + 1} of {len(models)}"
@@ -89,9 +89,6 @@ def test_faults_are_named(write, change, said, capsys):
     [
         ("motion", lambda case, u: 1e3 * u, "mm for m, in all 8 cases"),
         ("motion", lambda case, u: -u, "opposite sign"),
-        ("motion", lambda case, u: later(u, 3), "motion is 15 ms too late"),
-        ("motion", lambda case, u: earlier(u, 2), "motion is 10 ms too early"),
-        ("motion", lambda case, u: u + 0.1, "displacements at t = 0 are not zero"),
         ("motion", lambda case, u: u[[0, 3, 2, 1]], "probes P2 and P4 look swapped"),
         ("modes", lambda case, f: 2.0 * np.pi * f, "rad/s for Hz"),
         ("curves", lambda case, u: 1e3 * u, "mm for m, in all 13 cases"),
@@ -113,16 +110,6 @@ def test_other_suites_are_scored_and_ranked(write, suite):
     assert off.notes()[-1].startswith(f"you rank {last} of {last}; nearest neighbour ") and last > 1
 
 
-def later(u, samples):
-    """A motion that begins some samples late, from the flat sheet."""
-    return np.concatenate([np.zeros_like(u[:, :samples]), u[:, :-samples]], axis=1)
-
-
-def earlier(u, samples):
-    """A motion that has begun some samples ago and stays where it ends."""
-    return np.concatenate([u[:, samples:], np.repeat(u[:, -1:], samples, axis=1)], axis=1)
-
-
 @pytest.mark.parametrize(("case", "grid"), [("free-swing", "9"), ("pressure-step", "17")])
 def test_a_run_of_ours_is_scored_from_its_history(case, grid, tmp_path, capsys):
     """The lattice, 2 % off with so many masses a side; samples between the reference's are passed over."""
@@ -136,7 +123,7 @@ def test_a_run_of_ours_is_scored_from_its_history(case, grid, tmp_path, capsys):
     capsys.readouterr()
     found = json_of(capsys, "score", str(path), "--case", case)
     (row,) = found["cases"]
-    assert found["suite"] == "motion" and found["faults"] == [] and row["rms"] < row["error"] < 0.03
+    assert found["suite"] == "motion" and found["faults"] == [] and row["error"] < 0.03
     path.write_text(path.read_text().replace("[m]", "[mm]"))
     assert run("score", str(path), "--case", case) == 3
     assert "displacements are 1000 times too small" in capsys.readouterr().err

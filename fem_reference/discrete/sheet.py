@@ -75,7 +75,6 @@ class Discrete(ABC):
         self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
         self.items: list[SheetItem] = []
-        self.contacts: list[Touching] = []
         self._weights: list[tuple[np.ndarray, Factor]] = []
 
     def named(self, elements: Elements, through: str = "", **settings: Any) -> Self:
@@ -109,10 +108,9 @@ class Discrete(ABC):
             self.items += [Following(load, factor) for load in followers]
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
-        if not self.linear:
-            given = scene, self.plan, moving, self.model == "solid"
-            self.contacts = [Touching(*given, *one) for one in scene.named_obstacles().items()]
-            self.items += self.contacts
+        given, bodies = (scene, self.plan, moving, self.model == "solid"), scene.named_obstacles().items()
+        self.contacts = [Touching(*given, *one) for one in bodies if not self.linear]
+        self.items += self.contacts
 
     @property
     def nodes(self) -> int:

@@ -100,7 +100,7 @@ def test_tables_hold_obstacles_and_their_points(tmp_path):
     points = table(tmp_path / "contacts.csv")
     assert len(points) == 4 * 8 and sum(float(p["area"]) for p in points) == pytest.approx(0.2 * 0.05)
     assert [float(p["stiffness"]) for p in points] == pytest.approx([1e6 / 1e-3] * 32)
-    assert {p["weight_1"] for p in points} == {"0.0", "1.0"} and points[0]["corner_1"] == "0+1"
+    assert {p["weight_1"] for p in points} == {"0.0", "0.5"} and points[0]["mass_8"] == "11"
     page = (tmp_path / "README.md").read_text(encoding="utf-8")
     assert "`contacts.csv`" in page and "natural.csv" not in page
     for code in ("cpp", "matlab", "sofa"):

@@ -16,8 +16,6 @@ reasons, and what energy they take.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -31,7 +29,7 @@ from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle
 
-FINEST = 32  # points a side of a cell
+THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 32 points
 MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where the mass is A ρ h, not at edges
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
@@ -39,8 +37,8 @@ Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p
 
 
 def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return weights (p, 4) of a cell's corners and shares (p,) of its area, of points at the middles of the
-    parts of its sides (2,) [m] or, on a plane always, at their ends."""
+    """Return weights (p, 4) of a cell's corners in turn and shares (p,) of its area, of points at the middles
+    of the parts of its sides (2,) [m] or, on a plane always, at their ends."""
     rules, fewest = [], 2 if np.isfinite(radius) else 1
     ends |= fewest == 1
     for parts in np.maximum(fewest, np.ceil(2.0 * sides / radius)).astype(int):
@@ -49,7 +47,7 @@ def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.nd
         shares[[0, -1]] /= 1 + ends
         rules.append((np.stack([1.0 - at, at], axis=1), shares))
     (along_x, width), (along_y, height) = rules
-    return np.kron(along_y, along_x), np.kron(height, width)
+    return np.kron(along_y, along_x)[:, [0, 1, 3, 2]], np.kron(height, width)
 
 
 class Contact(LatticeItem):
@@ -58,29 +56,23 @@ class Contact(LatticeItem):
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle = name, obstacle
-        self.displacement, self.velocity = partial(obstacle.displacement, 1.0), obstacle.velocity
+        self.place, self.velocity = obstacle.place, obstacle.velocity
         self.moves = obstacle.motion is not None
         self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
-        columns, areas = lattice.columns(), lattice.cell_areas
         across = np.linalg.norm(projector(obstacle)[:2], axis=1)  # how much of a side is across its axis
         sides = across * [line.widths.max() for line in lattice.lines]
-        thinnest = 2.0 * sides.max() / FINEST
-        if obstacle.radius < thinnest:
-            raise BadInput(
-                f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm, "
-                f"which would step over it; {1e3 * thinnest:.3g} mm or more, or a finer grid"
-            )
-        corners = columns[:-1, :-1], columns[:-1, 1:], columns[1:, :-1], columns[1:, 1:]
-        nodes = np.concatenate(corners, axis=2)
+        if obstacle.radius < THINNEST * sides.max():
+            thin = f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm"
+            raise BadInput(f"{thin}, which would step over it; {THINNEST:g} of that or more, or a finer grid")
         weights, shares = points_of_cells(sides, obstacle.radius, bool(free_rigid_motions(scene)))
-        area = areas.reshape(-1, 1) * shares
         self.weights = np.repeat(weights, lattice.grid[2], axis=1) / lattice.grid[2]
-        there = area[:, 0] > 0.0
-        self.nodes = np.ascontiguousarray(nodes.reshape(len(area), -1)[there])
-        self.area, self._rest = area[there], lattice.positions[self.nodes]
+        self.nodes = lattice.mid_cells.reshape(-1, self.weights.shape[1])
+        self.area = np.outer(lattice.cell_areas[lattice.cell_areas > 0.0], shares)
+        self._rest = lattice.positions[self.nodes]
         constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
         self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
+        self.offset = (0.5 + TOUCH) * self.thickness
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots, self._eps = assembly.pattern.among(self.nodes), assembly.rounding
 
@@ -92,31 +84,28 @@ class Contact(LatticeItem):
         energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
         return stiffness * energy, stiffness * (0.5 * curved**2 / over + sure), stiffness * curved / over
 
-    def _near(self, at: Placed, of: Any = ...) -> tuple[Near, np.ndarray]:
-        """Return where points of patches are, and their depth (m, p) [m], < 0 of one that is clear."""
-        u, drive = at
-        places = self.weights @ (self._rest[of] + u[self.nodes[of]])
-        found = near(self.obstacle, places, drive.load_factor, drive.time)
-        return found, (0.5 + TOUCH) * self.thickness[of] - found.distance
+    def near(self, at: Placed, of: Any = ...) -> Near:
+        """Return where points (m, p) of patches are."""
+        places = self.weights @ (self._rest[of] + at[0][self.nodes[of]])
+        return near(self.obstacle, places, self.offset[of], at[1])
 
     def _pressed(self, at: Placed, since: Since = None) -> tuple[Any, Near, Pressed]:
         """Return which patches may touch, where their points are and how they are pressed; since: what a step
         from there has in the mean."""
         if since is not None:
-            (before, then), (after, depth) = self._near(since), self._near(at)
-            (had, _, _), (has, last, _) = self._law(then), self._law(depth)
-            far = np.abs(depth - then) > SAME_DEPTH * self.thickness
-            sunk = np.where(far, depth - then, 1.0)
-            _, load, slope = self._law(0.5 * (then + depth))
+            before, after = self.near(since), self.near(at)
+            (had, _, _), (has, last, _) = self._law(before.depth), self._law(after.depth)
+            far = np.abs(after.depth - before.depth) > SAME_DEPTH * self.thickness
+            sunk = np.where(far, after.depth - before.depth, 1.0)
+            _, load, slope = self._law(0.5 * (before.depth + after.depth))
             load = np.where(far, (has - had) / sunk, load)
             return ..., after.mean(before), (has, load, np.where(far, (last - load) / sunk, 0.5 * slope))
         places = self._rest + at[0][self.nodes]
         middle = places.mean(axis=1, keepdims=True)  # no point is farther from it than a mass
-        reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1)) + 0.51 * self.thickness.max(axis=1)
-        away = near(self.obstacle, middle[:, 0], at[1].load_factor, at[1].time).distance
-        of = np.flatnonzero(away < reach)
-        found, depth = self._near(at, of)
-        return of, found, self._law(depth, of)
+        reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1)) + 1.01 * self.offset.max(axis=1)
+        of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
+        found = self.near(at, of)
+        return of, found, self._law(found.depth, of)
 
     def _spread(self, values: np.ndarray, out: np.ndarray, of: Any = ...) -> np.ndarray:
         """Add what points (m, p, …) of patches share to the masses' (n, …), and return that."""
@@ -162,9 +151,6 @@ class Contact(LatticeItem):
             of, _, (_, by_speed) = self._resisted(at, v)
             self._spread_blocks(-scale * by_speed, blocks, of)
 
-    def step_share(self, start: Placed, end: Placed) -> float:
-        return self._near(end)[0].share_of_way(self._near(start)[0], 0.5 * self.thickness)
-
     def stiffest(self, mass: np.ndarray) -> float:
         return float((self._spread(self.area * self.share * self.full, np.zeros(self._masses)) / mass).max())
 
@@ -177,31 +163,18 @@ class Contact(LatticeItem):
         return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
-        depth = self._near(at)[1]
+        """Return what there is to say of it at an equilibrium, and its pressure (n,) [Pa] at the masses."""
+        depth = self.near(at).depth
         area, load = (self._spread(one, np.zeros(self._masses)) for one in (self.area, self._law(depth)[1]))
         pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
         return ContactState.of(depth / self.thickness, self.area), pressure
 
-
-def contact_table(contacts: Sequence[Contact], layers: int) -> dict[str, np.ndarray]:
-    """Return obstacles and points of contacts of a lattice of so many layers, named as in `lattice.npz`
-    (`comparisons.codes.tables`): with φ the distance of a point from its obstacle each has the energy
-    ½ stiffness area ⟨offset − φ⟩²."""
-    shapes = [one.obstacle for one in contacts]
-    parts = [(np.empty(0, int), np.empty((0, 4, layers), int), np.empty((0, 4)), *[np.empty(0)] * 3)]
-    for number, one in enumerate(contacts):
-        (patches, points), corners = one.area.shape, one.nodes.reshape(-1, 4, layers)
-        weights = one.weights.reshape(points, 4, layers).sum(axis=2)
-        place = np.full(one.area.size, number), np.repeat(corners, points, axis=0)
-        measures = one.area, (0.5 + TOUCH) * one.thickness, one.full
-        parts.append((*place, np.tile(weights, (patches, 1)), *(each.ravel() for each in measures)))
-    at = [shape.position + shape.displacement(1.0) for shape in shapes]  # where each is at last
-    which, corners, weights, area, offset, stiffness = map(np.concatenate, zip(*parts, strict=True))
-    return {
-        "obstacle_kind": np.array([shape.kind for shape in shapes]),
-        "obstacle_position": np.array(at).reshape(-1, 3),
-        "obstacle_direction": np.array([shape.direction for shape in shapes]).reshape(-1, 3),
-        "obstacle_radius": np.nan_to_num([shape.radius for shape in shapes], posinf=0.0),
-        **{"contact_obstacle": which, "contact_corners": corners, "contact_weights": weights},
-        **{"contact_area": area, "contact_offset": offset, "contact_stiffness": stiffness},
-    }
+    def table(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return masses (t, q) around its points and their weights (t, q); and (t, 10) the obstacle's place,
+        direction and radius, 0 of a plane [m], a point's area [m²], offset [m] and stiffness [N/m³]: with φ
+        its distance a point has the energy ½ stiffness area ⟨offset − φ⟩²."""
+        body, (cells, points) = self.obstacle, self.area.shape
+        place = np.nan_to_num([*body.place(), *body.direction, body.radius], posinf=0.0)
+        values = [*np.broadcast_to(place, (cells, points, 7)).T, self.area.T, self.offset.T, self.full.T]
+        masses, weights = np.repeat(self.nodes, points, axis=0), np.tile(self.weights, (cells, 1))
+        return masses, weights, np.stack(values).T.reshape(-1, 10)

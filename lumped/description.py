@@ -14,7 +14,6 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.check_states import CheckState, check_states
-from lumped.contact import contact_table
 from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
@@ -81,7 +80,7 @@ class Couple:
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: with obstacles (`lumped.contact`); notes: what of
+    `pressed` (c, 4, p) of the mid-surface; contact: points (`lumped.contact.Contact.table`); notes: what of
     the scene is not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
 
     index: np.ndarray
@@ -95,7 +94,7 @@ class Description:
     pressure: np.ndarray
     pressed: np.ndarray
     couples: tuple[Couple, ...]
-    contact: dict[str, np.ndarray]
+    contact: tuple[np.ndarray, ...]
     states: tuple[CheckState, ...]
     notes: tuple[str, ...] = ()
 
@@ -123,10 +122,12 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     pressed = pressures != 0.0
     couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
     states, why = check_states(scene, calibration, problem)
+    none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
+    points = zip(none, *(one.table() for one in problem.contacts), strict=True)
     found = Description(
         index=np.stack([i, j, k], axis=1),
         positions=lattice.positions,
-        mass=masses(scene, lattice, calibration.masses, calibration.cells),
+        mass=masses(scene, lattice, cells=calibration.cells),
         damping_rate=scene.material.damping_rate,
         links=_links(scene, assembly),
         cells=tuple(_cells(scene, assembly)),
@@ -135,7 +136,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         pressure=pressures[pressed],
         pressed=lattice.mid_cells[pressed],
         couples=couples,
-        contact=contact_table(problem.contacts, layers),
+        contact=tuple(map(np.concatenate, points)),
         states=states,
         notes=(*_left_out(scene), *why),
     )
@@ -158,7 +159,7 @@ def _without(found: Description, absent: np.ndarray) -> Description:
         cells=tuple(replace(table, corners=new[table.corners]) for table in found.cells),
         holds=tuple(replace(h, masses=several(h.masses)) for h in found.holds if there[h.masses[0]]),
         pressed=new[found.pressed],
-        contact=found.contact | {"contact_corners": new[found.contact["contact_corners"]]},
+        contact=(new[found.contact[0]], *found.contact[1:]),
         couples=tuple(
             replace(
                 c,

@@ -13,7 +13,6 @@ from typing import Protocol
 import numpy as np
 
 from lumped.actuators import Drive
-from sheetbench.answers.contact import ContactState
 
 Placed = tuple[np.ndarray, Drive]  # where the masses are, and when
 Since = Placed | None  # where a step begins, of which a mean is returned
@@ -21,12 +20,12 @@ Since = Placed | None  # where a step begins, of which a mean is returned
 
 class LatticeItem(Protocol):
     """A physics of its own. name: of its part in an answer; moves: whether what it is fixed to does, with its
-    displacement (3,) [m] and velocity (3,) [m/s] at a time [s]; resists: whether it takes energy. One that
-    inherits this leaves out what has a default here."""
+    place (3,) [m] by how far commands are and velocity (3,) [m/s] at a time [s]; resists: whether it takes
+    energy. One that inherits this leaves out what has a default here."""
 
     name: str
     moves: bool
-    displacement: Callable[[float], np.ndarray]
+    place: Callable[[float, float | None], np.ndarray]
     velocity: Callable[[float], np.ndarray]
     resists: bool
 
@@ -55,10 +54,6 @@ class LatticeItem(Protocol):
             self.add_resistance(at, v, force)
         return -force
 
-    def step_share(self, start: Placed, end: Placed) -> float:
-        """Return the share of a straight way up to which what the item says holds, 1 for all of it."""
-        return 1.0
-
     def stiffest(self, mass: np.ndarray) -> float:
         """Return by how much it may raise a squared frequency ω² [1/s²] at most; mass: (n,) [kg]."""
 
@@ -68,6 +63,3 @@ class LatticeItem(Protocol):
     def rounding(self) -> float:
         """Return what rounding of displacements leaves of its forces, as a norm [N]."""
         return 0.0
-
-    def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
-        """Return what there is to say of it at an equilibrium, and its pressure [Pa] on every column (n,)."""

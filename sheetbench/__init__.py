@@ -14,13 +14,15 @@ from __future__ import annotations
 from importlib import import_module as _import_module
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
+from sheetbench.choices import FUNCTIONS as _FUNCTIONS
+
 if _TYPE_CHECKING:
     import sheetbench.scenes as scenes
     from comparisons.codes.cell import Cell
     from comparisons.codes.cell import cell_of as cell
     from comparisons.comparison.comparison import error
     from comparisons.identification.measurements import Displacements
-    from comparisons.models.spec import Elements, External, Lattice, LatticePair
+    from comparisons.models.spec import Elements, External, Lattice
     from sheetbench.answers.history import History
     from sheetbench.answers.solution import Solution, Status
     from sheetbench.face import solve, study
@@ -51,15 +53,11 @@ if _TYPE_CHECKING:
     calibrate = check = compare = crosscheck = identify = modes = new = report = score = _verb("")
     simulate = stability = tradeoff = verify = calibrate
 
-_VERBS = (
-    "new", "check", "compare", "simulate", "tradeoff", "stability", "crosscheck", "calibrate", "identify",
-    "modes", "score", "verify", "report",
-)  # fmt: skip
 _MODULES = {  # all else is of sheetbench.scenes
     "comparisons.codes.cell": "Cell cell",
     "comparisons.comparison.comparison": "error",
     "comparisons.identification.measurements": "Displacements",
-    "comparisons.models.spec": "Elements External Lattice LatticePair",
+    "comparisons.models.spec": "Elements External Lattice",
     "sheetbench.answers.history": "History",
     "sheetbench.answers.solution": "Solution Status",
     "sheetbench.face": "solve study",
@@ -69,7 +67,7 @@ _NAME_THERE = {"cell": "cell_of"}
 
 __all__ = [
     "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
-    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "LatticePair", "Mass",
+    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "Mass",
     "Material", "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric",
     "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "identify", "load", "modes",
     "new", "report", "scenes", "score", "simulate", "solve", "stability", "study", "tradeoff", "verify",
@@ -85,7 +83,7 @@ def __getattr__(name: str) -> object:
         return _import_module("sheetbench.scenes")
     if name not in __all__:
         raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
-    if name in _VERBS:
+    if name in _FUNCTIONS:
         return _import_module("sheetbench.face").verb(name)
     module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
     return getattr(module, _NAME_THERE.get(name, name))

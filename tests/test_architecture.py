@@ -208,10 +208,10 @@ def test_every_figure_is_there():
 SLOW = (
     "lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas", "xarray",
 )  # fmt: skip
-SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
+SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso")
 SLOW += ("ezc3d", "shapely", "xarray")
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
-DRAWS = ("figure", "style", "layout", "probes_figure", "motion_figure", "comparison_figure", "animation")
+DRAWS = ("figure", "style", "layout", "motion_figure", "comparison_figure", "animation")
 DRAWS += ("offscreen", "check_figure", "array_files", "toml")
 AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "__init__", "__main__")))
 

@@ -24,7 +24,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
             (),
             ("--model", "solid:elements=2"),
             ("--model", "plate:elements=2x3", "--model", "shell:elements=2,graded=false"),
-            ("--model", "lumped-pair:grid=5"),
+            ("--model", "lumped:grid=5,calibration=uniform"),
             ("--model", "lumped:grid=3,k=550"),
             ("--model", "lumped:grid=3,linear=true"),
         ),
@@ -138,7 +138,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     ],
     "tradeoff --repeats 1 --elements 3 --plate 2 --workers 1": [
         (("{pressed}",), ("{weightless}",), ("{natural}",), ("{touching}",)),
-        (("--lumped", "3x4,4"), ("--lumped", ""), ("--lumped=", "--lumped-pair", "3:4")),
+        (("--lumped", "3x4,4"), ("--lumped", "")),
         (("--calibration", "hyperelastic"), ("--calibration", "auto"), ("--grading", "auto")),
         (("--shell", "2", "--solid", ""), ("--shell", "", "--solid", "2")),
         OUTPUTS[:3],

@@ -78,7 +78,6 @@ VALUES = {  # of options that all verbs with them take alike, then of verbs
     "--at": "5",
     "--band": "2 8 --loss-factor 0.2",
     "--prony": "prony.csv",
-    "--lumped-pair": "3:4",
     "--plate": "2,3",
     "--shell": "3,4",
     "--solid": "1,2",

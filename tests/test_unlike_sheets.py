@@ -43,7 +43,7 @@ def test_files_say_what_each_cell_is_made_of():
     ("verb", "options", "who"),
     [
         ("calibrate", ["--calibration", "uniform"], "calibration 'uniform'"),
-        ("compare", ["--calibration", "fit-static"], "calibration 'fit-static'"),
+        ("compare", ["--calibration", "central"], "calibration 'central'"),
         ("compare", ["--law", "biot"], "the shell's law 'biot'"),
     ],
 )

@@ -13,14 +13,13 @@ from warnings import warn
 
 import lumped
 from comparisons.calibration import damping
-from comparisons.calibration.damping import UNDAMPED, ModeDamping
+from comparisons.calibration.damping import UNDAMPED
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import choice_notes
 from comparisons.models.quantities import checked
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
-from comparisons.models.training import training_scenes
 from lumped import Calibration
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
@@ -28,7 +27,17 @@ from sheetbench.answers.solution import Solution
 from sheetbench.answers.table import Table
 from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.errors import BadInput, Implausible
-from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, require_static, scene_of
+from sheetbench.scenes import (
+    AnyScene,
+    Clamped,
+    Gravity,
+    Material,
+    Scene,
+    SceneError,
+    Sheet,
+    require_static,
+    scene_of,
+)
 from sheetbench.scenes.language.toml import dumps
 from sheetbench.scenes.meaning.plausibility import material_slips, sheet_slips
 from sheetbench.scenes.meaning.words import sheet_in_words
@@ -64,7 +73,10 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
         if slip not in known:
             warn(Implausible(slip), stacklevel=3)
     if loaded is None:
-        return training_scenes(sheet, material)[0]
+        supports, gravity = (Clamped(edge="x0"),), Gravity(acceleration=(0.0, 0.0, -9.81))
+        return Scene(
+            name="one-edge-clamped", sheet=sheet, material=material, supports=supports, gravity=gravity
+        )
     probes = loaded.probes if sheet == loaded.sheet else {}
     return loaded.replace(sheet=sheet, material=material, probes=probes)
 
@@ -72,9 +84,8 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
 def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Calibration:
     """Return the springs of a lattice for a scene's sheet and material, whatever [springs] the scene has.
 
-    named: whether the user named the scene: a fitted method trains on it, "auto" goes by it, and what is
-    known before solving of how far its answer will be off is among the notes. Raises BadInput for a lattice
-    that cannot be had, and for a fit that takes more memory than there is.
+    named: whether the user named the scene: "auto" goes by it, and what is known before solving of how far
+    its answer will be off is among the notes. Raises BadInput for a lattice that cannot be had.
     """
     for name, what in (("calibration", lattice.calibration), ("grading", lattice.grading)):
         if what == AUTO and not named:
@@ -82,8 +93,7 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
                 f"{name} = auto: goes by the edges and load of a SCENE; name one, or another {name}"
             )
     found = resolve(scene, lattice, "springs", own=False)
-    springs = found.calibrated([scene] if named else None)
-    return replace(springs, remarks=(*choice_notes(found.settings), *springs.remarks))
+    return replace(found.springs, remarks=(*choice_notes(found.settings), *found.springs.remarks))
 
 
 def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
@@ -107,13 +117,11 @@ def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
 @dataclass(frozen=True, repr=False)
 class SheetCalibration(Calibration):
     """Springs for a scene's sheet; found: the same with what data tell of them; expected: the error of their
-    grid in the scene, where it is known; modes: the damping of the lowest ones; lattice: files for another
-    code, and what is not in them."""
+    grid in the scene, where it is known; lattice: files for another code, and what is not in them."""
 
     found: Calibration = field(kw_only=True, repr=False)
     scene: Scene = field(kw_only=True)
     expected: ExpectedError | None = None
-    modes: tuple[ModeDamping, ...] = ()
     lattice: tuple[dict[str, Write], list[str]] = field(default=({}, []), compare=False)
 
     def heading(self) -> tuple[str, str, str]:
@@ -121,14 +129,14 @@ class SheetCalibration(Calibration):
 
     def document(self) -> dict[str, Any]:
         known = {} if self.expected is None else {"expected_error": self.expected.as_dict()}
-        return self.found.document() | known | damping.document(self.scene.material, self.modes)
+        return self.found.document() | known | damping.document(self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
-        return (*self.found.tables(), *damping.tables(self.scene.material, self.modes))
+        return (*self.found.tables(), *damping.tables(self.scene.material))
 
     def notes(self) -> tuple[str, ...]:
         expected = () if self.expected is None else (f"in this scene: {self.expected}",)
-        return (*self.found.notes(), *expected, *self.lattice[1])
+        return (*self.found.notes(), *expected, *damping.notes(self.scene.material), *self.lattice[1])
 
     def files(self) -> dict[str, Write]:
         return {"springs.toml": partial(write_text, text=to_toml(self)), **self.lattice[0]}
@@ -138,5 +146,5 @@ def to_toml(springs: Calibration) -> str:
     """Return the [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
     found = springs.document()
     grading = as_settings(springs.grading) if springs.grading else {}
-    keys = {"grid": found["grid"], "masses": found["masses"], **grading, **found["springs"]}
+    keys = {"grid": found["grid"], **grading, **found["springs"]}
     return dumps({"springs": {**keys, "layer_distance": found["layer_distance"]}})

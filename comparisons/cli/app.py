@@ -29,24 +29,8 @@ from typer.main import get_command
 from comparisons.cli import interruption, messages, startup
 from comparisons.cli.verb import as_verb
 from comparisons.sweep import interrupts
+from sheetbench.choices import VERBS
 
-VERBS = (
-    "new",
-    "check",
-    "compare",
-    "simulate",
-    "tradeoff",
-    "stability",
-    "crosscheck",
-    "calibrate",
-    "identify",
-    "modes",
-    "score",
-    "verify",
-    "report",
-    "live",
-    "study",
-)
 FAULT = 1
 BAD_INPUT = 2
 PIPE_CLOSED = 141  # 128 + SIGPIPE, as of a program that the signal ends

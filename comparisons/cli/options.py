@@ -26,7 +26,7 @@ Args:
     law (NAME): Law of strain of a shell or solid: {STRAIN_LAWS}. Default: the material's own, else
         {STRAIN_LAW}.
     model (MODEL): A further model: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped,
-        lumped-pair, plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.
+        plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.
     export (DIR): Write the lattice for another simulator: masses, springs, supports, loads, values to check
         by.
     large: Solve models that need more memory than is free, instead of refusing them.

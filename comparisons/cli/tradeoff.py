@@ -11,13 +11,13 @@ from comparisons.cli.verb import no_effect
 from comparisons.tradeoff import usual
 from sheetbench.choices import INTEGRATORS, REFERENCE, REFERENCES
 
-OF_ROWS = "lumped_pair model elements repeats duration integrator workers scheduler retry"
+OF_ROWS = "model elements repeats duration integrator workers scheduler retry"
 
 
 @no_effect(
     with_tolerance=OF_ROWS,
     with_budget=OF_ROWS,
-    with_duration="lumped_pair repeats",
+    with_duration="repeats",
     without_duration="integrator",
 )
 def command(
@@ -27,7 +27,6 @@ def command(
     tolerance: Share = None,
     budget: Seconds = None,
     grid: Listed = None,
-    lumped_pair: Listed = None,
     calibration: Listed = None,
     plate: Listed = None,
     shell: Listed = None,
@@ -53,8 +52,6 @@ def command(
         budget (SECONDS): The most accurate model that is solved in this time, set-up not included.
         grid (GRIDS): Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL.
             Default: {usual.GRIDS}; 9 with --duration.
-        lumped_pair (PAIRS): Pairs of grids, the coarser first, and one answer extrapolated from both, with
-            its error bar. Default: {usual.PAIRS}, none where grids or other springs are listed.
         calibration (NAMES): Calibrations of every grid: {CALIBRATIONS}; auto: by the scene. Default:
             {usual.SPRINGS}; with --duration that of `simulate`.
         plate (ELEMENTS): Elements of the linear plate along the shorter side, or NxM; default:
@@ -101,7 +98,7 @@ def command(
         more |= {"others": [*others, *extra]}
     else:
         measure = tradeoff
-        lattices, reasons = choices.of_lattices(loaded, own, grid, lumped_pair, calibration)
+        lattices, reasons = choices.of_lattices(loaded, own, grid, calibration)
         repeats = repeats or usual.REPEATS
         more = {"candidates": [*lattices, *others, *extra], "reasons": reasons, "repeats": repeats}
         if not more["candidates"]:

@@ -14,8 +14,7 @@ def command(
 ) -> Any:
     """Check the references against published values.
 
-    One row each: exit status 3 unless all pass. The sweeps locking-plate, locking-shell and locking-solid
-    have a picture (with --out), strain-laws a table of what the laws change.
+    One row each: exit status 3 unless all pass.
 
     Args:
         case (NAME): Only this case; may be repeated. Default: all.

@@ -36,7 +36,7 @@ JSON = "sheet.json"
 FAR = 50.0  # radii: half the length of a cylinder that touches the sheet
 MJCF = """\
 <mujoco model="sheet">
-<option timestep="0.002" integrator="discrete" gravity="{gravity}"><flag contact="{contact}"/></option>
+<option timestep="0.002" integrator="discrete" gravity="{gravity}"/>
 <worldbody>
 {bodies}
 </worldbody>
@@ -90,9 +90,8 @@ def mujoco(of: Problem) -> str:
     keyframe = f'<keyframe><key name="loaded" ctrl="{words([*loads.values()])}"/></keyframe>\n'
     return MJCF.format(
         gravity=words(mesh.gravity),
-        contact="enable" if mesh.obstacles else "disable",
         bodies="\n".join(bodies),
-        radius=mesh.offset if mesh.obstacles else 1e-4,
+        radius=mesh.offset,
         names=" ".join(names),
         element=words(mesh.triangles),
         damping=f' damping="{of.keys["damping"]!r}"' if "damping" in of.keys else "",

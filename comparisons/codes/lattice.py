@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.codes.files import script, to_sofa
-from comparisons.codes.tables import NAMES, arrays, natural, plan, tables
+from comparisons.codes.tables import NAMES, arrays, contacts, natural, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.escape import markdown
@@ -28,10 +28,6 @@ if TYPE_CHECKING:
     from lumped import Calibration, Description
 
 
-PLAN = (
-    "- `plan.csv`: what each cell of the plan is made of in its middle, the number of its patch, and its "
-    "share that is on the sheet; its springs and masses have that already.\n"
-)
 OWN = ("material", "layer", "patch", "cutout")  # lines of a scene in words
 MISSING = "Masses beyond the outline and in cutouts are left out; `i`, `j`, `k` number lines and layers.\n"
 NATURAL = """
@@ -46,12 +42,12 @@ CONTACT = """
 
 - `obstacles.csv`: rigid bodies where they are at last, in `a` a plane's unit normal, towards the sheet, or a
   cylinder's axis.
-- `contacts.csv`: points in cells of the mid-surface that may touch an obstacle, numbered from 0, with their
-  area and k in N/m³. A point is at X = Σ weight × corner, a corner being the mean of its masses. With y =
-  X − position, φ = y·n on a plane, n its normal; |y| − radius and n = y/|y| on a sphere; the same on a
-  cylinder with y less its part along the axis. Depth d = offset − φ; where d > 0, E = ½ k d² area, and the
-  gradient by X is −k d area n, weight times that on each corner. The offset is half the thickness and 1e-9
-  of it. The energy of `states.csv` is that of springs and contact.
+- `contacts.csv`: points X = Σ weight × mass in cells of the mid-surface, each with an obstacle that it may
+  touch, of radius 0 a plane, of axis 0 a sphere. With y = X − position, φ = y·n on a plane, n its normal;
+  |y| − radius and n = y/|y| on a sphere; the same on a cylinder with y less its part along the axis. Depth
+  d = offset − φ; where d > 0, E = ½ k d² area, k the stiffness [N/m³], and the gradient by X is −k d area n,
+  weight times that on each mass. The offset is half the thickness and 1e-9 of it. The energy of `states.csv`
+  is that of springs and contact.
 """
 PAGE = """\
 # {title}
@@ -111,7 +107,7 @@ Drag on every mass: {rate:g} 1/s × mass × velocity, against its motion.
   columns a top mass, a bottom mass, and the columns before and after them: with D from bottom to top and t
   the unit vector from the mean of the one before to that of the one after, F = M (t × D)/|D|² on the top
   and −F on the bottom mass.
-{plan}{notes}{contact}
+{notes}
 ## The same as arrays
 
 `lattice.npz` (NumPy) and `lattice.mat` (MATLAB, Octave: add 1 to numbers of masses), p = {layers}:
@@ -135,16 +131,15 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         f"{markdown('; '.join(own))}. {missing}Written by sheetbench {version()}."
     )
     notes = "".join(f"- Not in here: {markdown(note)}\n" for note in lattice.notes)
+    notes += "".join(f"\nFor one code: `{name}`.\n" for name in others) + CONTACT * bool(scene.obstacles)
     return PAGE.format(
         title=f"The lattice of {markdown(scene.name)}",
         about=about,
         states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
         rate=lattice.damping_rate,
         layers=layers,
-        plan="" if scene.uniform and not scene.pierced else PLAN,
         natural=NATURAL if scene.natural_by else "",
-        contact=CONTACT if scene.obstacles else "",
-        notes=notes + "".join(f"\nFor one code: `{name}`.\n" for name in others),
+        notes=notes,
         arrays="\n".join(f"- `{name}` {markdown(note)}" for name, note in NAMES.items()),
     )
 
@@ -172,9 +167,9 @@ def lattice_files(
     own = {} if code is None or code == SOFA else {READERS[code]: script(READERS[code])}
     if code == SOFA:
         own = {"sofa.scn": to_sofa(lattice, scene)}
-    differing = {} if scene.uniform and not scene.pierced else {"plan.csv": plan(lattice, scene)}
-    if scene.natural_by:
-        differing["natural.csv"] = natural(lattice)
+    differing = {"natural.csv": natural(lattice)} if scene.natural_by else {}
+    if scene.obstacles:
+        differing |= contacts(lattice, scene)
     texts = {**tables(lattice), **differing, "README.md": page(lattice, scene, calibration, own), **own}
     values = arrays(lattice)
     found: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}

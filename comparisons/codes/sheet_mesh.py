@@ -62,7 +62,7 @@ class SheetMesh:
             "hinges": self.hinges.tolist(),
             "edges": self.edges.tolist(),
             "probes": {n: {"vertices": v, "shares": s} for n, (v, s) in self.probes.items()},
-            **({"obstacles": list(self.obstacles), "offset": self.offset} if self.obstacles else {}),
+            **{"obstacles": list(self.obstacles), "offset": self.offset},
         }
 
 
@@ -125,8 +125,8 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
         points,
         tuple(
             {
-                **one.model_dump(mode="json", exclude={"motion", "contact_damping"}),
-                "position": (np.array(one.position) + one.displacement(1.0)).tolist(),
+                **one.model_dump(mode="json", include={"kind", "normal", "axis", "radius", "friction"}),
+                "position": one.place().tolist(),
             }
             for one in scene.obstacles
         ),

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.composition import composition_at, shares_of
 
 if TYPE_CHECKING:
     from lumped import Description
@@ -62,16 +61,9 @@ NAMES = {  # and what they are
     "couple_before": "(e, p) masses of the column before it",
     "couple_after": "(e, p) of the one after it",
     "couple_moment": "(e,) [N m]",
-    "obstacle_kind": "(o,) names",
-    "obstacle_position": "(o, 3) of a plane's point, a centre, a point of an axis, where it is at last [m]",
-    "obstacle_direction": "(o, 3) unit normal or axis, 0 of a sphere",
-    "obstacle_radius": "(o,) [m], 0 of a plane",
-    "contact_obstacle": "(t,) obstacle that a point may touch, from 0",
-    "contact_corners": "(t, 4, p) masses whose mean is a corner",
-    "contact_weights": "(t, 4) of the corners",
-    "contact_area": "(t,) [m2]",
-    "contact_offset": "(t,) distance at which it touches [m]",
-    "contact_stiffness": "(t,) k of the pressure k d [N/m3]",
+    "contact_masses": "(t, q) around a point that may touch an obstacle",
+    "contact_weights": "(t, q) of these masses, whose weighted mean it is",
+    "contact_values": "(t, 10) as contacts.csv has them, from x on",
     "state_name": "(q,) names",
     "state_displacement": "(q, n, 3) [m]",
     "state_force": "(q, n, 3) gradient of the energy of springs and contact [N]",
@@ -98,7 +90,7 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
         "couple_before": _repeated([couple.before for couple in lattice.couples], layers),
         "couple_after": _repeated([couple.after for couple in lattice.couples], layers),
         "couple_moment": np.array([couple.moment for couple in lattice.couples]),
-        **lattice.contact,
+        **dict(zip(("contact_masses", "contact_weights", "contact_values"), lattice.contact, strict=True)),
         "state_name": np.array([state.name for state in lattice.states]),
         **{
             f"state_{name}": np.array([getattr(state, name) for state in lattice.states])
@@ -161,20 +153,7 @@ def tables(lattice: Description) -> dict[str, str]:
             ),
         ),
         "states.csv": _csv("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
-        **(contacts(lattice) if len(lattice.contact["obstacle_kind"]) else {}),
     }
-
-
-def plan(lattice: Description, scene: Scene) -> str:
-    """Return the table of the plan's cells: place of the first corner on the grid, middle [m], the share that
-    is on the sheet, and what the sheet is made of there."""
-    x, y = (np.unique(lattice.positions[:, axis]) for axis in (0, 1))
-    share = shares_of(scene.region, x, y)
-    rows, columns = np.nonzero(share)
-    middle = np.column_stack([0.5 * (x[1:] + x[:-1])[columns], 0.5 * (y[1:] + y[:-1])[rows]])
-    found = composition_at(scene, middle)
-    values = _rows(columns, rows, middle, share[rows, columns], *found.values())
-    return _csv(",".join(["i,j,x,y,share", *found]), values)
 
 
 def _followers(lattice: Description) -> Iterator[Row]:
@@ -207,14 +186,16 @@ def natural(lattice: Description) -> str:
     return _csv("cell,aa,bb,ab", rows)
 
 
-def contacts(lattice: Description) -> dict[str, str]:
-    """Return the tables of obstacles and of their points."""
-    joined = np.array([[*map(_joined, masses)] for masses in lattice.contact["contact_corners"].tolist()])
-    columns = list((lattice.contact | {"contact_corners": joined}).values())
-    four = (f"{name}_{n}" for name in ("corner", "weight") for n in range(1, 5))
+def contacts(lattice: Description, scene: Scene) -> dict[str, str]:
+    """Return the tables of obstacles and of points that may touch them."""
+    around = (f"{name}_{n}" for name in ("mass", "weight") for n in range(1, 1 + lattice.contact[0].shape[1]))
+    bodies = np.nan_to_num(
+        [[*one.place(), *one.direction, one.radius] for one in scene.obstacles], posinf=0.0
+    )
+    place, kinds = "x,y,z,ax,ay,az,radius", [one.kind for one in scene.obstacles]
     return {
-        "obstacles.csv": _csv("kind,x,y,z,ax,ay,az,radius", _rows(*columns[:4])),
-        "contacts.csv": _csv(",".join(["obstacle", *four, "area,offset,stiffness"]), _rows(*columns[4:])),
+        "obstacles.csv": _csv(f"kind,{place}", _rows(kinds, bodies)),
+        "contacts.csv": _csv(",".join([*around, place, "area,offset,stiffness"]), _rows(*lattice.contact)),
     }
 
 

@@ -63,7 +63,6 @@ class Comparison(Compared, Answer):
         return {
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
-            "laws": self.laws,
             "apart": self.disagreement,
             "differences": [asdict(difference) for difference in self.differences],
             "errors": [
@@ -82,9 +81,6 @@ class Comparison(Compared, Answer):
         bar: dict[str, Any] = {}
         if solution is self.reference and self.bar is not None:
             bar = self.bar.as_dict() | (self.model_error.as_dict() if self.model_error else {"model": None})
-        elif (own := self.bars.get(solution.model)) is not None:
-            named = dict(zip(self.scene.probes, own, strict=True))
-            bar = {"error": (off := self.bar_of(solution)), "mesh": off, "probes": named}
         expected = self.expected if solution is self.solutions[0] else None
         return {
             **solution.document(self.scene),
@@ -123,11 +119,12 @@ class Comparison(Compared, Answer):
     def _displacements(self) -> Table:
         off = {(d.probe, d.of): d.relative for d in self.differences}
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
-        models = [(s.model, self.probes(s), self.relative_bars(s)) for s in ordered]
+        models = [(s.model, self.probes(s)) for s in ordered]
+        bars = {(probe, self.reference.model): bar for probe, bar in self.relative_bars.items()}
         rows = (
-            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get(probe))
+            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get((probe, model)))
             for probe, (x, y) in self.scene.probes.items()
-            for model, moved, bars in models
+            for model, moved in models
         )
         return Table.listed("Displacement of the mid-surface", MOVED, rows, "table", grouped=True)
 
@@ -160,10 +157,7 @@ class Comparison(Compared, Answer):
         off = self.error(lattice)
         error_text = "" if off is None else f": error at the probes {100 * off:.2f} %"
         described = f"{self.scene.name}: {lattice.label} against {reference.label}{error_text}"
-        return (
-            Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),
-            Picture("probes", "comparisons.comparison.probes_figure:compose", (self,)),
-        )
+        return (Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),)
 
     def files(self) -> dict[str, Write]:
         """Return the solutions as VTU, each on its own mesh and all on one."""
@@ -209,18 +203,13 @@ class Comparison(Compared, Answer):
             " · ".join(solution.label for solution in self.solutions),
             f"difference: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}."
-            + " ±: mesh or grid error of the model at the probe."
-            * bool(self.bars),
+            + " ±: mesh error of the reference at the probe."
+            * (self.bar is not None),
         ]
 
     def _bar_notes(self) -> list[str]:
-        """Return the reference's error bar in words, the models that differ from it by less, what is due to
-        laws of strain."""
-        found, model = [self.laws] if self.laws else [], self.reference.model
-        for solution in self.solutions:
-            if solution.bar is not None:
-                own = few(100.0 * (self.bar_of(solution) or 0.0))
-                found.append(f"{solution.model}: grid error ± {own} %, from its two grids.")
+        """Return the reference's error bar in words, and the models that differ from it by less."""
+        found, model = list[str](), self.reference.model
         if self.bar is None:
             return found
         found.append(self.bar.note(model))

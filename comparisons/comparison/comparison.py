@@ -12,7 +12,6 @@ from comparisons.comparison import branches
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import CHEAP, error_bar
 from comparisons.comparison.far_apart import far_apart_note
-from comparisons.comparison.strain_law import strain_law_note
 from comparisons.external.plugins import shown_name
 from comparisons.models.context import context
 from comparisons.models.expected_error import expected_error
@@ -71,7 +70,7 @@ def compare(
         rows.append(here(model, name))
         context().solved(rows[-1].answer)
     solutions = [row.answer for row in rows]
-    laws = disagreement = ""
+    disagreement = ""
     several = begun = other_branch = False
     one_branch = branches.joined(first, against, *solutions[:2])
     if one_branch is not None:
@@ -86,14 +85,11 @@ def compare(
         meshes = [against.spec.but(count=n) for n in coarser(against.spec.elements)[1:]]
         bar = error_bar([rows[1], *map(here, (resolve(scene, mesh) for mesh in meshes))])
     answers, within = tuple(solutions), None if bar is None else bar.error
-    laws = strain_law_note(first, answers, within)
     if not disagreement:
         disagreement, other_branch = far_apart_note(first, answers, within, finer)
     known, busy = several or other_branch, tuple(doubts([average()]))
     law_chosen = against.spec.law is not None
-    return Comparison(
-        scene, answers, bar, laws, disagreement, expected, known, other_branch, busy, law_chosen
-    )
+    return Comparison(scene, answers, bar, disagreement, expected, known, other_branch, busy, law_chosen)
 
 
 def load_static(scene: AnyScene) -> Scene:

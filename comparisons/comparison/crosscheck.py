@@ -8,7 +8,7 @@ from typing import Unpack
 
 from comparisons.comparison.comparison import load_static
 from comparisons.comparison.crosscheck_answer import Crosscheck
-from comparisons.external.answer import InstalledCode
+from comparisons.external.answer import ExternalCode
 from comparisons.models.grids import parse_elements
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, External, Lattice, Spec, items
@@ -27,16 +27,16 @@ def crosscheck(
     store: Store,
     *,
     models: Mapping[str, Sequence[Spec]],
-    codes: Sequence[InstalledCode] = (),
+    codes: Mapping[str, ExternalCode] = {},
     **how: Unpack[CampaignKeywords],
 ) -> Crosscheck:
     """Carry out what the store does not have, and return every model's limit on every scene.
 
     models: candidates by what tables call them, coarsest mesh first, those of external codes among them;
-    codes: the external ones, absent too. Raises BadInput, before the first run, for candidates that cannot
-    be and for those that take more memory than there is.
+    codes: the external ones by the model that selects them, absent too. Raises BadInput, before the first
+    run, for candidates that cannot be and for those that take more memory than there is.
     """
-    versions = {one.model: one.version for one in codes}
+    versions = {model: code.version() for model, code in codes.items()}
     asks = [
         Ask(
             resolve(scene, spec).scene,
@@ -56,7 +56,7 @@ def crosscheck(
         return Limit.of(name, [row for row in rows if row.ask.tags == tags])
 
     limits = {scene.name: tuple(limit(scene, name) for name in models) for scene in scenes}
-    return Crosscheck(tuple(scenes), limits, tuple(codes))
+    return Crosscheck(tuple(scenes), limits, codes)
 
 
 def load_scenes(names: Sequence[str]) -> list[Scene]:
@@ -77,7 +77,7 @@ def candidates(
     grids: str,
     lattice: Lattice,
     meshes: Mapping[str, str],
-    codes: Sequence[InstalledCode],
+    codes: Mapping[str, ExternalCode],
     code_meshes: str | None,
 ) -> dict[str, list[Spec]]:
     """Return lattice, references and installed external codes, each on its meshes, coarsest first.
@@ -90,10 +90,10 @@ def candidates(
     for name, text in meshes.items():
         if sizes := _numbers(f"--{name}", text, 1):
             models[name] = [Elements(name, n) for n in sizes]
-    for one in codes:
-        if one.version is not None:
-            sizes = list(one.code.meshes) if code_meshes is None else _numbers("--meshes", code_meshes, 1)
-            models[one.code.name] = [External(one.model, {"elements": n}) for n in sizes]
+    for model, code in codes.items():
+        if code.version() is not None:
+            sizes = list(code.meshes) if code_meshes is None else _numbers("--meshes", code_meshes, 1)
+            models[code.name] = [External(model, {"elements": n}) for n in sizes]
     if not models:
         raise BadInput("no model left to check")
     return models

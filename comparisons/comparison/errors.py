@@ -19,7 +19,6 @@ import numpy as np
 from comparisons.comparison import branches
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.expected_error import ExpectedError, NoEstimate
-from comparisons.sweep.columns import own_bar
 from comparisons.sweep.differences import error, relative
 from comparisons.sweep.model_error import ModelError, model_error
 from fem_reference.uncertainty import ROUNDING
@@ -48,17 +47,16 @@ class Compared:
     """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
 
     Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
-    reference's mesh leaves uncertain, where that was requested; laws: a sentence where lattice and reference
-    have laws of strain that differ by more. disagreement: a sentence where both are at rest and far apart.
-    expected: the error to expect of the chosen lattice's grid, or why there is none. several: whether more
-    than one equilibrium is known; other_branch: whether the first two are known to be different ones. busy:
-    sentences on times taken on a busy machine. law_chosen: the reference's law of strain, by the user.
+    reference's mesh leaves uncertain, where that was requested. disagreement: a sentence where both are at
+    rest and far apart. expected: the error to expect of the chosen lattice's grid, or why there is none.
+    several: whether more than one equilibrium is known; other_branch: whether the first two are known to be
+    different ones. busy: sentences on times taken on a busy machine. law_chosen: the reference's law of
+    strain, by the user.
     """
 
     scene: Scene
     solutions: tuple[Solution, ...]
     bar: ErrorBar | None = None
-    laws: str = ""
     disagreement: str = ""
     expected: ExpectedError | NoEstimate | None = None
     several: bool = False
@@ -112,19 +110,6 @@ class Compared:
                 found.append(Difference(name, solution.model, self.reference.model, off, beyond_bar))
         return tuple(found)
 
-    @property
-    def bars(self) -> dict[str, np.ndarray]:
-        """Half a length (n, 3) [m] of the bar at the probes, of the models that have one."""
-        points = self.scene.probe_points()
-        known = {} if self.bar is None else {self.reference.model: self.bar.uncertainty.bar}
-        return {s.model: s.bar(points) for s in self.solutions if s.bar is not None} | known
-
-    def bar_of(self, solution: Solution) -> float | None:
-        """By how much a solution says that it may be off: its largest bar over its largest displacement."""
-        if solution is self.reference and self.bar is not None:
-            return self.bar.error
-        return None if solution.status is Status.UNSTABLE else own_bar(self.scene, solution)
-
     @cached_property
     def model_error(self) -> ModelError | None:
         """What the reference leaves out of the sheet on every mesh, where that is known."""
@@ -145,11 +130,11 @@ class Compared:
         several = solution.snaps or solution.status is Status.UNSTABLE or self.several
         return str(solution.settings.get("branch", "path" if several else ""))
 
-    def relative_bars(self, solution: Solution) -> dict[str, float]:
-        """Return the bar of a model that has one over its displacement, at the probes where it moves; 0 where
-        it is rounding."""
-        lengths, moved = self.bars.get(solution.model, ()), self.probes(solution)
-        both = zip(moved.items(), map(np.linalg.norm, lengths), strict=False)
-        sizes = ((probe, float(np.linalg.norm(u)), float(length)) for (probe, u), length in both)
-        bars = {probe: length / size for probe, size, length in sizes if size > self.least}
+    @property
+    def relative_bars(self) -> dict[str, float]:
+        """The reference's bar over its displacement, at the probes where it moves; 0 where it is rounding."""
+        if self.bar is None:
+            return {}
+        sizes = {probe: float(np.linalg.norm(u)) for probe, u in self.probes(self.reference).items()}
+        bars = {probe: self.bar.at(probe) / size for probe, size in sizes.items() if size > self.least}
         return {probe: bar if bar > ROUNDING else 0.0 for probe, bar in bars.items()}

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import nullcontext, suppress
 from time import perf_counter
-from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -89,20 +89,10 @@ class Reached(NamedTuple):
     held: int = 0
 
 
-class Code(ABC):
+class Code(ExternalCode, ABC):
     """Base of the external codes here: status, times and mesh of what a subclass finds."""
 
-    name: ClassVar[str]
-    called: ClassVar[str]
-    needs: ClassVar[str]
-    meshes: ClassVar[tuple[int, ...]]
-    layered: ClassVar[bool]
-    settings: ClassVar[dict[str, Any]]
     unknowns = 3  # of a node
-
-    @abstractmethod
-    def version(self) -> str | None:
-        """Return its version, None where it is not installed."""
 
     @abstractmethod
     def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
@@ -122,13 +112,9 @@ class Code(ABC):
         self.require_installed()
         return Bricks.of(scene, elements, layers, grading)
 
-    def installed(self) -> bool:
-        """Return whether it can be run."""
-        return self.version() is not None
-
     def require_installed(self) -> None:
         """Raise BadInput where it is not installed."""
-        if not self.installed():
+        if self.version() is None:
             raise BadInput(f"model = '{self.name}': needs {self.needs}")
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
@@ -164,43 +150,23 @@ class Code(ABC):
         )
 
 
-@dataclass(frozen=True)
-class InstalledCode:
-    """An external code: the name or `FILE.py:OBJECT` that selects it, and its version, None where absent."""
-
-    model: str
-    code: ExternalCode
-    version: str | None
-
-
-def find_codes(names: Sequence[str] | None = None) -> list[InstalledCode]:
-    """Return the external codes of these names, or `FILE.py:OBJECT`; of all plug-ins unless given.
+def find_codes(names: Sequence[str] | None = None) -> dict[str, ExternalCode]:
+    """Return the external codes of these names, or `FILE.py:OBJECT`, by what selects them; unless given all
+    among the plug-ins that can be loaded, absent ones too.
 
     Raises BadInput for a name that is no external code's, and for a named code that is not installed.
     """
+    found: dict[str, Any] = {}
+    for name in plugins.names() if names is None else names:
+        if names is not None and plugins.from_file(name) is None:
+            require_choice("--judges", name, find_codes())
+        with suppress(BadInput) if names is None else nullcontext():
+            found[name] = plugins.plugin(name)
     if names is None:
-        return [InstalledCode(name, code, code.version()) for name, code in known_codes().items()]
-    codes = []
-    for name in names:
-        if plugins.from_file(name) is None:
-            require_choice("--judges", name, known_codes())
-        code = plugins.plugin(name)
+        return {name: code for name, code in found.items() if isinstance(code, ExternalCode)}
+    for name, code in found.items():
         if not isinstance(code, ExternalCode):
             raise BadInput(f"--judges = '{name}': no external code, it has no meshes or no version()")
-        if (version := code.version()) is None:
+        if code.version() is None:
             raise BadInput(f"--judges = '{name}': needs {code.needs}")
-        codes.append(InstalledCode(name, code, version))
-    return codes
-
-
-def known_codes() -> dict[str, ExternalCode]:
-    """Return the external codes among the plug-ins by name, without those that cannot be loaded."""
-    codes = {}
-    for name in plugins.names():
-        try:
-            model = plugins.plugin(name)
-        except BadInput:
-            continue
-        if isinstance(model, ExternalCode):
-            codes[name] = model
-    return codes
+    return found

@@ -29,7 +29,7 @@ class Identification(Answer):
     was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
     the largest measurement; converged: whether the search ended at a minimum; runs: whether neighbouring
     residuals have one sign; explained: whether what is left is small, or noise; starts: of the search; grids:
-    the lattices that were fitted; outliers: rows that do not fit, and the unknowns without them."""
+    the lattices that were fitted; outliers: rows that do not fit."""
 
     file_name = "identification"
     scene: Scene
@@ -48,7 +48,6 @@ class Identification(Answer):
     starts: int
     grids: tuple[tuple[int, ...], ...]
     outliers: tuple[Outlier, ...]
-    without: dict[str, Estimate]
 
     @property
     def contains(self) -> str:
@@ -59,14 +58,13 @@ class Identification(Answer):
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
-        own = {name: value for name, value in vars(self).items() if name not in ("measured", "without")}
+        own = {name: value for name, value in vars(self).items() if name != "measured"}
         return own | {
             "scene": self.scene.name,
             "unknowns": {name: asdict(u) for name, u in self.unknowns.items()},
             "points": self.measured.points,
             "runs": {**asdict(self.runs), "probability": self.runs.probability},
             "outliers": [asdict(one) for one in self.outliers],
-            "without_outliers": {name: asdict(u) for name, u in self.without.items()},
         }
 
     def tables(self) -> tuple[Table, ...]:

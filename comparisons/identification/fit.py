@@ -25,7 +25,7 @@ from scipy.optimize import least_squares
 from scipy.stats.qmc import Halton
 
 from comparisons.identification import surface
-from comparisons.identification.measurements import MOVED, Displacements, Measured, Surface
+from comparisons.identification.measurements import Displacements, Measured, Surface
 from comparisons.identification.model import Model, NotReached, Prediction
 from comparisons.identification.unknowns import Unknown
 from comparisons.models.context import context
@@ -103,17 +103,6 @@ class Fit:
         out = np.full(self.measured.displacement.shape, np.nan)
         out[self.measured.measured] = residuals * self.measured.scale
         return out
-
-    def turned(self, residuals: np.ndarray) -> list[str]:
-        """Return the measured components that point the other way than the model's."""
-        if isinstance(self.measured, Surface):
-            return []
-        predicted = self.measured.displacement + self.per_point(residuals)
-        return [
-            name
-            for name, model, measured in zip(MOVED, predicted.T, self.measured.displacement.T, strict=True)
-            if _correlation(model, measured, self.measured.scale) < OPPOSITE
-        ]
 
     def require_same_way(self, predicted: Prediction) -> None:
         """Raise BadInput where the measured deflection points the other way than the predicted one, which

@@ -41,7 +41,7 @@ from comparisons.identification import residuals as remarks
 from comparisons.identification.answer import Identification
 from comparisons.identification.fit import Fit, Nearest, nearest
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
-from comparisons.identification.model import NotReached, lattice_model, reference_model, set_in
+from comparisons.identification.model import NotReached, lattice_model, reference_model
 from comparisons.identification.residuals import Outlier, explained, outliers, runs
 from comparisons.identification.unknowns import DAMPING, VISCOUS, Estimate, Unknown
 from comparisons.identification.unknowns import unknown as unknown_of
@@ -49,7 +49,6 @@ from comparisons.models.context import context
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import resolve
 from comparisons.models.sizes import has_room
-from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice, items
 from lumped import Identifiability, identifiability
 from sheetbench.choices import REFERENCES
@@ -173,18 +172,15 @@ def identify(
     return _answer(scene, fit, lattice if reference is None else reference, refine)
 
 
-def _answer(
-    scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool, find_outliers: bool = True
-) -> Identification:
-    """Return the answer; spec: of the model, as it was requested; find_outliers: whether to look for
-    rows that do not fit."""
-    unknowns, measured, whole = fit.unknowns, fit.measured, fit
+def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> Identification:
+    """Return the answer; spec: of the model, as it was requested."""
+    unknowns, measured = fit.unknowns, fit.measured
     refine = refine and not _moving(measured)
     odd: tuple[Outlier, ...] = ()
 
     def enough(one: Nearest) -> bool:
         nonlocal odd
-        odd = outliers(fit, one) if find_outliers else ()
+        odd = outliers(fit, one)
         return bool(odd) or explained(one.noise, runs(measured, fit.per_point(one.residuals)))
 
     best, starts = nearest(fit, enough)
@@ -203,21 +199,13 @@ def _answer(
     }
     residuals = fit.per_point(best.residuals)
     left = runs(measured, residuals)
-    without: dict[str, Estimate] = {}
-    if odd and isinstance(measured, Displacements):
-        context().progress("without the rows that do not fit")
-        others = replace(whole, measured=measured.without([one.row for one in odd]))
-        without = _answer(scene, others, spec, refine, find_outliers=False).unknowns
     warnings = [
-        *remarks.on_outliers(odd, without),
+        *(f"{one}. Is it a mistake? Empty its cells for the values without it" for one in odd),
         *known.warnings,
         *([] if odd else remarks.on_residuals(fit, best, left, starts)),
         *remarks.on_bounds(fit, best),
         *remarks.on_grid(found, spec.model, refine),
     ]
-    if isinstance(spec, Elements) and not _moving(measured):
-        last = set_in(scene, unknowns, best.x)
-        warnings += remarks.on_law(last, spec.law, solve(resolve(last, spec)).stretch)
     return Identification(
         scene=scene,
         measured=measured,
@@ -235,7 +223,6 @@ def _answer(
         starts=starts,
         grids=tuple(tuple(one) for one in grids if one),
         outliers=odd,
-        without=without,
     )
 
 
@@ -259,8 +246,6 @@ def _moving(measured: Measured) -> bool:
 
 def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> None:
     """Raise BadInput for springs that do not depend on the unknowns."""
-    if resolve(scene, lattice, own=False).fitted:
-        raise BadInput(f"calibration = '{lattice.calibration}': its springs do not depend on the unknowns")
     if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
         raise BadInput(
             f"unknown = '{fixed[0]}': with k = {lattice.k:g} N/m given the springs do not depend on it; "
@@ -285,8 +270,7 @@ def _check(scene: Scene, fit: Fit) -> None:
             f"offset = {fit.offset:g} m: of a cloud's points from the mid-surface; displacements are "
             "the mid-surface's"
         )
-    if scene.pierced:
-        _require_on_sheet(measured, scene)
+    _require_on_sheet(measured, scene)
     count = int(measured.measured.sum()) if isinstance(measured, Displacements) else len(measured.points)
     if count <= len(names):
         raise BadInput(f"{count} measured numbers cannot give intervals of {len(names)} unknowns")
@@ -295,13 +279,16 @@ def _check(scene: Scene, fit: Fit) -> None:
 def _require_on_sheet(measured: Measured, scene: Scene) -> None:
     """Raise BadInput for a point where there is no sheet, and for a cloud of a sheet that is no rectangle."""
     if isinstance(measured, Surface):
-        raise BadInput(
-            f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a sheet "
-            "with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
-        )
-    for row, point in enumerate(measured.points.tolist()):
-        if off_sheet(scene, (point[0], point[1])):
+        if scene.pierced:
             raise BadInput(
-                f"{measured.name_of(row)}: x, y = {point[0]:g}, {point[1]:g}: there is no sheet, by its "
-                "outline or a cutout"
+                f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a "
+                "sheet with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
+            )
+        return
+    for row, (x, y) in enumerate(measured.points.tolist()):
+        if off_sheet(scene, (x, y)):
+            raise BadInput(
+                f"{measured.name_of(row)}: x, y = {x:g}, {y:g} is off the sheet: 0 ≤ x ≤ "
+                f"{scene.sheet.length_x:g} m, 0 ≤ y ≤ {scene.sheet.length_y:g} m, in its outline, not in a "
+                "cutout"
             )

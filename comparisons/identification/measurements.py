@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -115,10 +114,10 @@ def _markers(path: Path, scene: Scene) -> Displacements:
             f"{path}: markers {', '.join(found.labels)}; none has the name of a probe of scene "
             f"'{scene.name}': {', '.join(scene.probes)}"
         )
-    moved = [found.position[i] - found.position[i, 0] for i, _ in named]
+    moved = np.concatenate([found.position[i] - found.position[i, 0] for i, _ in named])
     points = np.repeat([point for _, point in named], len(found.time), axis=0)
-    _require_metres(np.nanmax(np.abs(np.concatenate(moved)), axis=0).tolist(), scene.sheet, str(path))
-    return Displacements(points, np.concatenate(moved), np.tile(found.time, len(named)), str(path))
+    _require_metres(moved, scene.sheet, [str(path)] * len(moved))
+    return Displacements(points, moved, np.tile(found.time, len(named)), str(path))
 
 
 def _plain(label: str) -> str:
@@ -138,33 +137,17 @@ def _table(path: Path, scene: Scene) -> Measured:
             f"{path}: column {', '.join(missing)} missing; the header is {','.join(PLACE + MOVED)}, x,y,uz, "
             "or x,y,z of points of the deformed surface (metres)"
         )
-    return _displacements(path, columns, scene, named)
-
-
-def _displacements(path: Path, columns: Columns, scene: Scene, named: bool) -> Displacements:
-    rows, times, lines = [], [], []
-    for row in columns.rows:
-        if named:
-            point = _probe(row, scene)
-        else:
-            point = [row.number(name) for name in PLACE]
-            _require_on_sheet(point, scene.sheet, row.where)
-        moved = [row.measured(name) if name in columns.names else np.nan for name in MOVED]
-        _require_metres(moved, scene.sheet, row.where)
-        rows.append([*point, *moved])
-        lines.append(row.where)
-        if "time" in columns.names:
-            times.append(row.number("time"))
-    values = np.array(rows, dtype=float).reshape(-1, 5)
-    if not np.isfinite(values[:, 2:]).any():
+    rows, lines = columns.rows, tuple(row.where for row in columns.rows)
+    points = [_probe(row, scene) if named else [row.number(name) for name in PLACE] for row in rows]
+    moves = [[row.measured(name) if name in columns.names else np.nan for name in MOVED] for row in rows]
+    displacement = np.array(moves, dtype=float).reshape(-1, 3)
+    time = columns.numbers("time") if "time" in columns.names else None
+    if not np.isfinite(displacement).any():
         raise BadInput(f"{path}: no displacement in it")
-    if times and (min(times) < 0.0 or max(times) == 0.0):
-        raise BadInput(f"{path}: time: the motion starts at 0 and goes on to later times")
-    if times:
-        require_flat_start(path, np.array(times), values[:, 2:])
-    return Displacements(
-        values[:, :2], values[:, 2:], np.array(times) if times else None, str(path), tuple(lines)
-    )
+    _require_metres(displacement, scene.sheet, lines)
+    if time is not None:
+        require_flat_start(path, time, displacement)
+    return Displacements(np.array(points), displacement, time, str(path), lines)
 
 
 def _heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:
@@ -182,20 +165,13 @@ def _probe(row: Row, scene: Scene) -> list[float]:
     return list(scene.probes[row.cells["probe"]])
 
 
-def _require_on_sheet(point: list[float], sheet: Sheet, where: str) -> None:
-    slack = 1e-9 * max(sheet.lengths)
-    if not all(-slack <= c <= length + slack for c, length in zip(point, sheet.lengths, strict=True)):
-        raise BadInput(
-            f"{where}: x, y = {point[0]:g}, {point[1]:g} is off the sheet, which is "
-            f"0 ≤ x ≤ {sheet.length_x:g} m, 0 ≤ y ≤ {sheet.length_y:g} m"
-        )
-
-
 def require_flat_start(path: Path, time: np.ndarray, displacement: np.ndarray) -> None:
-    """Raise BadInput where a sample at time 0 is moved by more than noise.
+    """Raise BadInput where a motion does not begin at time 0, or a sample there is moved by more than noise.
 
     time: (n,) [s]; displacement: (n, 3) [m], nan where not measured.
     """
+    if time.min() < 0.0 or time.max() == 0.0:
+        raise BadInput(f"{path}: time: the motion starts at 0 and goes on to later times")
     moved = np.nan_to_num(displacement)
     allowed = STILL * float(np.abs(moved).max(initial=0.0))
     first = moved[time == 0.0]
@@ -207,12 +183,14 @@ def require_flat_start(path: Path, time: np.ndarray, displacement: np.ndarray) -
         )
 
 
-def _require_metres(moved: list[float], sheet: Sheet, where: str) -> None:
-    largest = max((abs(u) for u in moved if isfinite(u)), default=0.0)
-    if largest > FARTHEST * max(sheet.lengths):
+def _require_metres(moved: np.ndarray, sheet: Sheet, where: Sequence[str]) -> None:
+    """moved: (n, 3), nan where not measured; where: what names each row."""
+    sizes = np.abs(np.nan_to_num(moved)).max(axis=1)
+    row, side = int(sizes.argmax()), max(sheet.lengths)
+    if sizes[row] > FARTHEST * side:
         raise BadInput(
-            f"{where}: a displacement of {largest:g} m on a sheet of {max(sheet.lengths):g} m: "
-            "displacements are in metres"
+            f"{where[row]}: a displacement of {sizes[row]:g} m on a sheet of {side:g} m: displacements are "
+            "in metres"
         )
 
 

@@ -14,7 +14,7 @@ off. Up to MOST rows are tried in turn, one in FEWEST at most.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,10 +26,7 @@ from scipy.special import bdtrc
 from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.measurements import MOVED, Displacements, Measured
 from comparisons.identification.unknowns import Estimate
-from fem_reference.pulled_strip import curving, laws_of
 from sheetbench.answers.table import quantity
-from sheetbench.choices import STRAIN_LAW
-from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 
 UNLIKELY = 1e-3  # probability below which as many equal signs are not noise
@@ -145,22 +142,7 @@ def _named(measured: Displacements, residuals: np.ndarray, row: int) -> Outlier:
     return Outlier(row, measured.name_of(row), MOVED[worst], value, value + float(residuals[row, worst]))
 
 
-NOTED = 0.01  # share of the force from which on it is reported
-RUBBERS = "neo-hookean"
 CELLS = "cells half as large"
-
-
-def on_outliers(odd: Sequence[Outlier], without: Mapping[str, Estimate]) -> list[str]:
-    """Return the rows that do not fit, and the values without them."""
-    if not odd:
-        return []
-    values = "; ".join(
-        f"{name} = {quantity(u.value, u.unit)}, 95 % {quantity(u.interval[0], u.unit)} to "
-        f"{quantity(u.interval[1], u.unit)}"
-        for name, u in without.items()
-    )
-    rows = "this row" if len(odd) == 1 else "these rows"
-    return [f"{'; '.join(map(str, odd))}. Is it a mistake? Without {rows}: {values}"]
 
 
 def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
@@ -170,10 +152,8 @@ def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
     deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
     size = f"{tried} leaves residuals of {deviation}, {few(100 * best.noise)} % of the largest measurement"
     if best.noise > POOR:
-        turned = " and ".join(fit.turned(best.residuals))
         return [
             f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
-            + (f": the measured {turned} have the opposite sign of the model's" if turned else "")
         ]
     if explained(best.noise, left):
         return []
@@ -207,24 +187,6 @@ def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str
     }
     rest = f"most of its interval is the {error} error; take more {more}"
     return [f"{name}{value}: {rest}" for name, value in finer.items()]
-
-
-def on_law(scene: Scene, law: str | None, stretch: float | None) -> list[str]:
-    """Return a sentence where laws of strain differ at the largest stretch of the sheet with the values
-    found."""
-    material = scene.material
-    own = law or material.law or STRAIN_LAW
-    differences = {name: abs(curving(own, material) - curving(name, material)) for name in laws_of(material)}
-    other = max(differences, key=lambda name: differences[name])
-    off = differences[other] * (stretch or 0.0)
-    if off <= NOTED:
-        return []
-    remedy = f"; of soft silicones, which are rubbers, take --law {RUBBERS}"
-    remedy = "" if own in (RUBBERS, material.law) else remedy
-    return [
-        f"values are those of the law {own}: at {few(100.0 * (stretch or 0.0))} % stretch, as here, the "
-        f"force of {other} is some {few(100.0 * off)} % another{remedy}"
-    ]
 
 
 def _wide(found: Estimate) -> bool:

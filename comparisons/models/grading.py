@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from comparisons.models.layers import layers
-from comparisons.models.spec import GradingLike, Lattice, LatticePair
+from comparisons.models.spec import GradingLike, Lattice
 from sheetbench.choices import AUTO, CALIBRATIONS, method_of
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, Scene
@@ -64,9 +64,7 @@ def fixed(grading: GradingLike) -> Graded | None:
     return None if isinstance(chosen, str) else chosen
 
 
-def grading_of(
-    scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair
-) -> tuple[Graded | None, str]:
+def grading_of(scene: Scene, grid: Sequence[int], lattice: Lattice) -> tuple[Graded | None, str]:
     """Return the grading, None where none is requested and no shapes are drawn whose sides lines can be moved
     to, and the reason in a sentence where it is chosen. Raises BadInput for what is none."""
     chosen = parse_grading(lattice.grading)
@@ -77,7 +75,7 @@ def grading_of(
     return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)
 
 
-def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice | LatticePair) -> Graded:
+def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice) -> Graded:
     """Return equal cells but for lines on the sides of shapes, where no grading is requested."""
     requested = lattice.grading is not None or not scene.shaped_by or one_size(grid, lattice)
     return 0.0 if requested else through(sides_of_shapes(scene))
@@ -112,9 +110,9 @@ def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def one_size(grid: Sequence[int], lattice: Lattice | LatticePair) -> str:
+def one_size(grid: Sequence[int], lattice: Lattice) -> str:
     """Return why these springs cannot be had cell by cell, "" where they can."""
-    method = method_of(lattice.calibration, getattr(lattice, "k", None))
+    method = method_of(lattice.calibration, lattice.k)
     if "grading" not in CALIBRATIONS[method].takes:
         return f"the calibration {method} is for cells of one size"
     if grid[2] != LAYERS or lattice.layer_distance is not None:

@@ -15,16 +15,15 @@ from warnings import warn
 from comparisons.external import plugins
 from comparisons.models.context import context
 from comparisons.models.grading import fixed, grading_of, lines_on_shapes, one_size
-from comparisons.models.grids import GridLike, scene_grid
+from comparisons.models.grids import scene_grid
 from comparisons.models.method import resolve_calibration
 from comparisons.models.sizes import require_room, size
-from comparisons.models.spec import Elements, External, GradingLike, Lattice, LatticePair, Spec, counted
+from comparisons.models.spec import Elements, External, GradingLike, Lattice, Spec
 from sheetbench.answers.size import Size
 from sheetbench.choices import (
     AUTO,
     BRANCHES,
     CALIBRATIONS,
-    EXTRAPOLATED,
     MASSES,
     REFERENCES,
     listed,
@@ -42,20 +41,18 @@ if TYPE_CHECKING:
 
 Use = Literal["statics", "motion", "modes", "springs"]
 ONLY: dict[Use, tuple[str, ...]] = {"statics": ("linear", "branch"), "modes": ("masses",)}
-OURS = (Lattice.NAME, LatticePair.NAME, *REFERENCES)
+OURS = (Lattice.NAME, *REFERENCES)
 S = TypeVar("S", bound=Spec)
 
 
 @dataclass(frozen=True)
 class Resolved(Generic[S]):
     """A model of a scene; spec: with every choice made, a lattice's calibration None where the scene's own
-    [springs] are meant; reasons: sentences on what was chosen, by the setting `…_reason`; coarse: the coarser
-    lattice of a pair."""
+    [springs] are meant; reasons: sentences on what was chosen, by the setting `…_reason`."""
 
     scene: Scene
     spec: S
     reasons: dict[str, str] = field(default_factory=dict)
-    coarse: Resolved[Lattice] | None = None
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -69,33 +66,24 @@ class Resolved(Generic[S]):
 
     @property
     def grid(self) -> Grid:
-        """Of a lattice, or the finer one of a pair."""
-        assert isinstance(self.spec, Lattice | LatticePair)
+        """Of a lattice."""
+        assert isinstance(self.spec, Lattice)
         return cast(Grid, self.spec.grid)
-
-    @property
-    def fitted(self) -> bool:
-        """Whether a lattice's springs are fitted to targets."""
-        return _fitted(self.spec)
-
-    @cached_property
-    def springs(self) -> Calibration:
-        """The springs of a lattice, or of the finer one of a pair."""
-        return self.calibrated()
 
     def on(self, scene: Scene) -> Resolved[S]:
         """Return the same choices for another scene of the same sides."""
         return replace(self, scene=scene)
 
-    def calibrated(self, training: Sequence[Scene] | None = None) -> Calibration:
-        """Return the springs; training: what fitted ones are fitted to, see `comparisons.models.training`.
+    @cached_property
+    def springs(self) -> Calibration:
+        """The springs of a lattice.
 
         Raises BadInput for options that a calibration does not take; warns of a layer distance that is hardly
         meant.
         """
         import lumped
 
-        spec = self.spec.lattice(self.grid) if isinstance(self.spec, LatticePair) else self.spec
+        spec: Spec = self.spec
         assert isinstance(spec, Lattice)
         grading = fixed(spec.grading)
         if spec.calibration is None:
@@ -110,16 +98,12 @@ class Resolved(Generic[S]):
         cells = lumped.sections_of(self.scene, self.grid, grading)
         if "cells" in CALIBRATIONS[named].takes:
             own["cells"] = cells
-        elif self.scene.uniform and self.scene.pierced and not self.fitted and cells is not None:
+        elif self.scene.uniform and self.scene.pierced and cells is not None:
             found = lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
             return lumped.with_shares(found, sheet, material, cells)
         else:
             knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
             lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
-        if _fitted(spec):
-            from comparisons.models.training import fitted
-
-            return fitted(sheet, material, self.grid, spec.calibration, training=training, **own)
         return lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
 
 
@@ -142,8 +126,6 @@ def resolve(
     found: Resolved[Any]
     if isinstance(spec, Lattice):
         found = _lattice(scene, spec, own)
-    elif isinstance(spec, LatticePair):
-        found = _pair(scene, spec)
     elif isinstance(spec, Elements):
         _check_elements(spec)
         found = Resolved(scene, spec)
@@ -151,34 +133,28 @@ def resolve(
         assert isinstance(spec, External)
         _check_external(spec)
         found = Resolved(scene, spec)
-    if not context().large:
-        if use != "springs" or _fitted(found.spec):
-            require_room(scene, found.spec, option)
-        if _fitted(found.spec):
-            from comparisons.models.training import ELEMENTS
-
-            require_room(scene, Elements("shell", ELEMENTS), instead="take a calibration that is not fitted")
+    if not context().large and use != "springs":
+        require_room(scene, found.spec, option)
     if isinstance(spec, Lattice) and found.spec.calibration is None:
         assert found.springs  # tables of other grids are refused
     return cast(Resolved[S], found)
 
 
 def resolve_each(
-    scene: Scene, specs: Sequence[Spec], grading: GradingLike = None
-) -> tuple[list[Spec], tuple[str, ...]]:
-    """Return lattices and pairs of grids with every choice made, and the reasons.
+    scene: Scene, lattices: Sequence[Lattice], grading: GradingLike = None
+) -> tuple[list[Lattice], tuple[str, ...]]:
+    """Return lattices with every choice made, and the reasons.
 
     grading: of those whose calibration and layers take one. Raises BadInput where none of them does.
     """
-    given_lattices = [cast(Lattice, one) for one in specs]  # a pair has the settings that are used here
-    for one in specs:
-        _check_lattice(one.lattice(one.grid) if isinstance(one, LatticePair) else cast(Lattice, one))
-    takers = [one for one in given_lattices if not one_size(scene_grid(scene, one.grid), one)]
+    for one in lattices:
+        _check_lattice(one)
+    takers = [one for one in lattices if not one_size(scene_grid(scene, one.grid), one)]
     if fixed(grading) and not takers:
         raise BadInput(f"grading = {grading}: none of these calibrations takes cells of different sizes")
-    found: list[Spec] = []
+    found = list[Lattice]()
     methods, gradings = [], list[str]()
-    for one in given_lattices:
+    for one in lattices:
         meant = resolve(scene, one.but(grading=grading if one in takers else None), use="springs")
         found.append(meant.spec if meant.spec.grading else meant.spec.but(grading=None))
         if meant.spec.grading is not None and (why := meant.reasons.get("grading_reason")):
@@ -186,12 +162,6 @@ def resolve_each(
         if why := meant.reasons.get("calibration_reason"):
             methods.append(f"calibration {meant.spec.calibration}: {why}")
     return found, tuple(dict.fromkeys((*methods, *gradings)))
-
-
-def _fitted(spec: Spec) -> bool:
-    """Return whether the springs are fitted to targets."""
-    named = isinstance(spec, Lattice) and spec.k is None and spec.calibration
-    return isinstance(named, str) and named in CALIBRATIONS and CALIBRATIONS[named].fitted
 
 
 def _check_lattice(spec: Lattice) -> None:
@@ -225,35 +195,6 @@ def _lattice(scene: Scene, spec: Lattice, own: bool) -> Resolved[Lattice]:
     reasons = {"grading_reason": why, "calibration_reason": because}
     given = {name: reason for name, reason in reasons.items() if reason}
     return Resolved(scene, spec.but(grading=grading), given)
-
-
-def _pair(scene: Scene, spec: LatticePair) -> Resolved[LatticePair]:
-    fine, coarse = _grids(scene, spec.grid, spec.coarser)
-    meant = _lattice(scene, spec.lattice(fine), own=True)
-    if meant.spec.calibration is None:
-        raise BadInput("lumped-pair: the scene's [springs] are of one grid; name a calibration")
-    if meant.spec.calibration not in EXTRAPOLATED:
-        raise BadInput(
-            f"lumped-pair: with the calibration {meant.spec.calibration} answers need not tend to the "
-            f"sheet's as cells shrink; choose {listed(EXTRAPOLATED)}"
-        )
-    chosen = spec.but(
-        grid=fine, coarser=coarse, calibration=meant.spec.calibration, grading=meant.spec.grading
-    )
-    return Resolved(scene, chosen, meant.reasons, Resolved(scene, meant.spec.but(grid=coarse)))
-
-
-def _grids(scene: Scene, grid: GridLike, coarser: GridLike) -> tuple[Grid, Grid]:
-    """Return the finer and the coarser grid. Raises BadInput where the second is not the coarser."""
-    fine = scene_grid(scene, grid)
-    halved = tuple(max(2, (n - 1) // 2 + 1) for n in fine[:2])
-    coarse = scene_grid(scene, (*halved, fine[2]) if coarser is None else coarser)
-    if min(coarse) < 2 or coarse[0] >= fine[0] or coarse[1] >= fine[1] or coarse[2] != fine[2]:
-        raise BadInput(
-            f"lumped-pair: {counted(coarse)} beside {counted(fine)}: the coarser grid has fewer masses along "
-            "both sides, at least 2, and as many layers; write 5:9"
-        )
-    return fine, coarse
 
 
 def _check_elements(spec: Elements) -> None:

@@ -22,8 +22,7 @@ MOST = 10**6  # masses or elements along a side
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
-    """Of what is solved; of a pair the finer lattice, for they are solved one after the other; None of a
-    plug-in."""
+    """Of what is solved, None of a plug-in."""
     counts = spec.counts(scene)
     return _estimate(spec, counts) if counts else None
 

@@ -16,10 +16,9 @@ from typing import Any, Literal
 
 from comparisons.external import plugins
 from comparisons.models.context import context
-from comparisons.models.pair import extrapolated
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.sizes import mesh
-from comparisons.models.spec import Elements, Lattice, LatticePair
+from comparisons.models.spec import Elements, Lattice
 from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import FieldMesh, Iteration, Solution
@@ -31,7 +30,7 @@ from sheetbench.scenes.meaning.region import share_of
 
 Watch = Callable[[Iteration], None]  # called once an iteration
 EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
-COARSE = (Lattice((3, 3, 2)), LatticePair((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
+COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
 def solve(model: Resolved[Any], name: str = "") -> Solution:
@@ -51,9 +50,8 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
 
     warm(spec.model)
     began = now()
-    for lattice in filter(None, [model.coarse, model]):
-        if spec.MASSES:
-            assert lattice.springs
+    if spec.MASSES:
+        assert model.springs
     preparing = now() - began
     solution = _solve(model, watch)
     spent = solution.setup_seconds + preparing
@@ -78,11 +76,11 @@ def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
 def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
     spec, scene = model.spec, model.scene
     if isinstance(spec, Lattice):
-        return _lattice(model, spec, watch)
-    if isinstance(spec, LatticePair):
-        assert model.coarse is not None
-        rough = _lattice(model.coarse, model.coarse.spec, watch)
-        return extrapolated(rough, _lattice(model, spec.lattice(spec.grid), watch))
+        import lumped
+
+        branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
+        solution = lumped.solve(scene, model.springs, linear=spec.linear, branch=branch, progress=watch)
+        return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference
 
@@ -90,15 +88,6 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
         return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
     outside = plugins.plugin(spec.model)
     return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
-
-
-def _lattice(model: Resolved[Any], spec: Lattice, watch: Watch | None) -> Solution:
-    import lumped
-
-    springs, scene = model.springs, model.scene
-    branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
-    solution = lumped.solve(scene, springs, linear=spec.linear, branch=branch, progress=watch)
-    return replace(solution, settings={**solution.settings, **model.reasons})
 
 
 def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings: Any) -> History:

@@ -1,4 +1,4 @@
-"""Models as users name them: a lattice, a pair of lattices, finite elements, or a program from outside.
+"""Models as users name them: a lattice, finite elements, or a program from outside.
 
 A spec is frozen, says nothing of a scene, and leaves open (None) what `comparisons.models.resolve` is to
 choose. It reads and writes itself as text, `NAME:key=value,key=value`, and as JSON, a name and settings.
@@ -21,7 +21,7 @@ from comparisons.external import plugins
 from comparisons.external.program import PREFIX, written
 from comparisons.models.grids import Elements as Count
 from comparisons.models.grids import GridLike, parse_elements, scene_grid
-from sheetbench.choices import AUTO, ELEMENTS, EXTRAPOLATED, REFERENCES
+from sheetbench.choices import ELEMENTS, REFERENCES
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grading import Graded, Grading
@@ -29,7 +29,7 @@ from sheetbench.scenes.objects.grid import LAYERS, elements_of
 from sheetbench.scenes.objects.quantities import LARGEST
 
 GradingLike = Graded | str | None
-SIZES = ("grid", "coarser", "elements")
+SIZES = ("grid", "elements")
 _PROGRAM = re.compile(rf"(?P<file>{PREFIX}[^:]+)(:(?P<rest>.*))?")
 _FROM_FILE = re.compile(r"(?P<file>.+\.py)(:(?P<object>\w+)(?![\w=]))?(:(?P<rest>.*=.*))?")
 _COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
@@ -79,9 +79,8 @@ class Spec(ABC):
 
     @property
     def size(self) -> str:
-        """The grid, or both of a pair, or the elements; nothing where they are left open."""
-        sizes = (self.settings.get(name) for name in ("coarser", "grid", "elements"))
-        return ":".join(counted(size) for size in sizes if size is not None)
+        """The grid or the elements; nothing where they are left open."""
+        return "".join(counted(self.settings[name]) for name in SIZES if name in self.settings)
 
     @property
     def series(self) -> str:
@@ -99,29 +98,15 @@ class Spec(ABC):
 
 
 @dataclass(frozen=True)
-class OnGrid(Spec):
-    """What lattices have in common: the grid, as `comparisons.models.grids` reads it."""
-
-    NAME: ClassVar[str]
-    MASSES: ClassVar = True
-    grid: GridLike = None
-
-    @property
-    def model(self) -> str:
-        return self.NAME
-
-    def counts(self, scene: Scene) -> list[int]:
-        return list(scene_grid(scene, self.grid))
-
-
-@dataclass(frozen=True)
-class Lattice(OnGrid):
+class Lattice(Spec):
     """A lattice: grid, as `comparisons.models.grids` reads it; calibration, a name or "auto"; k [N/m];
     layer_distance [m]; grading, a number, towards some edges, or "auto". linear: one step with the flat
     sheet's tangent; branch: one of `choices.BRANCHES`; masses: how modes share out the mass, one of
     `choices.MASSES`."""
 
     NAME: ClassVar = "lumped"
+    MASSES: ClassVar = True
+    grid: GridLike = None
     calibration: str | None = None
     k: float | None = None
     layer_distance: float | None = None
@@ -130,21 +115,12 @@ class Lattice(OnGrid):
     branch: str = "path"
     masses: str | None = None
 
+    @property
+    def model(self) -> str:
+        return self.NAME
 
-@dataclass(frozen=True)
-class LatticePair(OnGrid):
-    """Two lattices and one answer extrapolated from both; coarser: the other grid, of half as many cells
-    unless given."""
-
-    NAME: ClassVar = "lumped-pair"
-    coarser: GridLike = None
-    calibration: str | None = None
-    layer_distance: float | None = None
-    grading: GradingLike = None
-
-    def lattice(self, grid: GridLike) -> Lattice:
-        """Return one of the two lattices."""
-        return Lattice(grid, self.calibration, None, self.layer_distance, self.grading)
+    def counts(self, scene: Scene) -> list[int]:
+        return list(scene_grid(scene, self.grid))
 
 
 @dataclass(frozen=True)
@@ -219,17 +195,16 @@ class External(Spec):
 def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
     """Return the spec of a name and settings as JSON has them. Raises BadInput for a setting that a lattice
     or a reference does not have."""
-    kind = next((one for one in (Lattice, LatticePair) if model == one.NAME), None)
-    if kind is None and model not in REFERENCES:
+    if model not in (Lattice.NAME, *REFERENCES):
         return External(model, settings)
     own: dict[str, Any] = {
         key: tuple(value) if isinstance(value, list) else value for key, value in settings.items()
     }
-    names = [one.name for one in fields(kind or Elements)]
-    if kind is not None:
+    names = [one.name for one in fields(Lattice if model == Lattice.NAME else Elements)]
+    if model == Lattice.NAME:
         if unknown := [key for key in own if key not in names]:
             raise BadInput(f"{model}: no setting '{unknown[0]}'; it has {', '.join(names)}")
-        return kind(**own)
+        return Lattice(**own)
     if set(own) - {"elements", *names[1:]}:
         import fem_reference
 
@@ -244,24 +219,6 @@ def lattices(
     what is not a grid."""
     shapes = [scene_grid(scene, grid) for grid in grids]
     return [(usual or Lattice()).but(grid=n, calibration=name) for name in calibrations for n in shapes]
-
-
-def pairs(
-    scene: Scene, grids: Iterable[str], calibrations: Iterable[str], usual: Lattice | None = None
-) -> list[LatticePair]:
-    """Return every calibration that is extrapolated on every pair of grids, 5:9; usual: what else they have.
-    Raises BadInput for other text."""
-    shapes = []
-    for text in grids:
-        coarser, colon, finer = text.partition(":")
-        if not colon:
-            raise BadInput(f"--lumped-pair = '{text}': two grids are written 5:9, the coarser first")
-        shapes.append((scene_grid(scene, finer), scene_grid(scene, coarser)))
-    named = [name for name in calibrations if name in (AUTO, *EXTRAPOLATED)]
-    if shapes and not named:
-        raise BadInput(f"--lumped-pair: of calibrations there is none of {', '.join(EXTRAPOLATED)}")
-    distance = None if usual is None else usual.layer_distance
-    return [LatticePair(*shape, name, distance) for name in named for shape in shapes]
 
 
 def references(kind: str, elements: Iterable[str]) -> list[Elements]:

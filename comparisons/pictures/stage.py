@@ -82,7 +82,7 @@ class Stage:
         (n, 3) [m] of them."""
         middle, shown = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0]), list[Any]()
         for one in self.scene.obstacles:
-            at, along, radius = one.position + one.displacement(1.0, time), one.direction, one.radius
+            at, along, radius = one.place(1.0, time), one.direction, one.radius
             way, side = ((middle - at) @ along) * along, 1.3 * self.size
             if isinstance(one, Plane):
                 body = pyvista.Plane(center=middle - way, direction=along, i_size=side, j_size=side)

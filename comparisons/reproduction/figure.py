@@ -1,14 +1,11 @@
-"""The pictures of a reproduction: published and computed displacements, and the settling run."""
+"""The picture of a reproduced test: published and computed displacements."""
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from comparisons.reproduction.answers import COMPONENTS, SOURCES, ReproducedTest, published
-from comparisons.reproduction.settling import PROBE, Settling
 from sheetbench.answers.figure_style import FigureStyle
 from sheetbench.answers.habibi import PROBES
 from sheetbench.answers.style import DARK, GREY, SERIES
@@ -47,34 +44,8 @@ def test(one: ReproducedTest, style: FigureStyle) -> Figure:
     for name in sorted(moved.keys() - drawn):
         most = 1e3 * np.nanmax(np.abs(moved[name]))
         panels[-1].plot([], [], " ", label=f"not drawn: {name}, up to {most:.0f} mm")
-    legend(figure, panels[-1], 2 if style.narrow else 6)
+    labels, columns = panels[-1].get_legend_handles_labels(), 2 if style.narrow else 6
+    figure.legend(*labels, loc="outside lower center", ncols=columns, frameon=False, fontsize=6.5)
     if style.titled:
         figure.suptitle(one.title, fontsize=8)
     return figure
-
-
-def motion(settling: Settling, style: FigureStyle) -> Figure:
-    """ux, uy, uz of P4 over time, dotted its static values, and the published ones."""
-    figure = Figure(figsize=(style.width, 4.6), layout="constrained")
-    panels = figure.subplots(3, 1, sharex=True)
-    for axis, panel in enumerate(panels):
-        for (model, run), colour in zip(settling.runs.items(), SERIES, strict=False):
-            panel.plot(run.time, 1e3 * run.probes[PROBE][:, axis], color=colour, linewidth=0.9, label=model)
-            panel.axhline(1e3 * settling.rest[model][axis], color=colour, linewidth=0.7, linestyle=":")
-        for source, dashes in zip(SOURCES, ("--", "-."), strict=True):
-            value = 1e3 * published(1, source)[PROBES.index(PROBE), axis]
-            if np.isfinite(value):
-                panel.axhline(value, color=DARK, linewidth=0.7, linestyle=dashes, label=f"published {source}")
-        panel.set_ylabel(f"$u_{COMPONENTS[axis][1]}$ of {PROBE} [mm]")
-        panel.margins(x=0, y=0.08)
-    panels[-1].set_xlabel("time [s]")
-    legend(figure, panels[-1], 2 if style.narrow else 4)
-    if style.titled:
-        figure.suptitle(f"Test 1 from rest: {PROBE}; dotted: the static answers", fontsize=8)
-    return figure
-
-
-def legend(figure: Figure, panel: Any, columns: int) -> None:
-    """Put a panel's labels beneath the figure."""
-    labels = panel.get_legend_handles_labels()
-    figure.legend(*labels, loc="outside lower center", ncols=columns, frameon=False, fontsize=6.5)

@@ -17,9 +17,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.reproduction.answers import ReproducedTest, of_model, published
-from comparisons.reproduction.settling import PROBE, SETTLED, Settling
-from sheetbench.answers.habibi import PROBES, published_inputs
+from comparisons.reproduction.answers import ReproducedTest, published
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import (
     MEGAPASCALS,
@@ -28,9 +26,7 @@ from sheetbench.answers.table import (
     Column,
     Table,
     TableUnit,
-    number,
     percent,
-    quantity,
 )
 
 
@@ -44,54 +40,17 @@ class Finding:
 
 def of_tables(answers: Sequence[ReproducedTest]) -> Iterator[Finding]:
     for one in answers:
-        comparison = one.comparison
-        off = comparison.error(comparison.solutions[0])
-        if off is not None and comparison.bar is not None:
-            yield Finding(
-                one.title,
-                f"Our lattice with consistent springs is {percent(off)} from our shell, whose mesh error is "
-                f"± {percent(comparison.bar.error)}.",
-            )
-        moved, wanted = _moved(one, comparison.reference.model), published(one.test, "experiment")
-        pairs = ", ".join(
-            f"{name} {number(1e3 * u, '.2f')} ({number(1e3 * p, '.2f')})"
-            for name, u, p in zip(PROBES, moved[:, 2], wanted[:, 2], strict=True)
-        )
-        yield Finding(
-            one.title,
-            "With the published inputs the shell's uz, and the published experiment's in brackets, are in "
-            f"mm: {pairs}.",
-        )
-        table = published(one.test, "model")
+        comparison, table = one.comparison, published(one.test, "model")
+        yield Finding(one.title, f"{comparison.result()}.")
         for solution in comparison.solutions[2:]:
-            distance = np.nanmax(np.abs(_moved(one, solution.model) - table)) / np.nanmax(np.abs(table))
+            moved = np.array(list(comparison.probes(solution).values()))
+            distance = np.nanmax(np.abs(moved - table)) / np.nanmax(np.abs(table))
             how = "" if solution.status is Status.CONVERGED else f" (its answer is {solution.status})"
-            layers = quantity(solution.settings["layer_distance"], "m", ".3g")
             yield Finding(
                 one.title,
-                f"With the published k and layers {layers} apart{how} the lattice differs from the published "
-                f"model by up to {percent(float(distance), '.0f')} of its largest displacement.",
+                f"With the published k {solution.model}{how} differs from the published model by up to "
+                f"{percent(float(distance), '.0f')} of its largest displacement.",
             )
-
-
-def _moved(one: ReproducedTest, model: str) -> np.ndarray:
-    return np.array(list(one.comparison.probes(of_model(one, model)).values()))
-
-
-def of_settling(settling: Settling) -> Iterator[Finding]:
-    for model, run in settling.runs.items():
-        lattice = "Consistent springs" if model == "lumped" else f"The published k, {model}"
-        settled = settling.settled(model)
-        still = "is not at rest at its end"
-        if settled is not None:
-            still = f"stays within {percent(SETTLED)} of it from {settled:.2f} s on"
-        yield Finding(
-            "settling",
-            f"{lattice}: uz of {PROBE} swings to {settling.largest(model):.2f} times its static value "
-            f"and {still}. The {run.time[-1]:g} s took {settling.seconds(model):.1f} s here, set-up "
-            f"included; {published_inputs()['run_time']:g} s are published as the average of one simulation, "
-            "whose length and machine are not named.",
-        )
 
 
 SOUGHT = {

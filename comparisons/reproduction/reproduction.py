@@ -81,7 +81,6 @@ class Reproduction(Answer):
         return [
             *(printed_errors.findings(self.cells) if self.cells else ()),
             *findings.of_tables(self.answers),
-            *(findings.of_settling(self.settling) if self.settling else ()),
             *(Finding(**one) for one in findings.stored()["findings"] if "nearest" in self.parts),
         ]
 
@@ -123,22 +122,17 @@ class Reproduction(Answer):
             lead,
         )
 
-    def _drawn(self) -> list[tuple[Table, str, Any]]:
-        """Return every table with the figure beside it, and what that is of."""
-        tests: list[tuple[Table, str, Any]] = [(displacements(one), "test", one) for one in self.answers]
-        return tests if self.settling is None else [*tests, (runs(self.settling), "motion", self.settling)]
-
     def tables(self) -> list[Table]:
         return [
             Table.of(Finding, self.findings(), "Findings", "findings", grouped=True),
             *([printed_errors.table(self.cells)] if self.cells else ()),
-            *(table for table, *_ in self._drawn()),
+            *map(displacements, self.answers),
+            *([runs(self.settling)] if self.settling else ()),
             *([findings.nearest_table()] if "nearest" in self.parts else ()),
         ]
 
     def figures(self) -> list[Picture]:
-        module = "comparisons.reproduction.figure"
-        return [Picture(table.name, f"{module}:{kind}", (of,)) for table, kind, of in self._drawn()]
+        return [Picture(one.name, "comparisons.reproduction.figure:test", (one,)) for one in self.answers]
 
     def notes(self) -> list[str]:
         return [DISPLACEMENTS] if self.answers else []

@@ -62,25 +62,12 @@ class Settling:
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON: seconds and metres."""
-        return {
-            "scene": self.scene.document(),
-            "published_seconds": published_inputs()["run_time"],
-            "runs": {
-                model: {
-                    "label": run.label,
-                    "integrator": run.integrator,
-                    "status": str(run.status),
-                    "time": run.time,
-                    "probes": {PROBE: run.probes[PROBE]},
-                    "steps": run.steps,
-                    "setup_seconds": run.setup_seconds,
-                    "solve_seconds": run.solve_seconds,
-                    "settled": self.settled(model),
-                    "rest": self.rest[model],
-                }
-                for model, run in self.runs.items()
-            },
+        runs = {
+            model: {**run.document(), "settled": self.settled(model), "rest": self.rest[model]}
+            for model, run in self.runs.items()
         }
+        published = published_inputs()["run_time"]
+        return {"scene": self.scene.document(), "published_seconds": published, "runs": runs}
 
 
 def settling(duration: float = DURATION) -> Settling:

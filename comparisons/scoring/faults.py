@@ -1,12 +1,9 @@
-"""What is wrong with answers, as far as the reference tells: units, signs, times, swapped probes.
+"""What is wrong with answers, as far as the reference tells: units, signs, swapped probes.
 
 Each is looked for in what is left when those before it are mended, so that several at once are named:
 
     unit    a case a thousand times too large or small, within a factor of 3; of frequencies 2π: rad/s
     sign    a component that correlates with the reference's by less than −0.9
-    time    a motion that is the reference's earlier or later, u(t) = u_ref(t − s), where moving it back by s
-            leaves less than a quarter of an error that is no small one
-    start   a motion whose first sample is not the flat sheet's
     swap    two probes, where exchanging them leaves less than a quarter of an error that is no small one
 """
 
@@ -16,7 +13,6 @@ from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from comparisons.scoring.answers import Answer
 
@@ -24,7 +20,6 @@ FACTOR, NEAR = 1000.0, 3.0
 OPPOSITE = -0.9
 SEEN = 0.01  # of the largest displacement: components and errors that mean something
 MENDED = 0.25
-LONGEST, PER_SAMPLE = 0.25, 4  # share of a motion that times are looked for within; lags tried a sample
 AXES = ("ux", "uy", "uz")
 
 
@@ -33,7 +28,7 @@ def faults(answers: Sequence[Answer]) -> list[str]:
     cases: dict[str, list[str]] = {}
     for answer in answers:
         values, of_modes = answer.values, answer.reference.suite == "modes"
-        for mend in (_frequency,) if of_modes else (_unit, _sign, _time, _start, _swap):
+        for mend in (_frequency,) if of_modes else (_unit, _sign, _swap):
             sentences, values = mend(answer, values)
             for sentence in sentences:
                 cases.setdefault(sentence, []).append(answer.reference.name)
@@ -92,36 +87,10 @@ def _correlation(values: np.ndarray, truth: np.ndarray, axis: int) -> float:
     return float(a @ b) / size if size > 0.0 else 0.0
 
 
-def _time(answer: Answer, values: np.ndarray) -> Mended:
-    truth, time = answer.reference.values, answer.reference.time
-    if time is None or not _matters(answer, values):
-        return [], values
-    motion, every = CubicSpline(time, values, axis=1), time[-1] / (len(time) - 1)
-    most = int(LONGEST * (len(time) - 1) * PER_SAMPLE)
-
-    def back(lag: float) -> np.ndarray:
-        """What it would be without the lag, and the reference where that is beyond what is given."""
-        there = (time + lag >= 0.0) & (time + lag <= time[-1])
-        return np.where(there[:, None], motion(time + lag), truth)
-
-    lags = every / PER_SAMPLE * np.arange(-most, most + 1)
-    lag = min(lags, key=lambda lag: _error(back(lag), truth))
-    if _error(back(lag), truth) > MENDED * _error(values, truth):
-        return [], values
-    side = "late" if lag > 0.0 else "early"
-    return [f"motion is {1e3 * abs(lag):.3g} ms too {side}, for t = 0 is when loads are put on,"], back(lag)
-
-
-def _start(answer: Answer, values: np.ndarray) -> Mended:
-    truth = answer.reference.values
-    if answer.reference.time is None or np.abs(values[:, 0]).max() < SEEN * np.abs(truth).max():
-        return [], values
-    return ["displacements at t = 0 are not zero, as of the flat sheet,"], values - values[:, :1]
-
-
 def _swap(answer: Answer, values: np.ndarray) -> Mended:
     truth, names = answer.reference.values, list(answer.reference.scene.probes)
-    if len(names) < 2 or not _matters(answer, values):
+    before = _error(values, truth)
+    if len(names) < 2 or before <= max(SEEN, 3.0 * answer.reference.bar):  # a small one
         return [], values
 
     def swapped(pair: tuple[int, int]) -> np.ndarray:
@@ -130,14 +99,9 @@ def _swap(answer: Answer, values: np.ndarray) -> Mended:
         return found
 
     best = min(combinations(range(len(names)), 2), key=lambda pair: _error(swapped(pair), truth))
-    if _error(swapped(best), truth) > MENDED * _error(values, truth):
+    if _error(swapped(best), truth) > MENDED * before:
         return [], values
     return [f"probes {names[best[0]]} and {names[best[1]]} look swapped"], swapped(best)
-
-
-def _matters(answer: Answer, values: np.ndarray) -> bool:
-    """Whether an error is no small one."""
-    return _error(values, answer.reference.values) > max(SEEN, 3.0 * answer.reference.bar)
 
 
 def _error(values: np.ndarray, truth: np.ndarray) -> float:

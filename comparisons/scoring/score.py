@@ -2,8 +2,6 @@
 
     error   of a case, as everywhere: largest |component of u − u_ref| over the probes (and times) / largest
             |component of u_ref|; of frequencies the largest |f/f_ref − 1|
-    rms     of a case, the root of the mean of |u − u_ref|² over the probes and times, over the same; of
-            frequencies that of f/f_ref − 1
     score   the geometric mean over the cases of the error, none counted below the reference's own bar and
             none above 1, which is also what a case without an answer counts
 
@@ -13,7 +11,7 @@ An answer within the reference's bar is not distinguishable from it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any
@@ -25,14 +23,13 @@ from comparisons.scoring.answers import Answer, read_answers
 from comparisons.scoring.faults import faults
 from comparisons.scoring.reference import Reference, document
 from comparisons.scoring.verdict import stiffness, verdict
-from comparisons.sweep.front import front
 from sheetbench.answers.answer import Answer as ShownAnswer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, number
+from sheetbench.answers.table import MILLISECONDS, PERCENT, Table, number
 from sheetbench.choices import REFERENCES
 
 OWN = "answers"
-OWN_MODELS = ("lumped", "lumped-pair", *REFERENCES)
+OWN_MODELS = ("lumped", *REFERENCES)
 SIZES = ("grid", "elements")
 WHOSE = YOURS, OURS, OTHERS = "yours", "ours", "other program"
 
@@ -49,12 +46,11 @@ class Row:
 
 @dataclass(frozen=True)
 class CaseRow:
-    """A case: its largest error and their root mean square, the reference's bar, whether that is less, and
-    the time [s] where it was given."""
+    """A case: its largest error, the reference's bar, whether that is less, and the time [s] where it was
+    given."""
 
     case: str
     error: Annotated[float, PERCENT(".3g")]
-    rms: Annotated[float, PERCENT(".3g")]
     bar: Annotated[float, PERCENT(".3g", "reference's bar")]
     distinguishable: bool
     seconds: Annotated[float | None, MILLISECONDS(".1f", "time")]
@@ -63,18 +59,12 @@ class CaseRow:
 @dataclass(frozen=True)
 class Place:
     """A model's score and the geometric mean of its times [s], None where they are not given; whose: one of
-    `WHOSE`; worst: its case of the largest error, if there is one; refused: cases that it has no answer to;
-    on_the_front: whether none is both quicker and better.
-    """
+    `WHOSE`."""
 
     model: str
     score: Annotated[float, PERCENT(".3g")]
     seconds: Annotated[float | None, MILLISECONDS(".1f", "time")]
     whose: str
-    worst: Annotated[str, Column("where")] = ""
-    worst_error: Annotated[float | None, PERCENT(".3g", "worst")] = None
-    refused: Annotated[int, NUMBER("d")] = 0
-    on_the_front: bool = False
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,32 +100,17 @@ class Score(ShownAnswer):
         """One a case."""
         rated = ((a, self.error(a)) for a in self.answers)
         return [
-            CaseRow(a.reference.name, e, _rms(a), a.reference.bar, e > a.reference.bar, a.seconds)
-            for a, e in rated
+            CaseRow(a.reference.name, e, a.reference.bar, e > a.reference.bar, a.seconds) for a, e in rated
         ]
 
     @property
     def leaderboard(self) -> list[Place]:
         """These answers and other models on the same cases, the best first."""
-        best = self.front
-        return [replace(one, on_the_front=one.model in best) for one in self._ranked]
-
-    @property
-    def _ranked(self) -> list[Place]:
         times = [answer.seconds for answer in self.answers]
         known = [time for time in times if time]
         own = Place(OWN, self.score, _geometric(known) if len(known) == len(times) else None, YOURS)
         ours = own_models([answer.reference for answer in self.answers])
         return sorted([own, *ours], key=lambda one: one.score)
-
-    @property
-    def front(self) -> list[str]:
-        """Models that none other is both quicker and better than, the quickest first. Answers that a slip has
-        spoilt, or that are off by all of the displacement, are none however quick they are."""
-        wrong = self.faults or self.score >= 1.0
-        timed = [one for one in self._ranked if one.seconds is not None and not (wrong and one.model == OWN)]
-        best = front([one.score for one in timed], [one.seconds or 0.0 for one in timed])
-        return [timed[i].model for i in best]
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench score`."""
@@ -150,7 +125,6 @@ class Score(ShownAnswer):
             "faults": self.faults,
             "score": self.score,
             "standing": [asdict(one) for one in self.leaderboard],
-            "front": self.front,
         }
 
     @property
@@ -170,8 +144,9 @@ class Score(ShownAnswer):
     def printed(self) -> tuple[Table, ...]:
         cases = Table.of(CaseRow, self.cases, "Errors by case", "cases")
         caption = "Beside our own models and other programs on the same cases"
-        fields = ("model", "whose", "score", "seconds", "on_the_front")
-        place = Table.of(Place, self.leaderboard, caption, "place", fields=fields)
+        place = Table.of(
+            Place, self.leaderboard, caption, "place", fields=("model", "whose", "score", "seconds")
+        )
         return (cases, place) if len(self.leaderboard) > 1 else (cases,)
 
     def figures(self) -> tuple[Picture, ...]:
@@ -191,7 +166,6 @@ class Score(ShownAnswer):
             if any(one.seconds is not None for one in self.leaderboard if one.model != OWN):
                 made = document()["made_with"]["machine"].get("processor", "another machine")
                 notes.append(f"times of the others are geometric means, measured on {made}")
-                notes.append("on the front: no other model is both faster and more accurate")
             notes.append(self.place)
         return notes
 
@@ -253,14 +227,6 @@ def _rows(answer: Answer) -> list[Row]:
     return [Row(known.name, name, error, differs) for name, error, differs in every]
 
 
-def _rms(answer: Answer) -> float:
-    known = answer.reference
-    off = answer.values - known.values
-    if known.suite == "modes":
-        return float(np.sqrt(np.mean((off / known.values) ** 2)))
-    return float(np.sqrt(np.mean(np.sum(off**2, axis=-1))) / np.abs(known.values).max())
-
-
 def own_models(cases: Sequence[Reference]) -> list[Place]:
     """Our own models and other programs that have an answer to any of these cases, as they were measured."""
     rows: dict[str, dict[str, dict[str, Any]]] = {}
@@ -276,8 +242,6 @@ def own_models(cases: Sequence[Reference]) -> list[Place]:
             if (times := [t for row in answered.values() if (t := row["seconds"])])
             else None,
             OURS if next(iter(of_model.values()))["model"] in OWN_MODELS else OTHERS,
-            *_worst({case: row["error"] for case, row in answered.items()}),
-            refused=len(cases) - len(answered),
         )
         for name, of_model in rows.items()
         if (answered := {case: row for case, row in of_model.items() if row["error"] is not None})
@@ -291,8 +255,3 @@ def _of_models(case: Reference) -> list[dict[str, Any]]:
         for row in case.judges
         if row["error"]
     ]
-
-
-def _worst(errors: dict[str, float]) -> tuple[str, float]:
-    """The case of the largest error."""
-    return max(errors.items(), key=lambda one: one[1])

@@ -19,7 +19,7 @@ strain law  1.3 times what Biot's and neo-Hooke's laws would move the probes by,
             farther of both, at stretches up to 5 %). Where that is not known, of a solid and of sheets that
             are not the same all over, 2.3 ε √m, ε the largest stretch, m the share of stretching in the
             energy: at one force St Venant–Kirchhoff's and neo-Hooke's sheets differ by 2.3 ε of a stretch
-            (1.5 and −0.77 of `comparisons.comparison.strain_law`). Nothing where the user has chosen the law
+            (P = E ε (1 + c ε + …), c = 1.5 and −0.77). Nothing where the user has chosen the law
             or the material has one: then it is part of the scene
 clamp       0.75 |ν|/(1 − ν) h/a where an edge is clamped: a clamp holds the surface and its normal, and
             leaves the thickness free to change (docs/theory.md, section 8). One that holds the whole face

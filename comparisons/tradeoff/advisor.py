@@ -178,8 +178,8 @@ def _effects(
             needs.append(name)
         else:
             left_out.append(f"{name}: {100 * share:.1g} % of the energy")
-    touching = bool(trials.scene.obstacles)  # which no linear model knows
-    off = float("inf") if touching else trials.error(trials.row(trials.elements("plate", 4)))
+    linear = not trials.scene.obstacles  # which no linear model knows
+    off = trials.error(trials.row(trials.elements("plate", 4))) if linear else float("inf")
     if off > tolerance:
         needs.append("large displacements")
     elif chosen is not None and (

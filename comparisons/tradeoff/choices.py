@@ -5,27 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from comparisons.models.resolve import resolve_each
-from comparisons.models.spec import Lattice, Spec, items, lattices, pairs, references
-from comparisons.tradeoff.usual import GRIDS, PAIRS, SPRINGS
-from sheetbench.choices import AUTO, CALIBRATION
+from comparisons.models.spec import Lattice, Spec, items, lattices, references
+from comparisons.tradeoff.usual import GRIDS, SPRINGS
 from sheetbench.scenes import Scene
 
 
 def of_lattices(
-    scene: Scene, lattice: Lattice, grid: str | None, lumped_pair: str | None, calibration: str | None
-) -> tuple[list[Spec], tuple[str, ...]]:
-    """Return lattices on every grid with every calibration and pairs of grids, of what is usual where nothing
-    is listed, and the reasons for what is chosen.
+    scene: Scene, lattice: Lattice, grid: str | None, calibration: str | None
+) -> tuple[list[Lattice], tuple[str, ...]]:
+    """Return lattices on every grid with every calibration, of what is usual where nothing is listed, and the
+    reasons for what is chosen.
 
     lattice: what all have, the grading where their calibration takes one. The calibration "auto" is the one
     for the scene (`comparisons.models.method`). Raises BadInput for what cannot be read.
     """
     methods = items(calibration) or items(SPRINGS if lattice.k is None else "uniform")
-    if lumped_pair is None and grid is None and not {CALIBRATION, AUTO}.isdisjoint(methods):
-        lumped_pair = PAIRS
-    of_one = lattices(scene, items(GRIDS if grid is None else grid), methods, lattice)
-    of_both = [*of_one, *pairs(scene, items(lumped_pair), methods, lattice)]
-    resolved, reasons = resolve_each(scene, of_both, lattice.grading)
+    listed = lattices(scene, items(GRIDS if grid is None else grid), methods, lattice)
+    resolved, reasons = resolve_each(scene, listed, lattice.grading)
     return [one for i, one in enumerate(resolved) if one not in resolved[:i]], reasons
 
 

@@ -18,7 +18,7 @@ from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
 
 PANEL, NAMES, TITLE = 3.1, 0.2, 0.25  # inches: of a panel, a row of names, the title over all
-MARKERS = {"lumped": "o", "lumped-pair": "*", "plate": "v", "shell": "s", "solid": "D"}
+MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 BESIDE = ((-1, -1), (1, 1), (-1, 1), (1, -1))  # where the size of a row on the front is written, in turn
 SIZE = "size of a row"
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}

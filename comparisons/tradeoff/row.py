@@ -17,7 +17,7 @@ from sheetbench.scenes.language.summary import milliseconds
 MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column("front", words=("yes", ""))
 OWN = ("label", "status", "message", "cell_size", "started", "finished", "error")
-MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes", "bar")
+MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes")
 # in the JSON where they are known
 _OF_AN_ANSWER = ("load_factor", "model_error", "load_average", "probes", "machine", "versions", "traceback")
 TRADED = (
@@ -25,8 +25,7 @@ TRADED = (
     *(NUMBER("d", "factorisations", detail=True), MILLISECONDS(".1f", "set-up", detail=True)),
     *(MILLISECONDS(".2f", "solve"), MILLISECONDS(".2f", "from", detail=True)),
     *(MILLISECONDS(".2f", "to", detail=True), MEMORY(".1f", "memory"), PERCENT(".3g", "error")),
-    *(PERCENT(".2g", "own bar", detail=True), FRONT),
-    Column("status", detail=True),
+    *(FRONT, Column("status", detail=True)),
 )
 
 
@@ -65,8 +64,8 @@ class TradeoffRow(Solved):
     @property
     def mark(self) -> str:
         """Counts along both sides, or one where they are alike."""
-        counts = [size.split("×")[:2] for size in self.ask.spec.size.split(":")]
-        return ":".join(along[0] if len(set(along)) == 1 else "×".join(along) for along in counts)
+        along = self.ask.spec.size.split("×")[:2]
+        return along[0] if len(set(along)) == 1 else "×".join(along)
 
     @property
     def cost(self) -> float | None:
@@ -81,18 +80,9 @@ class TradeoffRow(Solved):
     def cells(self) -> tuple[Any, ...]:
         """Return the values of `TRADED` between the row's number and whether it is on the front."""
         spec, known = self.ask.spec, self.known
-        unknowns, iterations, setup, memory, bar = (known.get(name) for name in MEASURED)
+        unknowns, iterations, setup, memory = (known.get(name) for name in MEASURED)
         times = (setup, self.seconds, min(self.samples, default=None), max(self.samples, default=None))
-        return (
-            spec.series,
-            spec.size,
-            unknowns,
-            iterations,
-            *times,
-            memory,
-            self.error,
-            bar,
-        )
+        return (spec.series, spec.size, unknowns, iterations, *times, memory, self.error)
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

@@ -29,7 +29,7 @@ from fem_reference.uncertainty import coarser
 from sheetbench.scenes import Scene, require_static
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
-TRADED = ("bar", "model_error")  # columns
+TRADED = ("model_error",)  # columns
 
 
 def tradeoff(

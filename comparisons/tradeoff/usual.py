@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sheetbench.choices import CALIBRATION
 
-GRIDS, PAIRS = "3,5,9,17,33", "5:9,9:17"
+GRIDS = "3,5,9,17,33"
 MESHES = {"plate": "8", "shell": "2,4,8,12,16", "solid": "2,4,8"}
 MOVING = {"plate": "8", "shell": "2,4,8", "solid": "2,4"}  # with a duration
 SPRINGS = f"{CALIBRATION},uniform"

@@ -33,41 +33,41 @@ class Touching(SheetItem):
     """Contact with one obstacle. share: of its stiffness; levers: ζ (faces, m, 9) [m] of elements' nodes."""
 
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
-        self.name, self.obstacle, self.moving, self.on = name, obstacle, moving, plan.elements
+        self.name, self.obstacle, self.on = name, obstacle, plan.elements
         constants, shape = constants_of(scene, plan.corners), areas(plan.corners)
         self.area = shape @ AT_GAUSS[0]
         self.thickness = (shape * constants.thickness) @ AT_GAUSS[0] / self.area
         self.full = (shape * constants.stretching / constants.thickness**2) @ AT_GAUSS[0] / self.area
         self.levers = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), self.thickness)
-        self.offset = (0.0 if solid else 0.5) * self.thickness
-        self.share = SOFTER if moving else 1.0
-        self.resists = moving and bool(obstacle.friction or obstacle.contact_damping)
+        self.offset = (TOUCH + (0.0 if solid else 0.5)) * self.thickness
+        self.share, self.rounded = (SOFTER, ROUNDED) if moving else (1.0, 1e-100)
 
     def _points(self, vectors: np.ndarray) -> np.ndarray:
         """Return x (faces, m, 9, 3) [m] of vectors (m, 18, 3)."""
         return np.asarray(vectors[:, :9] + self.levers[..., None] * vectors[:, 9:])
 
-    def _sunk(self, shape: SheetShape) -> tuple[Near, np.ndarray, Pressed]:
-        """Return where points are, and how deep (faces, m, 9) [m], < 0 of one that is clear."""
-        found = near(self.obstacle, self._points(shape.vectors), *shape.sheet.instant(shape.at))
-        depth = self.offset + TOUCH * self.thickness - found.distance
-        return found, depth, self._pressed(depth)
+    def near(self, shape: SheetShape) -> Near:
+        """Return where points (faces, m, 9) are."""
+        return near(self.obstacle, self._points(shape.vectors), self.offset, shape.sheet.instant(shape.at))
 
-    def _pressed(self, depth: np.ndarray) -> Pressed:
-        deep, scale = np.maximum(depth, 0.0), self.share * self.full * self.area
-        over = (ROUNDED if self.moving else 1e-100) * self.thickness
+    def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
+        """Return where points are, and how they are pressed."""
+        found, over = self.near(shape), self.rounded * self.thickness
+        deep, scale = np.maximum(found.depth, 0.0), self.share * self.full * self.area
         curved, sure = np.minimum(deep, over), np.maximum(deep - over, 0.0)
         energy, load = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over), curved**2 / (2.0 * over) + sure
-        return scale * energy, scale * load, scale * curved / over
+        return found, (scale * energy, scale * load, scale * curved / over)
 
-    def _pulled(self, shape: SheetShape) -> np.ndarray:
-        """Return forces at points (faces, m, 9, 3) [N]."""
-        found, _, (_, load, _) = self._sunk(shape)
-        pull = load[..., None] * found.normal
-        return pull + self._resisted(shape)[0] if self.resists else pull
+    def _pulled(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return forces at points (faces, m, 9, 3) [N], those of dashpot and friction among them, and the
+        derivatives of these by the points' velocities (faces, m, 9, 3, 3)."""
+        found, (_, load, _) = self._pressed(shape)
+        velocity = self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
+        rubbed, by_rate = found.resistance(load, self._points(shape.rates) - velocity)
+        return load[..., None] * found.normal + rubbed, rubbed, by_rate
 
     def force(self, shape: SheetShape) -> np.ndarray:
-        return self._onto(shape, self._pulled(shape))
+        return self._onto(shape, self._pulled(shape)[0])
 
     def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, m, 9, 3)."""
@@ -75,7 +75,7 @@ class Touching(SheetItem):
         return shape.sheet.of_surface(np.arange(len(self.on)), np.concatenate(both, axis=1))
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
-        found, _, (_, load, slope) = self._sunk(shape)
+        found, (_, load, slope) = self._pressed(shape)
         geometric = load[..., None, None] * found.curvature
         return self._between(geometric - slope[..., None, None] * dyad(found.normal))
 
@@ -87,36 +87,27 @@ class Touching(SheetItem):
         out[:, :, at, :, :, at] = np.einsum("rfen,cfen,fenij->nericj", by, by, blocks[:, on])
         return (on, out.reshape(-1, 18, 3, 18, 3)) if len(on) else None
 
-    def _resisted(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray]:
-        """Return forces (faces, m, 9, 3) [N] of dashpot and friction, and their derivatives by points'
-        velocities (faces, m, 9, 3, 3)."""
-        found, _, (_, load, _) = self._sunk(shape)
-        return found.resistance(load, self._points(shape.rates) - self.obstacle.velocity(shape.at))
-
     def damping(self, shape: SheetShape) -> Tangent | None:
-        return self._between(self._resisted(shape)[1])
+        return self._between(self._pulled(shape)[2])
 
     def potential(self, shape: SheetShape) -> float:
-        return float(self._sunk(shape)[2][0].sum())
+        return float(self._pressed(shape)[1][0].sum())
 
     stored = potential
 
     def exchanged(self, shape: SheetShape) -> tuple[float, float]:
-        velocity, rubbed = self.obstacle.velocity(shape.at), self._resisted(shape)[0]
+        velocity, (pull, rubbed, _) = self.obstacle.velocity(shape.at), self._pulled(shape)
         taken = rubbed.sum(axis=(0, 1, 2)) @ velocity - self._onto(shape, rubbed) @ shape.v
-        return float(taken), float(self._pulled(shape).sum(axis=(0, 1, 2)) @ velocity)
+        return float(taken), float(pull.sum(axis=(0, 1, 2)) @ velocity)
 
     def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        return {self.name: (self._points(shape.vectors), self._pulled(shape))}
-
-    def step_share(self, start: SheetShape, end: SheetShape) -> float:
-        return self._sunk(end)[0].share_of_way(self._sunk(start)[0], self.offset)
+        return {self.name: (self._points(shape.vectors), self._pulled(shape)[0])}
 
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""
-        _, depth, (_, load, _) = self._sunk(shape)
+        found, (_, load, _) = self._pressed(shape)
         area = np.bincount(self.on.ravel(), self.area.ravel())
         deepest = np.full(len(area), -np.inf)
-        np.maximum.at(deepest, self.on, (depth / self.thickness).max(axis=0))
+        np.maximum.at(deepest, self.on, (found.depth / self.thickness).max(axis=0))
         pressure = np.bincount(self.on.ravel(), load.sum(axis=0).ravel()) / area
         return ContactState.of(deepest, area), pressure

@@ -30,8 +30,12 @@ CASES: dict[str, Case] = {
     "slit-annulus": Case("slit annular plate, lifted", slit_annulus.rows, quick=False),
     "heavy-elastica": Case("strip under its own weight", large_deflections.heavy_elastica),
     "settling-strip": Case("strip that settles under its own weight", settling_strip.rows),
-    "mindlin-simple": Case("Mindlin plate, hard simple support", mindlin_plates.simply_supported),
-    "mindlin-clamped": Case("Mindlin plate, clamped", mindlin_plates.clamped),
+    "mindlin-simple": Case(
+        "Mindlin plate, hard simple support", partial(mindlin_plates.rows, "hinged", "plate")
+    ),
+    "mindlin-clamped": Case(
+        "Mindlin plate, clamped", partial(mindlin_plates.rows, "clamped", "plate", "shell")
+    ),
     **{
         name: Case(benchmark.title, partial(natural_frequencies.rows, name))
         for name, benchmark in natural_frequencies.BENCHMARKS.items()

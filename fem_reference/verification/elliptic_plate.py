@@ -12,11 +12,10 @@ Source: NAFEMS, The Standard NAFEMS Benchmarks (1990), test LE10.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator
 
 import numpy as np
-from skfem import ElementHex2, MeshQuad, MeshQuad2
+from skfem import ElementHex2, MeshQuad2
 
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import shape
@@ -25,8 +24,9 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.loads import area_force
 from fem_reference.verification.rows import Row, relatively
+from fem_reference.verification.specimens import mapped, specimen
 from sheetbench.numerics.direct import DirectSolver
-from sheetbench.scenes import Material, Scene, Sheet
+from sheetbench.scenes import Material, Sheet
 
 TOLERANCE = 1e-2
 RADIAL, AROUND, LAYERS = 8, 12, 6
@@ -47,7 +47,7 @@ def rows() -> Iterator[Row]:
 
 def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     """Stress (3, 3) [Pa] at D."""
-    scene = Scene(name="LE10", sheet=Sheet(length_x=3.25, length_y=2.75, thickness=0.6), material=STEEL)
+    scene = specimen(Sheet(3.25, 2.75, 0.6), STEEL, ())
     sheet = DiscreteSolid(_quarter(radial, around), scene, layers=layers)
     columns, rest = sheet.columns, np.zeros(sheet.size)
     free = np.ones(sheet.free.shape, dtype=bool)
@@ -68,18 +68,13 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
 
 def _quarter(radial: int, around: int) -> MeshQuad2:
     """The plan mesh with its sides y0 (y = 0), x0 (x = 0) and outer."""
-    share = np.linspace(0.0, 1.0, radial + 1) ** GRADING
-    plan = MeshQuad.init_tensor(share, np.linspace(0.0, np.pi / 2.0, around + 1))
-    sides = {
-        "outer": lambda x: np.isclose(x[0], 1.0),
-        "y0": lambda x: np.isclose(x[1], 0.0),
-        "x0": lambda x: np.isclose(x[1], np.pi / 2.0),
-    }
-    mesh = MeshQuad2.from_mesh(plan)
-    outwards, angle = mesh.doflocs
-    a, b = (inner + (outer - inner) * outwards for inner, outer in zip(INNER, OUTER, strict=True))
-    bent = dataclasses.replace(mesh, doflocs=np.array([a * np.cos(angle), b * np.sin(angle)]))
-    return bent.with_boundaries({name: plan.facets_satisfying(test) for name, test in sides.items()})
+    share, angles = np.linspace(0.0, 1.0, radial + 1) ** GRADING, np.linspace(0.0, np.pi / 2.0, around + 1)
+
+    def place(outwards: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        a, b = (inner + (outer - inner) * outwards for inner, outer in zip(INNER, OUTER, strict=True))
+        return a * np.cos(angle), b * np.sin(angle)
+
+    return mapped(share, angles, place, {"outer": (0, 1.0), "y0": (1, 0.0), "x0": (1, np.pi / 2.0)})
 
 
 def _stress(columns: Columns, displacement: np.ndarray, node: int) -> np.ndarray:

@@ -21,21 +21,20 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference import solve
 from fem_reference.surface.materials import bending_stiffness
-from fem_reference.verification.rows import OURS, Row, absolutely, relatively
-from sheetbench.answers.solution import Status
-from sheetbench.scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet
+from fem_reference.verification.rows import OURS, Row, curve, relatively
+from fem_reference.verification.specimens import around, moved, specimen
+from sheetbench.scenes import EDGES, Clamped, Hinged, Material, Sheet
 
 TOLERANCE = 3e-3
 ELEMENTS = 16
 HARD_SIMPLE = {0.001: 0.00406, 0.1: 0.00427, 0.2: 0.00490}
 CLAMPED = {0.001: 0.0012653, 0.1: 0.001505, 0.2: 0.002172}
-NAVIER = "Wang, Reddy & Lee 2000"
-SERIES = "Taylor & Govindjee 2004"
 FINER = f"{OURS}, 48 × 48"
-SOURCES = {"hinged": dict.fromkeys(HARD_SIMPLE, NAVIER), "clamped": {0.001: SERIES, 0.1: FINER, 0.2: FINER}}
-SUPPORTS: dict[str, type[Clamped | Hinged]] = {"clamped": Clamped, "hinged": Hinged}
+SOURCES = {
+    "hinged": dict.fromkeys(HARD_SIMPLE, "Wang, Reddy & Lee 2000"),
+    "clamped": {0.001: "Taylor & Govindjee 2004", 0.1: FINER, 0.2: FINER},
+}
 FIXED = 8  # elements of what may lock
 THICK = (1e-3, 1e-2, 0.05, 0.1, 0.2)
 SWEEPS = {  # elements of the finer mesh, tolerance, h/L and ν
@@ -46,42 +45,29 @@ SWEEPS = {  # elements of the finer mesh, tolerance, h/L and ν
 SMALL = 1e-4  # the shell's deflection at the centre over the thickness
 
 
-def simply_supported() -> Iterator[Row]:
-    """The plate with hard simple supports."""
-    yield from _of("plate", HARD_SIMPLE)
+def rows(kind: str, *models: str) -> Iterator[Row]:
+    """The models with edges of a kind, "hinged" or "clamped"."""
+    published = HARD_SIMPLE if kind == "hinged" else CLAMPED
+    values = {ratio: (value,) for ratio, value in published.items()}
+    for model in models:
+        mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
 
+        def answer(ratio: float, elements: int, model: str = model) -> np.ndarray:
+            return np.array([deflection(model, kind, ratio, elements)])
 
-def clamped() -> Iterator[Row]:
-    """The plate and the shell with clamped edges."""
-    yield from _of("plate", CLAMPED)
-    yield from _of("shell", CLAMPED)
-
-
-def _of(model: str, published: dict[float, float]) -> Iterator[Row]:
-    kind = "hinged" if published is HARD_SIMPLE else "clamped"
-    mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
-    found = {}
-    for ratio, value in published.items():
-        found[ratio] = deflection(model, kind, ratio, ELEMENTS)
-        yield relatively(
-            f"w D/qL⁴ at h/L = {ratio:g}", mesh, value, SOURCES[kind][ratio], found[ratio], TOLERANCE
-        )
-    ratio = max(published)
-    change = abs(deflection(model, kind, ratio, ELEMENTS // 2) / found[ratio] - 1.0)
-    yield absolutely(f"change from half the mesh, {ratio:g}", mesh, 0.0, OURS, change, TOLERANCE)
+        names = ("w D/qL⁴ at h/L = {:g}",)
+        yield from curve(names, mesh, values, SOURCES[kind], TOLERANCE, answer, ELEMENTS)
 
 
 def locking(model: str) -> Iterator[Row]:
     """Rows of a model, thin to thick; what is expected is the finer mesh's answer."""
     finer, tolerance, ratios, poissons = SWEEPS[model]
+    source, mesh = f"{OURS}, {finer} × {finer}", f"{model} {FIXED} × {FIXED}"
     for poisson in poissons:
         for ratio in ratios:
             fixed, converged = (deflection(model, "clamped", ratio, n, poisson) for n in (FIXED, finer))
             quantity = f"w D/qL⁴ at h/a = {ratio:g}, ν = {poisson:g}"
-            source, at = f"{OURS}, {finer} × {finer}", {"h/a": ratio, "ν": poisson}
-            yield relatively(
-                quantity, f"{model} {FIXED} × {FIXED}", converged, source, fixed, tolerance, at=at
-            )
+            yield relatively(quantity, mesh, converged, source, fixed, tolerance)
 
 
 def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:
@@ -89,15 +75,6 @@ def deflection(model: str, kind: str, ratio: float, elements: int, poisson: floa
     material = Material(young=1e7, poisson=poisson, density=1000.0)
     rigidity = bending_stiffness(material, ratio)[0, 0]
     load = SMALL * ratio * rigidity / CLAMPED[0.001]
-    scene = Scene(
-        name="square",
-        sheet=Sheet(length_x=1.0, length_y=1.0, thickness=ratio),
-        material=material,
-        supports=tuple(SUPPORTS[kind].model_validate({"edge": edge}) for edge in EDGES),
-        gravity=Gravity(acceleration=(0.0, 0.0, load / (material.density * ratio))),
-    )
+    scene = specimen(Sheet(1.0, 1.0, ratio), material, around(Hinged if kind == "hinged" else Clamped), load)
     hard: dict[str, Any] = {"hard_edges": tuple(EDGES)} if kind == "hinged" else {}
-    solution = solve(scene, model, elements=elements, **hard)
-    if solution.status is not Status.CONVERGED:
-        return float("nan")
-    return float(solution.displacement(np.array([[0.5, 0.5]]))[0, 2] * rigidity / load)
+    return float(moved(scene, (0.5, 0.5), model, elements, **hard)[2] * rigidity / load)

@@ -9,13 +9,14 @@ The free vibration of rectangular plates, J. Sound Vib. 31 (1973) 257–293.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.verification.rows import OURS, Row, mesh_change, relatively
+from fem_reference.verification.specimens import around, specimen
 from fem_reference.vibration import modes
 from sheetbench.scenes import Clamped, Material, Scene, Sheet
 
@@ -28,7 +29,7 @@ THIN = Sheet(length_x=1.0, length_y=1.0, thickness=1e-3)
 
 COEFFICIENT = "ω a² √(ρh/D)"
 
-Values = tuple[float | None, ...]
+Values = Sequence[float | None]
 
 
 class Benchmark(NamedTuple):
@@ -68,20 +69,23 @@ BENCHMARKS = {
 def rows(case: str) -> Iterator[Row]:
     """Six modes of every model of a case of `BENCHMARKS`."""
     _, sheet, edges, source, unit, converged, bounds, models = BENCHMARKS[case]
-    clamps = tuple(Clamped.model_validate({"edge": edge}) for edge in edges)
-    scene = Scene(name=case, sheet=sheet, material=STEEL, supports=clamps)
+    scene = specimen(sheet, STEEL, around(Clamped, edges))
     scale = 1.0 if unit == "Hz" else _coefficient(scene)
-    expected = (("converged", CONVERGED, FINER, converged), ("bound", BOUND, source, bounds))
     for model in models:
+        coarse, found = (scale * modes(scene, model, n, 6).frequencies for n in (ELEMENTS // 2, ELEMENTS))
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
-        found = scale * modes(scene, model, ELEMENTS, count=6).frequencies
-        for kind, tolerance, whose, values in expected:
-            for number, (published, computed) in enumerate(zip(values, found, strict=True), 1):
-                if published is not None:
-                    quantity = f"mode {number} [{unit}], {kind}"
-                    yield relatively(quantity, mesh, published, whose, computed, tolerance)
-        coarse = scale * modes(scene, model, ELEMENTS // 2, count=6).frequencies
+        yield from lowest(f"{unit}], converged", mesh, converged, FINER, found, CONVERGED)
+        yield from lowest(f"{unit}], bound", mesh, bounds, source, found, BOUND)
         yield mesh_change(mesh, coarse, found, CONVERGED)
+
+
+def lowest(
+    unit: str, mesh: str, published: Values, source: str, found: np.ndarray, tolerance: float
+) -> Iterator[Row]:
+    """Rows of the lowest frequencies, but for those that are not published."""
+    for number, (expected, computed) in enumerate(zip(published, found, strict=True), 1):
+        if expected is not None:
+            yield relatively(f"mode {number} [{unit}", mesh, expected, source, computed, tolerance)
 
 
 def _coefficient(scene: Scene) -> float:

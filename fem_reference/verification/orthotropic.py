@@ -19,12 +19,11 @@ from itertools import product
 from math import cos, pi, sin, sqrt
 from typing import Any
 
-import numpy as np
-
-from fem_reference import solve
-from fem_reference.verification.rows import Row, relatively
+from fem_reference.verification.natural_frequencies import lowest
+from fem_reference.verification.rows import EXACT, Row, relatively
+from fem_reference.verification.specimens import around, moved, specimen
 from fem_reference.vibration import modes
-from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Gravity, Hinged, Layer, Material, Scene, Sheet
+from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, Layer, Material, Sheet
 
 STATIC, FREQUENCIES = 5e-3, 1e-2  # tolerances
 ELEMENTS = 16
@@ -53,74 +52,46 @@ def _delta(outer: float, m: int, n: int) -> float:
     return d1 * m**4 + 2.0 * d3 * m**2 * n**2 + d2 * n**4
 
 
-def _plate(layers: tuple[Layer, ...], load: float) -> Scene:
-    weight = Gravity(acceleration=(0.0, 0.0, load / (MATERIAL.density * THIN.thickness)))
-    supports = tuple(Hinged.model_validate({"edge": edge}) for edge in EDGES)
-    return Scene(
-        name="fibres", sheet=THIN, material=MATERIAL, layers=layers, supports=supports, gravity=weight
-    )
-
-
-def _deflections(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
-    """w D22/(q a⁴) in the middle, of the plate and of the shell under so small a load that it is linear."""
+def _rows(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
+    """w D22/(q a⁴) in the middle, of the plate and of the shell under so small a load that it is linear, and
+    their first six frequencies [Hz]."""
     terms = (
         sin(m * pi / 2) * sin(n * pi / 2) / (m * n * _delta(outer, m, n))
         for m, n in product(range(1, 80, 2), repeat=2)
     )
     unit = 16.0 / pi**6 * sum(terms)
-    load = SMALL * THIN.thickness / unit
-    scale = _rigidities(outer)[2]
+    load, scale = SMALL * THIN.thickness / unit, _rigidities(outer)[2]
+    inertia = MATERIAL.density * THIN.thickness
+    exact = sorted(0.5 * pi * sqrt(_delta(outer, *mn) / inertia) for mn in product(range(1, 12), repeat=2))
     for model in ("plate", "shell"):
         hard: dict[str, Any] = {"hard_edges": tuple(EDGES)} if model == "plate" else {}
-        found = solve(_plate(layers, load), model, elements=ELEMENTS, **hard)
-        middle = float(found.displacement(np.array([[0.5, 0.5]]))[0, 2])
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
+        scene = specimen(THIN, MATERIAL, around(Hinged), load, layers=layers)
+        middle = moved(scene, (0.5, 0.5), model, ELEMENTS, **hard)[2]
         yield relatively("w D22/qa⁴", mesh, unit * scale, source, middle / load * scale, STATIC)
+        found = modes(scene, model, ELEMENTS, count=6).frequencies
+        yield from lowest("Hz]", mesh, exact[:6], "Leissa 1969", found, FREQUENCIES)
 
 
 def plate() -> Iterator[Row]:
-    """A single ply, fibres along x: deflection and the first six frequencies."""
-    yield from _deflections((), 1.0, SOURCE)
-    yield from _frequencies((), 1.0)
+    """A single ply, fibres along x."""
+    yield from _rows((), 1.0, SOURCE)
 
 
 def laminate() -> Iterator[Row]:
     """[0/90]s."""
-    yield from _deflections(LAYERS, 0.875, LAMINATE)
-    yield from _frequencies(LAYERS, 0.875)
-
-
-def _frequencies(layers: tuple[Layer, ...], outer: float) -> Iterator[Row]:
-    """The first six, in Hz."""
-    scene = _plate(layers, 0.0)
-    inertia = MATERIAL.density * THIN.thickness
-    exact = sorted(
-        0.5 * pi * sqrt(_delta(outer, m, n) / inertia) for m, n in product(range(1, 12), range(1, 12))
-    )
-    for model in ("plate", "shell"):
-        found = modes(scene, model, ELEMENTS, count=6).frequencies
-        for number, (expected, computed) in enumerate(zip(exact, found, strict=False), start=1):
-            mesh, quantity = f"{model} {ELEMENTS} × {ELEMENTS}", f"mode {number} [Hz]"
-            yield relatively(quantity, mesh, expected, "Leissa 1969", float(computed), FREQUENCIES)
+    yield from _rows(LAYERS, 0.875, LAMINATE)
 
 
 def off_axis() -> Iterator[Row]:
     """E_x/E₂ of strips with fibres at 15, 30 and 60°, from the stretch of their middle third."""
-    sheet = Sheet(length_x=1.0, length_y=0.04, thickness=1e-3)
-    stations = np.array([[0.4, 0.02], [0.7, 0.02]])
-    pull = 1e-6 * E2 * sheet.thickness
+    sheet, pull = Sheet(length_x=1.0, length_y=0.04, thickness=1e-3), 1e-6 * E2 * 1e-3
+    load = EdgeLoad("x1", force_per_length=(pull, 0.0, 0.0))
     for model, degrees in product(("plate", "shell"), (15, 30, 60)):
         angle = pi * degrees / 180.0
         c, s = cos(angle), sin(angle)
         exact = 1.0 / (c**4 / E1 + (1.0 / G - 2.0 * NU / E1) * s**2 * c**2 + s**4 / E2)
-        scene = Scene(
-            name="off-axis",
-            sheet=sheet,
-            material=MATERIAL.replace(angle=angle),
-            supports=(Clamped("x0"),),
-            loads=(EdgeLoad("x1", force_per_length=(pull, 0.0, 0.0)),),
-        )
-        u = solve(scene, model, elements=(60, 4)).displacement(stations)[:, 0]
-        found = pull / sheet.thickness * 0.3 / float(u[1] - u[0])
-        quantity = f"E_x/E2 at {degrees}°"
-        yield relatively(quantity, f"{model} 60 × 4", exact / E2, "exact", found / E2, STATIC)
+        scene = specimen(sheet, MATERIAL.replace(angle=angle), (Clamped("x0"),), loads=(load,))
+        low, high = (moved(scene, (x, 0.02), model, (60, 4))[0] for x in (0.4, 0.7))
+        found = pull / sheet.thickness * 0.3 / (high - low)
+        yield relatively(f"E_x/E2 at {degrees}°", f"{model} 60 × 4", exact / E2, EXACT, found / E2, STATIC)

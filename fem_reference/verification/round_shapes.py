@@ -25,7 +25,6 @@ from scipy.optimize import brentq
 from scipy.special import iv, ivp, jv, jvp, kv, kvp, yv, yvp
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference import solve
 from fem_reference.discrete.answer import solve_on
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell.discrete import DiscreteShell
@@ -33,11 +32,10 @@ from fem_reference.surface.loads import Line
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import mesh_of, nodes_of, quarters
 from fem_reference.verification.rows import THEORY, Row, absolutely, relatively
+from fem_reference.verification.specimens import moved, specimen
 from fem_reference.vibration import modes
-from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet
 from sheetbench.scenes.objects.cutouts import Cutout
-from sheetbench.scenes.objects.loads import AreaLoad
 from sheetbench.scenes.objects.shapes import Circle, Shape
 
 TOLERANCE, OF_FREQUENCY, OF_ORDER = 5e-3, 1e-2, 0.5
@@ -54,31 +52,25 @@ def disc(thick: float = THICK) -> Scene:
     """Clamped at its hub under a force per area, like the cube of the thickness [m]."""
     turn = 2.0 * np.pi * np.arange(CORNERS) / CORNERS
     outline = RADIUS * (1.0 + np.column_stack([np.cos(turn), np.sin(turn)]))
-    hub = Circle(centre=(RADIUS, RADIUS), radius=HUB)
-    return Scene(
-        name="disc",
-        sheet=Sheet(2.0 * RADIUS, 2.0 * RADIUS, thick, outline=tuple((x, y) for x, y in outline.tolist())),
-        material=STEEL,
-        supports=(Clamped.model_validate({"where": Shape(circle=hub)}),),
-        loads=(AreaLoad((0.0, 0.0, LOAD * (thick / THICK) ** 3)),),
-        probes={"P1": (2.0 * RADIUS, RADIUS)},
-    )
+    sheet = Sheet(2.0 * RADIUS, 2.0 * RADIUS, thick, outline=tuple((x, y) for x, y in outline.tolist()))
+    hub = Clamped.model_validate({"where": Shape(circle=Circle(centre=(RADIUS, RADIUS), radius=HUB))})
+    return specimen(sheet, STEEL, (hub,), LOAD * (thick / THICK) ** 3)
 
 
 def bending() -> Iterator[Row]:
     """The deflection of the rim, and the order in which plate and shell come to it."""
-    thin, thicker = disc(), disc(THICKER)
+    thin, thicker, at_rim = disc(), disc(THICKER), (2.0 * RADIUS, RADIUS)
     for model, kind in (("plate", DiscretePlate), ("shell", DiscreteShell)):
-        quantity, source = "deflection of the rim [m]", "Timoshenko 1959, art. 17"
-        computed, expected = _at_rim(solve(thin, model, elements=ELEMENTS)), deflection_at_rim()
-        mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
-        yield relatively(quantity, mesh, expected, source, computed, TOLERANCE)
+        quantity, mesh = "deflection of the rim [m]", f"{model} {ELEMENTS} × {ELEMENTS}"
+        source, computed = "Timoshenko 1959, art. 17", moved(thin, at_rim, model, ELEMENTS)[2]
+        yield relatively(quantity, mesh, deflection_at_rim(), source, computed, TOLERANCE)
         coarse = cut(mesh_of(thicker, UNCUT))
-        at_rim = [_at_rim(solve_on(kind, mesh, thicker)) for mesh in (coarse, cut(coarse))]
-        errors = np.array(at_rim) - deflection_at_rim(THICKER)
-        order = float(np.log2(abs(errors[0] / errors[1])))
+        found = [
+            solve_on(kind, each, thicker).displacement(np.array([at_rim])) for each in (coarse, cut(coarse))
+        ]
+        errors = np.abs(np.array(found)[:, 0, 2] - deflection_at_rim(THICKER))
         quantity, mesh = f"order, h/a = {THICKER / RADIUS:g}", f"{model} {UNCUT} × {UNCUT}, cut in 4 and 16"
-        yield absolutely(quantity, mesh, 4.0, THEORY, order, OF_ORDER)
+        yield absolutely(quantity, mesh, 4.0, THEORY, np.log2(errors[0] / errors[1]), OF_ORDER)
 
 
 def cut(mesh: MeshQuad) -> MeshQuad2:
@@ -96,21 +88,16 @@ def cut(mesh: MeshQuad) -> MeshQuad2:
     return replace(fine, doflocs=at + RADIUS)
 
 
-def _at_rim(solution: Solution) -> float:
-    return float(solution.displacement(np.array([[2.0 * RADIUS, RADIUS]]))[0, 2])
-
-
 def frequencies() -> Iterator[Row]:
     """The lowest of every number of nodal diameters up to 2."""
     scene, scale = disc(), np.sqrt(_rigidity() / (STEEL.density * THICK)) / (2.0 * np.pi * RADIUS**2)
     for model in ("plate", "shell"):
         found = modes(scene, model, ELEMENTS, count=5).frequencies / scale
-        for diameters, computed in zip(
-            (1, 0, 2), (found[:2].mean(), found[2], found[3:5].mean()), strict=True
-        ):
-            quantity = f"λ² with {diameters} nodal diameters"
-            mesh, expected = f"{model} {ELEMENTS} × {ELEMENTS}", frequency(diameters)
-            yield relatively(quantity, mesh, expected, "Leissa 1969, ch. 2", computed, OF_FREQUENCY)
+        by_diameters = {1: found[:2].mean(), 0: found[2], 2: found[3:5].mean()}
+        for diameters, computed in by_diameters.items():
+            quantity, mesh = f"λ² with {diameters} nodal diameters", f"{model} {ELEMENTS} × {ELEMENTS}"
+            expected, source = frequency(diameters), "Leissa 1969, ch. 2"
+            yield relatively(quantity, mesh, expected, source, computed, OF_FREQUENCY)
 
 
 def strip_with_hole() -> Iterator[Row]:
@@ -171,17 +158,12 @@ def frequency(diameters: int) -> float:
 
 def concentration(share: float) -> float:
     """Largest stress at a hole of so much of a strip's width, over the mean one far away."""
-    width, length, pull = 1.0, 3.0, 1e3
+    width, length, thick, pull = 1.0, 3.0, 1e-2, 1e3
     middle = (0.5 * length, 0.5 * width)
-    scene = Scene(
-        name="strip",
-        sheet=Sheet(length, width, 1e-2),
-        material=STEEL,
-        cutouts=(Cutout(shape=Shape(circle=Circle(centre=middle, radius=0.5 * share * width))),),
-        supports=(Clamped("x0"),),
-        loads=(EdgeLoad("x1", (pull, 0.0, 0.0)),),
-        probes={"P1": (length, 0.5)},
-    )
+    hole = Cutout(shape=Shape(circle=Circle(centre=middle, radius=0.5 * share * width)))
+    load = EdgeLoad("x1", (pull, 0.0, 0.0))
+    sheet = Sheet(length, width, thick)
+    scene = specimen(sheet, STEEL, (Clamped("x0"),), cutouts=(hole,), loads=(load,))
     mesh = mesh_of(scene, ACROSS, graded=True)
     solution = solve_on(DiscretePlate, mesh, scene)
     nodes, elements = nodes_of(mesh)
@@ -192,4 +174,4 @@ def concentration(share: float) -> float:
     moved = solution.displacement(ends.reshape(-1, 2))[:, :2].reshape(ends.shape)
     step = np.diff(ends, axis=1)[:, 0]
     along = np.sum(np.diff(moved, axis=1)[:, 0] * step, axis=1) / np.sum(step**2, axis=1)
-    return float(STEEL.young * along.max() * 1e-2 / pull)
+    return float(STEEL.young * along.max() * thick / pull)

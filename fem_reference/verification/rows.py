@@ -11,7 +11,7 @@ difference itself is held to the tolerance.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
@@ -21,13 +21,14 @@ from sheetbench.answers.table import NUMBER, PERCENT, Column, number
 EXACT = "exact"
 THEORY = "theory"  # of the elements' order
 OURS = "this project"
+SLACK = 0.15  # of an order
 
 
 @dataclass(frozen=True)
 class Row:
     """One expected value and whose it is, the mesh it was computed on, the tolerance it is held to.
 
-    case: its key in `CASES`, known where cases are run; at: where in a sweep the row stands, by name.
+    case: its key in `CASES`, known where cases are run.
     """
 
     case: str
@@ -39,7 +40,6 @@ class Row:
     relative: Annotated[float | None, PERCENT(".2f", "off by")]
     tolerance: float
     passed: Annotated[bool, Column("ok", words=("yes", "NO"))]
-    at: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def held_to(self) -> str:
@@ -61,22 +61,6 @@ class Case:
     quick: bool = True
 
 
-def relatively(
-    quantity: str,
-    mesh: str,
-    published: float,
-    source: str,
-    computed: float,
-    tolerance: float,
-    scale: float | None = None,
-    at: Mapping[str, float] | None = None,
-) -> Row:
-    """A row held to a relative difference, of `scale` where it is given and else of the published value."""
-    relative = abs(computed - published) / abs(published if scale is None else scale)
-    values = float(published), source, float(computed), float(relative)
-    return Row("", quantity, mesh, *values, tolerance, bool(relative <= tolerance), at or {})
-
-
 def absolutely(
     quantity: str, mesh: str, published: float, source: str, computed: float, tolerance: float
 ) -> Row:
@@ -85,17 +69,42 @@ def absolutely(
     return Row("", quantity, mesh, float(published), source, float(computed), None, tolerance, passed)
 
 
+def relatively(
+    quantity: str,
+    mesh: str,
+    published: float,
+    source: str,
+    computed: float,
+    tolerance: float,
+    scale: float | None = None,
+) -> Row:
+    """A row held to a relative difference, of `scale` where it is given and else of the published value."""
+    row = absolutely(quantity, mesh, published, source, computed, tolerance)
+    relative = float(abs(computed - published) / abs(published if scale is None else scale))
+    return replace(row, relative=relative, passed=relative <= tolerance)
+
+
 def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: float) -> Row:
     """The largest relative change of the answers from half the mesh: the case's own convergence."""
     change = np.max(np.abs(np.asarray(fine) - coarse)) / np.max(np.abs(fine))
     return absolutely("change from half the mesh", mesh, 0.0, OURS, change, tolerance)
 
 
+def convergence(
+    of: str, mesh: str, errors: Sequence[float], largest: float, order: float, source: str = EXACT
+) -> Iterator[Row]:
+    """Rows of the error on the finest of meshes, each with twice the elements of the one before, and of the
+    order of the last refinement; largest: error allowed."""
+    coarse, fine = errors[-2:]
+    yield absolutely(f"error {of}", mesh, 0.0, source, fine, largest)
+    yield absolutely(f"order {of}", mesh, order, THEORY, np.log2(coarse / fine), SLACK)
+
+
 def curve(
     names: Sequence[str],
     mesh: str,
     published: Mapping[float, Iterable[float]],
-    source: str,
+    source: str | Mapping[float, str],
     tolerance: float,
     answer: Callable[[float, int], np.ndarray],
     elements: int,
@@ -103,11 +112,13 @@ def curve(
     half_at: float | None = None,
 ) -> Iterator[Row]:
     """Rows of the values that an answer has at each load of a curve, by names with a place for the load, and
-    of its change from half as many elements at one load, the largest unless given. size: what is next to
-    nothing beside that is relative to it."""
+    of its change from half as many elements at one load, the largest unless given. source: of all, or by
+    load; size: what is next to nothing beside that is relative to it."""
+    found = {load: answer(load, elements) for load in published}
     for load, values in published.items():
-        for name, expected, computed in zip(names, values, answer(load, elements), strict=True):
+        whose = source if isinstance(source, str) else source[load]
+        for name, expected, computed in zip(names, values, found[load], strict=True):
             scale = size if abs(expected) < 1e-9 * size else None
-            yield relatively(name.format(load), mesh, expected, source, computed, tolerance, scale)
+            yield relatively(name.format(load), mesh, expected, whose, computed, tolerance, scale)
     load = max(published) if half_at is None else half_at
-    yield mesh_change(mesh, answer(load, elements // 2), answer(load, elements), tolerance)
+    yield mesh_change(mesh, answer(load, elements // 2), found[load], tolerance)

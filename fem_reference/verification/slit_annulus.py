@@ -7,17 +7,17 @@ Source: Sze, Liu & Lo, Finite Elements in Analysis and Design 40 (2004) 1551–1
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator
 
 import numpy as np
-from skfem import MeshQuad, MeshQuad2
+from skfem import MeshQuad2
 
 from fem_reference.discrete.answer import solve_on
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.verification.rows import Row, curve
+from fem_reference.verification.specimens import mapped, specimen
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet
+from sheetbench.scenes import Clamped, EdgeLoad, Material, Sheet
 
 TOLERANCE = 5e-3
 RADIAL, AROUND = 6, 48
@@ -40,30 +40,20 @@ def rows() -> Iterator[Row]:
 
 def rise(share: float, radial: int) -> np.ndarray:
     """w (2,) [m] of the inner and the outer end of the lifted side."""
-    scene = Scene(
-        name="slit annulus",
-        sheet=Sheet(length_x=20.0, length_y=20.0, thickness=0.03),
-        material=Material(young=21e6, poisson=0.0, density=1.0),
-        supports=(Clamped(edge="y1"),),
-        loads=(EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, FORCE * share)),),
-    )
+    sheet, material = Sheet(20.0, 20.0, 0.03), Material(young=21e6, poisson=0.0, density=1.0)
+    lift = EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, FORCE * share))
+    scene = specimen(sheet, material, (Clamped(edge="y1"),), loads=(lift,))
     mesh = annulus(radial, radial * AROUND // RADIAL)
     solution = solve_on(DiscreteShell, mesh, scene)
     if solution.status is not Status.CONVERGED:
         return np.full(2, np.nan)
     lifted = np.unique(mesh.facets[:, mesh.boundaries["y0"]])
-    radius = np.hypot(*mesh.p[:, lifted])
-    ends = lifted[[np.argmin(radius), np.argmax(radius)]]
+    ends = lifted[np.argsort(np.hypot(*mesh.p[:, lifted]))[[0, -1]]]
     return solution.mesh.point_data["displacement"][ends, 2]
 
 
 def annulus(radial: int, around: int) -> MeshQuad2:
     """Radii 6 to 10, the sides of the slit along θ = 0 named y0 (θ = 0) and y1 (θ = 2π)."""
-    polar = MeshQuad.init_tensor(
-        np.linspace(6.0, 10.0, radial + 1), np.linspace(0.0, 2.0 * np.pi, around + 1)
-    )
-    sides = {"y0": lambda x: np.isclose(x[1], 0.0), "y1": lambda x: np.isclose(x[1], 2.0 * np.pi)}
-    mesh = MeshQuad2.from_mesh(polar)
-    radius, angle = mesh.doflocs
-    bent = dataclasses.replace(mesh, doflocs=np.array([radius * np.cos(angle), radius * np.sin(angle)]))
-    return bent.with_boundaries({name: polar.facets_satisfying(test) for name, test in sides.items()})
+    radii, angles = np.linspace(6.0, 10.0, radial + 1), np.linspace(0.0, 2.0 * np.pi, around + 1)
+    sides = {"y0": (1, 0.0), "y1": (1, 2.0 * np.pi)}
+    return mapped(radii, angles, lambda r, turn: (r * np.cos(turn), r * np.sin(turn)), sides)

@@ -10,7 +10,7 @@ P is the force per area of the unstrained section; a strip that is sheared keeps
     P_i = 2 λ_i (f′ + c₀₁ (I₁ − λ_i²)) + (Λ ln J − m)/λ_i
 
 and P = 0 along t. The strip is loaded by P, and the stretch that it shows is held to ε; of rubbers, at λ =
-0.7, 1.5 and 2, the force that holds it. P = E ε (1 + c ε + …) one way, with c of `pulled_strip.curving`.
+0.7, 1.5 and 2, the force that holds it.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from math import log
 import numpy as np
 from scipy.optimize import brentq
 
-from fem_reference import solve
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
 from fem_reference.sheets import SHEETS
 from fem_reference.verification.rows import EXACT, Row, relatively
+from fem_reference.verification.specimens import moved
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.scenes import Material
 
@@ -121,5 +121,4 @@ def _held(model: str, material: Material, stretches: list[float]) -> float:
 def _stretch(model: str, law: str, way: str, strain: float) -> float:
     pull = stress(law, way, strain) * MATERIAL.young * SHEET.thickness
     scene = pulled((pull, pull if way == "both ways" else 0.0))
-    moved = solve(scene, model, elements=2, law=law).displacement(np.array([SHEET.lengths]))
-    return float(moved[0, 0]) / SHEET.length_x
+    return float(moved(scene, SHEET.lengths, model, 2, law=law)[0]) / SHEET.length_x

@@ -11,6 +11,7 @@ constraint's residual as their force.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,8 +20,7 @@ from sheetbench.scenes import EdgeMotion, Sheet
 from sheetbench.scenes.meaning.kinematics import MovedEdge
 
 
-@dataclass(frozen=True)
-class Drive:
+class Drive(NamedTuple):
     """How far commands are: a share of their last value (statics), or, with a time [s], their value then."""
 
     load_factor: float = 1.0

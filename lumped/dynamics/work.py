@@ -14,6 +14,7 @@ def work(system: System, before: State, after: State) -> float:
     """Return the work [J] of moving supports, commands, obstacles, natural states and loads without a
     potential in a step, by the trapezoidal rule."""
     done, motion, coupling = 0.0, system.prescribed, system.coupling
+    then, now = system.drive(before.time), system.drive(after.time)
     if motion.moving:
         moved = motion.place(after.time) - motion.place(before.time)
         done += 0.5 * float(np.sum((system.exerted(before) + system.exerted(after)) * moved))
@@ -22,12 +23,9 @@ def work(system: System, before: State, after: State) -> float:
         mean = 0.5 * (system.external(before.u, before.time) + system.external(after.u, after.time))
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
     for item in system.items if system.pushed else ():
-        ends = (item.exerted((s.u, system.drive(s.time)), s.v).sum(axis=0) for s in (before, after))
-        done += (
-            0.5 * sum(ends, np.zeros(3)) @ (item.displacement(after.time) - item.displacement(before.time))
-        )
+        exerted = item.exerted((before.u, then), before.v) + item.exerted((after.u, now), after.v)
+        done += 0.5 * exerted.sum(axis=0) @ (item.place(*now) - item.place(*then))
     if coupling is not None:
-        then, now = system.drive(before.time), system.drive(after.time)
         for u in (before.u, after.u):
             done += 0.5 * coupling.command_work(u, then, now)
     for u in (before.u, after.u):
@@ -50,13 +48,13 @@ def kinetic_of_placed(system: System, state: State) -> float:
 
 def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) -> float:
     """Return the work [J] of what items are fixed to in a step of the conserving midpoint rule."""
-    done, (since, drive), last = 0.0, system.ends(start, middle), 2.0 * middle - start.time
-    rate = (end - start.u) / (last - start.time)
+    done, (since, drive) = 0.0, system.ends(start, middle)
+    rate = (end - start.u) / (2.0 * (middle - start.time))
     for item in system.items:
         force = np.zeros_like(end)
         item.add_force((end, drive), force, since)
         item.add_resistance((0.5 * (start.u + end), system.drive(middle)), rate, force)
-        done -= force.sum(axis=0) @ (item.displacement(last) - item.displacement(start.time))
+        done -= force.sum(axis=0) @ (item.place(*drive) - item.place(*since[1]))
     return float(done)
 
 

@@ -57,9 +57,9 @@ def solution(
         reactions |= coupling.reactions(exerted)
     at = u, Drive(state.load_factor)
     reactions |= {item.name: item.exerted(at).sum(axis=0) for item in problem.items}
-    contacts = {item.name: item.report(at) for item in problem.items}
-    pressures = [pressure for _, pressure in contacts.values()]
-    pressed = {"contact_pressure": np.sum(pressures, axis=0)} if pressures else {}
+    contacts = {item.name: item.report(at) for item in problem.contacts}
+    pressure = np.sum([pressure for _, pressure in contacts.values()], axis=0)
+    pressed = {"contact_pressure": pressure} if contacts else {}
     nx, ny, layers = lattice.grid
     settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
     settings |= {"layer_distance": calibration.layer_distance, **as_settings(calibration.grading)}

@@ -69,11 +69,11 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
             raise _failed("no direction of descent: the projected tangent is not positive definite")
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
-        ends = (u, drive), (u + share * move, drive)
-        share *= min((one.step_share(*ends) for one in problem.items), default=1.0)
-        start = problem.potential(u, load_factor)
+        start, end = (u, drive), (u + share * move, drive)
+        share *= min((one.near(end).share_of_way(one.near(start)) for one in problem.contacts), default=1.0)
+        before = problem.potential(u, load_factor)
         while share > 1e-10:
-            if problem.potential(u + share * move, load_factor) <= start + 1e-4 * share * slope:
+            if problem.potential(u + share * move, load_factor) <= before + 1e-4 * share * slope:
                 break
             share /= 2.0
         else:

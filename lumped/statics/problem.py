@@ -24,7 +24,7 @@ from sheetbench.numerics import banded
 from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.direct import Count, Factor
 from sheetbench.numerics.maps import Rows, product, transposed_product
-from sheetbench.numerics.reduced import BandedFactor, ReducedSystem
+from sheetbench.numerics.reduced import ReducedSystem, banded_factor
 from sheetbench.numerics.typed import njit, typed
 
 NOTHING = np.empty((0, 3))
@@ -230,7 +230,7 @@ class Problem:
         )
         if definite:
             reached = LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
-            return BandedFactor(band, factors, partial(self.system.matrix, blocks)), step, rows, reached
+            return banded_factor(band, factors, partial(self.system.matrix, blocks)), step, rows, reached
         factor = self.system.factor(blocks, count)
         step = factor.solve(rows, SOLVED)
         return factor, step, rows, self.advance(u, step, load_factor)

@@ -149,8 +149,7 @@ class Solution(Answer):
     `diverged`. snaps: load factors at which the
     sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
     asked, and why; remarks: what else there is to say, a clause each. stretch: the largest elongation of the
-    mid-surface, None where a model does not tell. bar: plan points (n, 2) [m] → how far each component of
-    the displacement (n, 3) [m] may be off, None where a model does not tell. points: plan points [m] of the
+    mid-surface, None where a model does not tell. points: plan points [m] of the
     scene's probes by name, as far as a verb knows them. contacts: what is known of the contact with each
     obstacle, whose force on the sheet is among the reactions.
     """
@@ -176,7 +175,6 @@ class Solution(Answer):
     fallback: str = ""
     remarks: tuple[str, ...] = ()
     stretch: float | None = None
-    bar: Callable[[np.ndarray], np.ndarray] | None = None
     points: dict[str, PlanPoint] = field(default_factory=dict)
     contacts: dict[str, ContactState] = field(default_factory=dict)
 

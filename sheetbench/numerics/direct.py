@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cached_property, partial
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -48,39 +48,33 @@ class SingularMatrixError(ArithmeticError):
     """The matrix has no usable factors, or they do not solve the system."""
 
 
-class Inertia(NamedTuple):
-    """Numbers of positive, negative and zero eigenvalues of a symmetric matrix."""
-
-    positive: int
-    negative: int
-    zero: int
-
-
 class Factor:
-    """One factorisation. inertia: None where it is not known, and of unsymmetric matrices; solve_unrefined: x
-    with A x = b as the factors have it, neither refined nor checked."""
+    """One factorisation. negative, zero: how many eigenvalues are below zero and zero, negative None where
+    that is not known, and of unsymmetric matrices; solve_unrefined: x with A x = b as the factors have it,
+    neither refined nor checked."""
 
     def __init__(
         self,
-        matrix: Matrix,
+        matrix: Matrix | Callable[[], Matrix],
         solve: Solve,
-        inertia: Inertia | None = None,
+        negative: int | None = None,
+        zero: int = 0,
         backward_error: float = np.inf,
         more: Count = lambda: None,
     ):
-        """solve: `solve_unrefined`; backward_error: what that is known to be below;
+        """matrix: or what makes it; solve: `solve_unrefined`; backward_error: what that is known to be below;
         more: called once a further factorisation that is made of the matrix."""
-        self.matrix, self.inertia, self.solve_unrefined = matrix, inertia, solve
+        self._given, self.solve_unrefined, self.negative, self.zero = matrix, solve, negative, zero
         self._backward_error, self._more = backward_error, more
+
+    @cached_property
+    def matrix(self) -> Matrix:
+        """The matrix, both triangles."""
+        return self._given() if callable(self._given) else self._given
 
     @cached_property
     def _largest(self) -> float:
         return _largest(self.matrix)
-
-    @property
-    def negative(self) -> int | None:
-        """How many eigenvalues are below zero; None where that is not known, and of unsymmetric matrices."""
-        return None if self.inertia is None else self.inertia.negative
 
     def negative_real(self) -> int | None:
         """Real eigenvalues below zero of an unsymmetric matrix (`stability`), among those nearest to zero;
@@ -174,8 +168,8 @@ class DirectSolver:
                 data = matrix.data if self.symmetric else self._symmetric_part(matrix)
                 factors = SignedFactors(data, self._fronts())
                 if self.symmetric:
-                    inertia = Inertia(n - factors.negative, factors.negative, 0)
-                    return Factor(matrix, factors.solve, inertia, np.inf if factors.negative else CHOLESKY)
+                    error = np.inf if factors.negative else CHOLESKY
+                    return Factor(matrix, factors.solve, factors.negative, backward_error=error)
                 if factors.negative == 0:
                     near = NearFactor(matrix, factors.solve, more=more)
                     near.otherwise = partial(self._by_library, matrix, more)
@@ -213,8 +207,8 @@ class DirectSolver:
                 self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
         if self._analysis is not None:
             factors = self._analysis.factor(columns)
-            inertia = Inertia(*factors.inertia) if self.symmetric else None
-            return Factor(matrix, factors.solve, inertia, more=more)
+            _, negative, zero = factors.inertia if self.symmetric else (0, None, 0)
+            return Factor(matrix, factors.solve, negative, zero, more=more)
         return _superlu(matrix, columns) if self.symmetric else Factor(matrix, splu(columns).solve, more=more)
 
 
@@ -240,11 +234,9 @@ def _superlu(matrix: Matrix, columns: sp.csc_array) -> Factor:
     scale = 1.0 / np.sqrt(np.maximum(largest, np.finfo(float).tiny))
     scaled = sp.csc_array(sp.diags_array(scale) @ columns @ sp.diags_array(scale))
     factors = splu(scaled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    inertia = None
-    if np.array_equal(factors.perm_r, factors.perm_c):
-        pivots = factors.U.diagonal()
-        inertia = Inertia(*(int(np.sum(sign)) for sign in (pivots > 0, pivots < 0, pivots == 0)))
-    return Factor(matrix, lambda b: scale * factors.solve(scale * b), inertia)
+    pivots, known = factors.U.diagonal(), np.array_equal(factors.perm_r, factors.perm_c)
+    negative = int(np.sum(pivots < 0)) if known else None
+    return Factor(matrix, lambda b: scale * factors.solve(scale * b), negative, int(np.sum(pivots == 0)))
 
 
 def _columns(matrix: Matrix, symmetric: bool) -> sp.csc_array:

@@ -23,7 +23,6 @@ from sheetbench.numerics.direct import (
     Count,
     DirectSolver,
     Factor,
-    Inertia,
     NearFactor,
     SingularMatrixError,
 )
@@ -70,23 +69,10 @@ class Reduction(NamedTuple):
         return sp.csc_array((data, self.rows, self.pointers), shape=(size, size))
 
 
-class BandedFactor(Factor):
-    """Cholesky factors in a band: of a positive definite matrix, which is made where it is needed."""
-
-    def __init__(self, band: banded.Band, factors: np.ndarray, matrix: Callable[[], sp.csc_array]):
-        self._band, self._matrix, self.factors = band, matrix, factors
-        self._backward_error = CHOLESKY
-        self.inertia = Inertia(len(band.order), 0, 0)
-
-    @cached_property
-    def matrix(self) -> sp.csc_array:  # type: ignore[override]
-        """The matrix, both triangles."""
-        return self._matrix()
-
-    def solve_unrefined(self, b: np.ndarray) -> np.ndarray:
-        """x with A x = b as the factors have it, neither refined nor checked."""
-        found: np.ndarray = banded.solve_unrefined(self.factors, self._band.width, self._band.order, b)
-        return found
+def banded_factor(band: banded.Band, factors: np.ndarray, matrix: Callable[[], sp.csc_array]) -> Factor:
+    """Return Cholesky factors in a band: of a positive definite matrix, which is made where it is needed."""
+    solve = partial(banded.solve_unrefined, factors, band.width, band.order)
+    return Factor(matrix, solve, 0, backward_error=CHOLESKY)
 
 
 class ReducedSystem:
@@ -168,7 +154,7 @@ class ReducedSystem:
         if self.band is not None:
             factors, definite = banded.factored(blocks, self.band)
             if definite:
-                return BandedFactor(self.band, factors, partial(self.matrix, blocks))
+                return banded_factor(self.band, factors, partial(self.matrix, blocks))
         matrix = self.matrix(blocks)
         if self._saddle is None:
             return self._solver.factor(matrix, more)
@@ -176,7 +162,7 @@ class ReducedSystem:
             raise SingularMatrixError("an entry of the matrix is not finite")
         close_by, augmented = self._saddle.quasi_definite(matrix)
         near = self._solver.factor(close_by)
-        return NearFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.inertia)
+        return NearFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.negative, near.zero)
 
 
 def reduced(pattern: BlockPattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:
@@ -202,24 +188,31 @@ def reduction(pattern: BlockPattern, transform: sp.csr_array) -> Reduction:
     """Of a pattern and T (3n, m)."""
     by_column = np.argsort(pattern.indices, kind="stable").astype(np.int32)
     block_pointers = np.searchsorted(pattern.indices[by_column], np.arange(pattern.size + 1))
-    block_rows = pattern.rows[by_column].astype(np.int32)
-    columns = transform.tocsc()
+    columns, size = transform.tocsc(), transform.shape[1]
     across = (transform.indptr, transform.indices, transform.data)
     down = (columns.indptr, columns.indices, columns.data)
-    arrays = (block_pointers, by_column, block_rows, *across, *down)
+    blocks = (block_pointers, by_column, pattern.rows[by_column].astype(np.int32))
     of_node = np.diff(transform.indptr[::3]).astype(np.int64)
     count = int(of_node[pattern.rows] @ of_node[pattern.indices])
-    pointers, rows, starts, source, weight, nonzeros = _reduction(*arrays, count)
-    starts = starts[: nonzeros + 1].copy()
-    if (transform.data == 1.0).all():
-        weight = np.empty(0)
-        if nonzeros == count:
-            starts = np.empty(0, np.int32)
-    return Reduction(pointers, rows[:nonzeros].copy(), starts, source, weight)
+    source, row, weight, ends = _entries(*blocks, *across, *down, count)
+    # by rows, then by columns again: each column's entries by their rows
+    every = sp.csc_array((np.arange(count, dtype=np.int32), row, ends), shape=(size, size)).tocsr().tocsc()
+    again = np.append(False, every.indices[1:] == every.indices[:-1])
+    again[every.indptr[:-1][np.diff(every.indptr) > 0]] = False
+    first = np.flatnonzero(~again)
+    plain = bool((transform.data == 1.0).all())
+    starts = np.empty(0) if plain and len(first) == count else np.append(first, count)
+    return Reduction(
+        np.searchsorted(first, every.indptr).astype(np.int32),
+        every.indices[first],
+        starts.astype(np.int32),
+        source[every.data],
+        np.empty(0) if plain else weight[every.data],
+    )
 
 
 @njit(cache=True)
-def _reduction(
+def _entries(
     block_pointers: np.ndarray,
     by_column: np.ndarray,
     block_rows: np.ndarray,
@@ -230,49 +223,22 @@ def _reduction(
     c_rows: np.ndarray,
     c_values: np.ndarray,
     count: int,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, int]:
-    """The map: its entries by columns, then by rows, then by columns again, which have their rows sorted."""
-    size, filled, nonzeros = len(c_pointers) - 1, 0, 0
-    given, target, weighed = np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count)
-    ends, of_row = np.empty(size + 1, np.int32), np.zeros(size + 1, np.int32)
-    for column in range(size):
-        ends[column] = filled
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Entries of the map by columns of the matrix: source, row, weight, and where each column's begin."""
+    source, to, weight = np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count)
+    ends, filled = np.zeros(len(c_pointers), np.int32), 0
+    for column in range(len(c_pointers) - 1):
         for at in range(c_pointers[column], c_pointers[column + 1]):
             block, axis = c_rows[at] // 3, c_rows[at] % 3
             for b in range(block_pointers[block], block_pointers[block + 1]):
                 for q in range(3):
                     row = 3 * block_rows[b] + q
                     for e in range(t_pointers[row], t_pointers[row + 1]):
-                        given[filled], target[filled] = 9 * by_column[b] + 3 * q + axis, t_columns[e]
-                        weighed[filled] = t_values[e] * c_values[at]
-                        of_row[t_columns[e] + 1] += 1
+                        source[filled], to[filled] = 9 * by_column[b] + 3 * q + axis, t_columns[e]
+                        weight[filled] = t_values[e] * c_values[at]
                         filled += 1
-    ends[size] = filled
-    for row in range(size):
-        of_row[row + 1] += of_row[row]
-    by_row, columns = np.empty(count, np.int32), np.empty(count, np.int32)
-    for column in range(size):
-        for e in range(ends[column], ends[column + 1]):
-            place = of_row[target[e]]
-            by_row[place], columns[place] = e, column
-            of_row[target[e]] += 1
-    source, weight, to = np.empty(count, np.int32), np.empty(count), np.empty(count, np.int32)
-    at_end = ends.copy()
-    for place in range(count):
-        e, column = by_row[place], columns[place]
-        k = at_end[column]
-        source[k], weight[k], to[k] = given[e], weighed[e], target[e]
-        at_end[column] += 1
-    pointers, rows = np.zeros(size + 1, np.int32), np.empty(count, np.int32)
-    starts = np.empty(count + 1, np.int32)
-    for column in range(size):
-        for e in range(ends[column], ends[column + 1]):
-            if e == ends[column] or to[e] != to[e - 1]:
-                rows[nonzeros], starts[nonzeros] = to[e], e
-                nonzeros += 1
-        pointers[column + 1] = nonzeros
-    starts[nonzeros] = filled
-    return pointers, rows, starts, source, weight, nonzeros
+        ends[column + 1] = filled
+    return source, to, weight, ends
 
 
 @njit(cache=True, nogil=True)

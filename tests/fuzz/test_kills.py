@@ -33,7 +33,7 @@ SEED = os.environ.get("FUZZ", "")
 pytestmark = pytest.mark.skipif(not SEED, reason="make kills")
 Kept = dict[str, Any]  # what a folder holds and must go on holding, by name
 TRADEOFF = (
-    *("tradeoff", "two-edges-clamped", "--lumped", "3,4,5", "--lumped-pair", "", "--calibration", "uniform"),
+    *("tradeoff", "two-edges-clamped", "--lumped", "3,4,5", "--calibration", "uniform"),
     *("--plate", "2", "--shell", "2", "--solid", "", "--elements", "4", "--repeats", "1", "--workers", "1"),
 )
 TIMED = ("seconds", "memory", "samples")  # parts of the names of what no two runs have alike

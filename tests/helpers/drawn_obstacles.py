@@ -117,7 +117,7 @@ def sunk(scene: Scene, grid: tuple[int, int, int], places: np.ndarray) -> tuple[
     a ball of radius R, two of them √2 d apart, a straight line is d²/4R deep at most, twice that with what
     the points themselves give; and a tenth of the thickness."""
     (obstacle,) = scene.obstacles
-    centre = np.array(obstacle.position) + obstacle.displacement(1.0)
+    centre = obstacle.place()
     half = 0.5 * scene.sheet.thickness
     if isinstance(obstacle, Plane):
         return half - float(((places - centre) @ obstacle.direction).min()), 0.2 * half
@@ -139,7 +139,7 @@ def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
         return f"the surface is {deep:.3g} m deep in it, and may be {allowed:.3g} m"
     if isinstance(obstacle, Plane):
         return ""
-    centre = np.array(obstacle.position) + obstacle.displacement(1.0)
+    centre = obstacle.place()
     held = {support.edge for support in scene.supports}
     middles = [centre]
     if isinstance(obstacle, Cylinder):

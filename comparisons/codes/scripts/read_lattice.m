@@ -6,7 +6,7 @@ function read_lattice(folder, steps)
   if nargin < 2, steps = 1; end
   lattice = load([folder '/lattice.mat']);
   if ~isempty(lattice.pressure) || ~isempty(lattice.couple_moment), error('dead loads only'); end
-  if ~isempty(lattice.obstacle_kind), error('this reader knows no obstacles'); end
+  if ~isempty(lattice.contact_values), error('this reader knows no obstacles'); end
   along = differences(lattice);
   largest = 0;
   for state = 1:numel(lattice.state_energy)

@@ -16,8 +16,7 @@ def differences(lattice):
         corner = of[lattice[f"{kind}_corners"]].mean(axis=2)  # of one mass or several
         found[kind] = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
         found[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
-    corner = of[lattice["contact_corners"]].mean(axis=2)
-    found["contact"] = np.einsum("pc,pcn->pn", lattice["contact_weights"], corner)
+    found["contact"] = np.einsum("pq,pqn->pn", lattice["contact_weights"], of[lattice["contact_masses"]])
     return found
 
 
@@ -55,17 +54,13 @@ def gradient(lattice, along, u):
 
 def contact(lattice, along, x, g):
     """Energy [J] of points that touch obstacles; its gradient is added to g."""
-    which = lattice["contact_obstacle"]
-    normal, radius = lattice["obstacle_direction"][which], lattice["obstacle_radius"][which, None]
-    curved = radius > 0
-    y = along["contact"] @ x - lattice["obstacle_position"][which]
+    place, normal, radius, area, offset, k = np.hsplit(lattice["contact_values"], [3, 6, 7, 8, 9])
+    y, curved = along["contact"] @ x - place, radius > 0
     y = y - curved * dot(y, normal) * normal
     length = np.where(curved, np.sqrt(dot(y, y)), dot(y, normal))
-    normal = np.where(curved, y / length, normal)
-    depth = np.maximum(lattice["contact_offset"] - (length - radius)[:, 0], 0)
-    pull = lattice["contact_stiffness"] * lattice["contact_area"] * depth
-    g -= along["contact"].T @ (pull[:, None] * normal)
-    return 0.5 * np.sum(pull * depth)
+    depth = np.maximum(offset - length + radius, 0)
+    g -= along["contact"].T @ (k * area * depth * np.where(curved, y / length, normal))
+    return 0.5 * np.sum(k * area * depth**2)
 
 
 def rubber(lattice, along, x, g):
@@ -142,7 +137,7 @@ def stiffness(lattice, along, shared, u, force, h):
 
 def part_of(lattice, along, part, share):
     """The lattice with a part of its natural state and with a share of the stiffness of contact."""
-    found = {**lattice, "contact_stiffness": share * lattice["contact_stiffness"]}
+    found = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
     rest = lattice["positions"]
     flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
     for kind in ("area", "strain", "coupling"):
@@ -171,7 +166,7 @@ def equilibrium(lattice, along, steps=1):
         np.add.at(held, (row, masses, lattice["hold_axis"][row]), 1 / len(masses))
     held = held.reshape(holds, 3 * n)
     u, push, h = np.zeros(3 * n), np.zeros(holds), 1e-7 * lattice["link_rest_length"].max()
-    soft, *stiffer = np.geomspace(1e-4, 1, 5) if len(lattice["contact_area"]) else [1.0]  # of stiffness
+    soft, *stiffer = np.geomspace(1e-4, 1, 5) if len(lattice["contact_values"]) else [1.0]  # of stiffness
     for part, share in [*((n / steps, soft) for n in range(1, steps + 1)), *((1, s) for s in stiffer)]:
         now, damping = part_of(lattice, along, part, share), 0.0
         moved = np.inf

@@ -25,8 +25,7 @@ CHECK, AT_REST = 50, 1e-4  # steps between checks; of the largest displacement
 def sheet_model(sheet, keys):
     builder = newton.ModelBuilder(up_axis=newton.Axis.Z, gravity=wp.vec3(*sheet["gravity"]))
     for place, held, mass in zip(sheet["vertices"], sheet["held"], sheet["masses"], strict=True):
-        radius = {"radius": sheet["offset"]} if sheet.get("obstacles") else {}
-        builder.add_particle(wp.vec3(*place), wp.vec3(0.0), 0.0 if held else mass, **radius)
+        builder.add_particle(wp.vec3(*place), wp.vec3(0.0), 0.0 if held else mass, radius=sheet["offset"])
     for corners in sheet["triangles"]:
         builder.add_triangle(*corners, tri_ke=keys["tri_ke"], tri_ka=keys["tri_ka"], tri_kd=0.0)
     normal = {}
@@ -35,7 +34,7 @@ def sheet_model(sheet, keys):
     for a, b, *_ in sheet["hinges"]:
         factor = sheet["clamp"] if sheet["held"][a] and sheet["held"][b] else 1.0
         builder.add_edge(normal[a, b], normal[b, a], a, b, edge_ke=factor * keys["edge_ke"], edge_kd=0.0)
-    for one in sheet.get("obstacles", []):
+    for one in sheet["obstacles"]:
         at, kind = wp.vec3(*one["position"]), one["kind"]
         material = newton.ModelBuilder.ShapeConfig(mu=one["friction"])
         along = wp.normalize(wp.vec3(*one.get("normal", one.get("axis", [0.0, 0.0, 1.0]))))
@@ -67,8 +66,7 @@ def main(seconds=300.0):
     began = time.process_time()
     while time.process_time() - began < seconds:
         now.particle_f.assign(forces)
-        touching = model.collide(now) if sheet.get("obstacles") else None
-        solver.step(now, after, control, touching, steps[0])
+        solver.step(now, after, control, model.collide(now) if sheet["obstacles"] else None, steps[0])
         now, after = after, now
         count += 1
         speed = now.particle_qd.numpy()

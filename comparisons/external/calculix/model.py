@@ -19,6 +19,7 @@ from __future__ import annotations
 import re
 import shutil
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -165,9 +166,6 @@ class CalculiX(Code):
         """Return the program's, None where it is not there."""
         return _version(shutil.which(PROGRAM))
 
-    def installed(self) -> bool:
-        return shutil.which(PROGRAM) is not None
-
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
         text, found = deck(scene, mesh), Reached(np.zeros_like(mesh.positions))
         began = perf_counter()
@@ -214,10 +212,9 @@ def _read(folder: Path, ending: str) -> str:
 def _version(program: str | None) -> str | None:
     if program is None:
         return None
-    try:
-        printed = output_of([program, "-v"], Path.cwd(), 10.0, fine=(0, SAYS_ITS_VERSION))
-    except Failed:
-        return None
+    printed = ""
+    with suppress(Failed), TemporaryDirectory() as folder:
+        printed = output_of([program, "-v"], Path(folder), 10.0, fine=(0, SAYS_ITS_VERSION))
     match = re.search(r"Version +(\S+)", printed, re.IGNORECASE)
     return match.group(1) if match else "of unknown version"
 

@@ -89,10 +89,10 @@ class _Creep(Generic[State, Forces]):
             if state is None:
                 self.nearly = FURTHER * residual
             else:
-                inertia = self._factor(self.structure, state).inertia
-                if inertia is None:
+                factor = self._factor(self.structure, state)
+                if factor.negative is None:
                     raise LoadStepFailed(Status.STEP_LIMIT, "whether it is stable is not known", 0.0)
-                if inertia.negative == inertia.zero == 0:
+                if factor.negative == factor.zero == 0:
                     return state
                 self._leave(state)
 
@@ -139,7 +139,7 @@ class _Creep(Generic[State, Forces]):
                 return None
             matrix, rows = structure.system(state, forces, self.load_factor)
             factor = self._counted(matrix)
-            if k == 0 and factor.inertia is not None and factor.inertia.negative:
+            if k == 0 and factor.negative:
                 return None
             following = structure.advance(state, forces, self.load_factor, factor.solve(rows))
             lengths.append(structure.length(state, following))
@@ -165,7 +165,7 @@ class _Creep(Generic[State, Forces]):
         forces = structure.forces(saddle, self.load_factor)
         tangent, _ = structure.system(saddle, forces, self.load_factor, mixed=False)
         factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
-        while factor.inertia is not None and factor.inertia.negative:
+        while factor.negative:
             drag *= FASTER
             factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
         mode = np.random.default_rng(0).uniform(-1.0, 1.0, structure.unknowns)

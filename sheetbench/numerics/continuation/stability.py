@@ -19,10 +19,9 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
     try:
         if structure.symmetric:
             path.factor = path.factor or path.factored(path.tangent(path.state, path.load_factor))
-            inertia = path.factor.inertia
-            if inertia is None:
+            if path.factor.negative is None:
                 return Status.CONVERGED, "stability not known: the factors do not give the inertia"
-            negative, zero = inertia.negative - structure.multipliers, inertia.zero
+            negative, zero = path.factor.negative - structure.multipliers, path.factor.zero
         else:
             path.factor = path.factored(path.tangent(path.state, path.load_factor))
             found = None if structure.multipliers else path.factor.negative_real()

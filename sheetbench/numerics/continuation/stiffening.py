@@ -9,7 +9,7 @@ an obstacle, `settle` begins again from rest with stiff ones, in so many load st
 more than a quarter of its radius in one.
 
 A penalty has the `obstacle`, the `share` of its stiffness that acts, and of its points the whole, `full` (…)
-[Pa/m], `thickness` (…) [m] and `area` (…) [m²]; it says `step_share` and `report` of what is `placed`.
+[Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its points are `near` the obstacle as they are `placed`.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ def softest(structure: Structure[State, Forces]) -> float:
     bends a plate of this size by what is moved (8 D per size⁴), leaves points DEPTH deep."""
     shares, size = [1.0], structure.size
     soften(structure.contacts, 0.0)
-    force, travel = structure.loading(), size * structure.gap(structure.rest(), 1.0)
+    force, gap = structure.loading(), size * structure.gap(structure.rest(), 1.0)
     for one in structure.contacts:
-        bending = float((one.full * one.thickness**4).max()) / 12.0
-        bent = 8.0 * bending * max(travel, float(np.linalg.norm(one.obstacle.displacement()))) / size**4
-        deep = DEPTH * min(size, 0.2 * one.obstacle.radius) * float(one.full.min())
+        bending, body = float((one.full * one.thickness**4).max()) / 12.0, one.obstacle
+        bent = 8.0 * bending * max(gap, float(np.linalg.norm(body.place() - body.position))) / size**4
+        deep = DEPTH * min(size, 0.2 * body.radius) * float(one.full.min())
         shares.append(max(force / float(one.area.sum()), bent) / deep)
     return min(share for share in shares if share > 0.0)
 
@@ -67,8 +67,8 @@ def stiffened(
         nonlocal last
         start = last if last[1] <= path.load_factor else (structure.rest(), 0.0)
         last = path.state, path.load_factor
-        ends = structure.placed(*start), structure.placed(*last)
-        if any(one.step_share(*ends) < 1.0 for one in contacts):
+        before, after = structure.placed(*start), structure.placed(*last)
+        if any(one.near(after).share_of_way(one.near(before)) < 1.0 for one in contacts):
             return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
         return inspect(path)
 
@@ -91,9 +91,8 @@ def stiffened(
         return ended
     path.begin(limits)
     last = path.state, 0.0
-    travel = structure.size * structure.gap(path.state, 1.0)
-    bodies = [one.obstacle for one in contacts]
-    ways = ((travel + np.linalg.norm(body.displacement())) / (WAY * body.radius) for body in bodies)
+    gap, bodies = structure.size * structure.gap(path.state, 1.0), [one.obstacle for one in contacts]
+    ways = ((gap + np.linalg.norm(body.place() - body.position)) / (WAY * body.radius) for body in bodies)
     for load_factor in np.linspace(0.0, 1.0, max(1, *map(math.ceil, ways)) + 1)[1:].tolist():
         path.limit = path.factorisations + limits.factorisations
         try:

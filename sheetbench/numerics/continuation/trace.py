@@ -283,10 +283,10 @@ class UnknownInertia(LoadStepFailed):
 
 def _negatives(factor: Factor | None) -> int:
     """Negative eigenvalues of a factorised tangent. Raises UnknownInertia where they are not known."""
-    if factor is None or factor.inertia is None:
+    if factor is None or factor.negative is None:
         reason = "the path cannot be held to its branch: the tangent's factors do not tell the inertia"
         raise UnknownInertia(Status.STEP_LIMIT, reason, 0.0)
-    return factor.inertia.negative
+    return factor.negative
 
 
 def _continuous(

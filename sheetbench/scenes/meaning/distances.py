@@ -10,10 +10,9 @@ With y the position of a point less the obstacle's, across its axis if it has on
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.objects.fields import SceneFields
@@ -25,50 +24,48 @@ GRID = 65  # points a side of the outline, or along an edge, that a distance is 
 
 
 class Near(NamedTuple):
-    """Points beside an obstacle: y (…, 3) [m], φ (…) [m] and n (…, 3)."""
+    """Points beside an obstacle: y (…, 3) [m], |y| (…) [m], infinite by a plane, n (…, 3), and the depth (…)
+    [m], how much less φ is than where they touch it, < 0 of one that is clear."""
 
     obstacle: AnyObstacle
     across: np.ndarray
-    distance: np.ndarray
+    length: np.ndarray
     normal: np.ndarray
+    depth: np.ndarray
 
     @property
     def curvature(self) -> np.ndarray:
         """∇n (…, 3, 3) [1/m]."""
-        length = (self.distance + self.obstacle.radius)[..., None, None]
-        return np.asarray((projector(self.obstacle) - dyad(self.normal)) / length)
+        return np.asarray((projector(self.obstacle) - dyad(self.normal)) / self.length[..., None, None])
 
     def mean(self, start: Near) -> Near:
         """Return points y₀ + y₁, whose n̄ = (y₀ + y₁)/(|y₀| + |y₁|) has n̄·Δy = Δφ exactly since a start, as
         Δ|y|² = (y₀ + y₁)·Δy, and whose ∇n is half as large."""
         if isinstance(self.obstacle, Plane):
             return self
-        across, length = start.across + self.across, start.distance + self.distance + self.obstacle.radius
-        return Near(self.obstacle, across, length, across / (length + self.obstacle.radius)[..., None])
+        across, length = start.across + self.across, start.length + self.length
+        return Near(self.obstacle, across, length, across / length[..., None], self.depth)
 
     def resistance(self, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return forces (…, 3) [N] of dashpot and friction on points that a load p (…) [N] presses and that
         move at a speed v (…, 3) [m/s] past the obstacle, and their derivatives (…, 3, 3) by it: −p τ v_n, but
         nothing pulls, and −μ p v_t/√(v_t² + v₀²)."""
         tau, n = self.obstacle.contact_damping, self.normal
-        leaving = (speed * n).sum(axis=-1)
-        sliding = speed - leaving[..., None] * n
-        slip = np.sqrt((sliding**2).sum(axis=-1) + SLIP_SPEED**2)[..., None]
-        damped, rubbed = (
-            load * np.minimum(tau * leaving, 1.0),
-            self.obstacle.friction * load[..., None] / slip,
-        )
-        normal = (tau * load * (tau * leaving < 1.0))[..., None, None] * dyad(n)
+        load, leaving = load[..., None], (speed * n).sum(axis=-1, keepdims=True)
+        sliding = speed - leaving * n
+        slip = np.sqrt((sliding**2).sum(axis=-1, keepdims=True) + SLIP_SPEED**2)
+        pull, rubbed = load * np.minimum(tau * leaving, 1.0) * n, self.obstacle.friction * load / slip
+        normal = (tau * load * (tau * leaving < 1.0))[..., None] * dyad(n)
         tangential = rubbed[..., None] * (np.eye(3) - dyad(n) - dyad(sliding / slip))
-        return -damped[..., None] * n - rubbed * sliding, -normal - tangential
+        return -pull - rubbed * sliding, -normal - tangential
 
-    def share_of_way(self, start: Near, offset: np.ndarray) -> float:
-        """Return up to which share straight ways of points from a start, which touch at a distance
-        `offset` (…) [m], lead none of them deeper than half the radius, nor through: 1 for all of them."""
+    def share_of_way(self, start: Near) -> float:
+        """Return up to which share straight ways of points from a start lead none of them deeper than half
+        the radius, nor through: 1 for all of them."""
         if isinstance(self.obstacle, Plane):
             return 1.0
         x, v = start.across, self.across - start.across
-        core = 0.5 * self.obstacle.radius + offset
+        core = self.depth + self.length - 0.5 * self.obstacle.radius
         a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
         hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)
         first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
@@ -85,14 +82,16 @@ def projector(obstacle: AnyObstacle) -> np.ndarray:
     return np.eye(3) - dyad(obstacle.direction)
 
 
-def near(obstacle: AnyObstacle, x: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Near:
-    """Return where places (…, 3) [m] are beside an obstacle that has moved (`displacement`)."""
-    y = x - obstacle.position - obstacle.displacement(load_factor, time)
+def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]) -> Near:
+    """Return where points x (…, 3) [m] that touch at a distance, the offset (…) [m], are beside an obstacle
+    in its `place`."""
+    y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
-        return Near(obstacle, y, y @ obstacle.direction, np.broadcast_to(obstacle.direction, y.shape))
+        normal, distance = np.broadcast_to(obstacle.direction, y.shape), y @ obstacle.direction
+        return Near(obstacle, y, distance + np.inf, normal, offset - distance)
     y = y @ projector(obstacle)
     length = np.maximum(np.sqrt((y * y).sum(axis=-1)), 1e-300)
-    return Near(obstacle, y, length - obstacle.radius, y / length[..., None])
+    return Near(obstacle, y, length, y / length[..., None], offset - (length - obstacle.radius))
 
 
 def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
@@ -109,27 +108,27 @@ def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarra
     from scipy.optimize import lsq_linear
 
     sides, across = scene.sheet.lengths, projector(obstacle)
-    at = obstacle.position + obstacle.displacement(time=0.0)
-    foot = lsq_linear(across[:, :2], across @ at, ([0.0, 0.0], sides)).x  # |y|² is convex in the plan
+    at = across @ obstacle.place(time=0.0)
+    foot = lsq_linear(across[:, :2], at, ([0.0, 0.0], sides)).x  # |y|² is convex in the plan
     plan = shapely.get_coordinates(shapely.segmentize(scene.region, max(sides) / GRID))
     return _gap(scene, obstacle, [*plan, foot] if shapely.intersects_xy(scene.region, *foot) else plan, 0.0)
 
 
-def _gap(scene: SceneFields, obstacle: AnyObstacle, plan: ArrayLike, *at: float) -> tuple[float, np.ndarray]:
-    found = near(obstacle, np.pad(plan, ((0, 0), (0, 1))), 1.0, *at)
-    least = found.distance.argmin()
-    return float(found.distance[least]) - 0.5 * scene.sheet.thickness, -found.normal[least]
+def _gap(scene: SceneFields, one: AnyObstacle, plan: Any, time: float | None) -> tuple[float, np.ndarray]:
+    found = near(one, np.pad(plan, ((0, 0), (0, 1))), np.array(0.5 * scene.sheet.thickness), (1.0, time))
+    deepest = found.depth.argmax()
+    return -float(found.depth[deepest]), -found.normal[deepest]
 
 
 def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
     """Yield what does not go together, key and reason, no reason where it does."""
-    held = [one for one in scene.supports if isinstance(one, Clamped | Hinged) and one.where is None]
+    held = (one for one in scene.supports if isinstance(one, Clamped | Hinged))
+    edges = [one.edge for one in held if one.where is one.motion is None]
     for name, obstacle in scene.named_obstacles().items():
         gaps = {"position: the flat sheet begins": nearest(scene, obstacle)[0]}
-        for edge in (one.edge for one in held if one.motion is None):
-            along = np.linspace(*scene.sheet.edge_ends(edge), GRID)
+        for edge in edges:
             where = f"motion: in its last place edge {edge}, which is held, is"
-            gaps[where] = _gap(scene, obstacle, along)[0]
+            gaps[where] = _gap(scene, obstacle, np.linspace(*scene.sheet.edge_ends(edge), GRID), None)[0]
         for where, gap in gaps.items():
             inside = f"{where} {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
             yield f"{name}.", inside if gap < -INSIDE * scene.sheet.thickness else None

@@ -46,9 +46,10 @@ class _Obstacle(Frozen):
         along = np.array(getattr(self, "normal", getattr(self, "axis", (0.0, 0.0, 0.0))))
         return np.asarray(along / (np.linalg.norm(along) or 1.0))
 
-    def displacement(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
-        """Return a share of how far the obstacle has moved, (3,) [m]: at a time [s], or at last."""
-        return np.zeros(3) if self.motion is None else load_factor * self.motion.course.at(time)
+    def place(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
+        """Return where its position is, (3,) [m], after a share of its way: at a time [s], or at last."""
+        moved = np.zeros(3) if self.motion is None else self.motion.course.at(time)
+        return np.asarray(self.position + load_factor * moved)
 
     def velocity(self, time: float | None) -> np.ndarray:
         """Return its velocity (3,) [m/s] at a time [s], 0 without one."""

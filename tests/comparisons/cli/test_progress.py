@@ -2,6 +2,7 @@
 
 import io
 import sys
+from functools import partial
 from typing import Any
 
 import pytest
@@ -11,13 +12,9 @@ from rich.console import Console
 import fem_reference
 import lumped
 import sheetbench as sb
-from comparisons.calibration.calibrate import calibrate
 from comparisons.cli import console
 from comparisons.cli.app import main
 from comparisons.cli.verb import as_verb
-from comparisons.models.context import running
-from comparisons.models.spec import Lattice
-from comparisons.models.training import training_scenes
 from comparisons.pictures import work
 from comparisons.pictures.work import Work
 from comparisons.sweep.campaign import GOING, Progress
@@ -62,16 +59,9 @@ def test_what_will_last_is_said_before_it_starts(said):
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 def test_every_iteration_is_told_with_its_load_factor(model):
     reports: list[Iteration] = []
-    if model == "lumped":
-        solution = lumped.solve(SCENE, lumped.calibrate(*parts(), grid=5), progress=reports.append)
-    else:
-        solution = fem_reference.solve(SCENE, model, elements=2, progress=reports.append)
+    solve = lumped.solve if model == "lumped" else partial(fem_reference.solve, model=model, elements=2)
+    solution = solve(SCENE, progress=reports.append)
     assert tuple(reports) == solution.history and reports[-1].load_factor == 1.0
-
-
-def parts():
-    scene = sb.load(SCENE)
-    return scene.sheet, scene.material
 
 
 def test_a_comparison_tells_what_it_solves_and_how_far_it_is():
@@ -102,14 +92,6 @@ def test_other_verbs_tell_too(tmp_path):
     assert any(isinstance(one, str) and one.startswith("young = ") for one in reports)
 
 
-def test_a_fit_tells_what_it_is_trained_on():
-    reports: list[Work] = []
-    spec = Lattice(4, "fit-modal")
-    with running(progress=reports.append):
-        calibrate(training_scenes(*parts())[0], spec, named=False)
-    assert [one.doing.split()[0] for one in reports] == ["training", "training", "fitting"]
-
-
 @pytest.mark.parametrize("terminal", [True, False])
 def test_a_campaign_shows_the_run_that_goes_on(monkeypatch, terminal):
     monkeypatch.setattr(console, "QUIET", 0.0)
@@ -132,7 +114,6 @@ SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--n
 def chatty(monkeypatch):
     """A command that says all that there is to say."""
     monkeypatch.setattr(console, "QUIET", 0.0)
-    monkeypatch.setattr(work, "LONG", 0.0)
 
     def command():
         with console.progress() as show:

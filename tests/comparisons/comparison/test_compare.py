@@ -26,11 +26,6 @@ def scene():
     return scenes.load("two-edges-clamped")
 
 
-@pytest.fixture(scope="module")
-def real(scene):
-    return compare(scene, Lattice((5, 5, 2)), elements=4)
-
-
 def test_error_is_the_largest_component_over_the_probes_and_none_where_nothing_moves_or_is_finite():
     reference = np.array([[0.0, 0.0, -2.0], [1.0, 0.0, -10.0]])
     model = np.array([[0.5, 0.0, -2.0], [1.0, -0.1, -10.2]])
@@ -41,16 +36,9 @@ def test_error_is_the_largest_component_over_the_probes_and_none_where_nothing_m
     assert relative(np.array([np.nan, 0.0, 0.0]), np.ones(3)) is None
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"status": Status.DIVERGED, "load_factor": 0.4},
-        {"status": Status.STEP_LIMIT},
-        {"status": Status.REFUSED},
-    ],
-)
-def test_a_partial_answer_is_kept_but_not_measured(scene, changes):
-    partial = fake_solutions.solution(scene, "lumped", **changes)
+@pytest.mark.parametrize("status", [Status.DIVERGED, Status.STEP_LIMIT, Status.REFUSED])
+def test_a_partial_answer_is_kept_but_not_measured(scene, status):
+    partial = fake_solutions.solution(scene, "lumped", status=status, load_factor=0.4)
     both = Comparison(scene, (partial, fake_solutions.solution(scene, "shell")))
     assert both.error(partial) is None
     assert [d.relative for d in both.differences] == [None] * 4
@@ -61,21 +49,24 @@ def test_a_partial_answer_is_kept_but_not_measured(scene, changes):
     assert partial.status.advice in said
 
 
-def test_a_probe_on_a_clamped_edge_has_no_relative_difference(scene):
-    held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
+@pytest.fixture(scope="module")
+def held(scene):
+    return scene.replace(probes={"held": (0.0, 0.1), "free": (0.188, 0.188)})
+
+
+def test_a_probe_on_a_clamped_edge_has_no_relative_difference(held):
+    truth = fake_solutions.solution(held, "shell")
 
     def round_off(points):
         return truth.sample(points) + 1e-18
 
-    truth = fake_solutions.solution(held, "shell")
     lattice = fake_solutions.solution(held, "lumped", sample=round_off)
     first, second = Comparison(held, (lattice, replace(truth, sample=round_off))).differences
     assert (first.relative, second.relative) == (None, 0.0)
 
 
-def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene):
+def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(held):
     """The bar of rounding over rounding is no number that says anything."""
-    held = scene.model_copy(update={"probes": {"held": (0.0, 0.1), "free": (0.188, 0.188)}})
     rounding = np.array([[1e-18], [0.0]])
     meshes = [fake_solutions.solution(held, "shell", size).sample for size in (-0.01, -0.0101, -0.0103)]
     answers = [sample(held.probe_points()) + i * rounding for i, sample in enumerate(meshes, start=1)]
@@ -92,43 +83,41 @@ def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(scene):
     assert shown([answers[0] * (1.0 + i * 1e-14) for i in range(3)]) == {"held": None, "free": 0.0}
 
 
-def test_default_comparison_is_consistent_then_shell_then_uniform_which_is_farther_off(real):
-    assert [solution.model for solution in real.solutions] == ["lumped", "shell", "lumped-uniform"]
-    assert [s.settings.get("calibration") for s in real.solutions] == ["consistent", None, "uniform"]
-    assert real.succeeded
-    assert {(d.of, d.against) for d in real.differences} == {("lumped", "shell"), ("lumped-uniform", "shell")}
-    near, own, far = (real.error(solution) for solution in real.solutions)
+def test_default_comparison_is_consistent_then_shell_then_uniform_which_is_farther_off(compared):
+    solutions = compared.solutions
+    assert [one.model for one in solutions] == ["lumped", "shell", "lumped-uniform"]
+    assert [one.settings.get("calibration") for one in solutions] == ["consistent", None, "uniform"]
+    assert compared.succeeded
+    pairs = {(one.of, one.against) for one in compared.differences}
+    assert pairs == {("lumped", "shell"), ("lumped-uniform", "shell")}
+    near, own, far = map(compared.error, solutions)
     assert near < 0.02 and far > near and own is None
 
 
-def test_json_document_has_the_promised_keys(real):
-    document = json.loads(to_json(real.document()))
-    assert Scene.model_validate(document["scene"]) == real.scene
+def test_json_document_has_the_promised_keys(compared):
+    document = json.loads(to_json(compared.document()))
+    assert Scene.model_validate(document["scene"]) == compared.scene
     first, second = document["solutions"][:2]
     assert first["settings"]["grid"] == [5, 5, 2] and first["settings"]["calibration"] == "consistent"
     for solution in document["solutions"]:
         assert solution["unknowns"] > 0 and solution["iterations"] > 0
         assert solution["solve_seconds"] >= 0 and solution["setup_seconds"] >= 0
-        assert np.shape([*solution["probes"].values()]) == (4, 3) and set(solution["reactions"]) == {
-            "x0",
-            "y0",
-        }
+        assert np.shape([*solution["probes"].values()]) == (4, 3) and {*solution["reactions"]} == {"x0", "y0"}
     difference = document["differences"][0]
     assert set(difference) == {"probe", "of", "against", "relative", "distinguishable"}
     u, truth = (np.array(s["probes"]["P1"]) for s in (first, second))
     assert difference["relative"] == pytest.approx(np.linalg.norm(u - truth) / np.linalg.norm(truth))
 
 
-def test_the_pull_of_a_stretched_sheet_stands_beside_the_costs():
+def test_the_pull_of_a_stretched_sheet_stands_beside_the_costs(compared):
     """Of supports that are moved; the vectors of all supports are in the tables that are written."""
     moved = {"time": [0.0, 1.0], "displacement": [[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]]}
     supports = [{"edge": "x0", "kind": "clamped"}, {"edge": "x1", "kind": "clamped", "motion": moved}]
-    pulled = scenes.load("two-edges-clamped").replace(supports=supports, gravity=None)
+    pulled = compared.scene.replace(supports=supports, gravity=None)
     both = compare(pulled, Lattice(5), elements=2, uncertainty=False)
     costs = both.printed()[-1]
     pull = [column.name for column in costs.columns].index("force of x1")
     forces = [np.linalg.norm(s.reactions["x1"]) for s in both.solutions]
     assert [row[pull] for row in costs.rows] == pytest.approx(forces, rel=1e-14)
     assert {row[0] for row in both.tables()[-1].rows} == {"x0", "x1"}
-    still = compare(scenes.load("two-edges-clamped"), Lattice(3), elements=2, uncertainty=False)
-    assert not [c.name for table in still.printed() for c in table.columns if c.name.startswith("force")]
+    assert not [c.name for table in compared.printed() for c in table.columns if c.name.startswith("force")]

@@ -45,8 +45,8 @@ def fit_of(function, measured, starts_at=1.0):
 
     def predict(unknowns, x, points, time):
         some = Displacements(points, points, time)
-        ends = [function(unknowns[0].value(x[0] + step), some) for step in (-1e-6, 1e-6)]
-        return Prediction(function(unknowns[0].value(x[0]), some), [(ends[1] - ends[0]) / 2e-6])
+        here, *ends = (function(unknowns[0].value(x[0] + step), some) for step in (0.0, -1e-6, 1e-6))
+        return Prediction(here, [(ends[1] - ends[0]) / 2e-6])
 
     one = Unknown("stiffness", "", starts_at, 0.0, np.inf)
     return Fit(measured, (one,), Model({}, (np.zeros(2), np.zeros(2)), predict))
@@ -73,12 +73,12 @@ def test_a_growing_part_of_a_motion_leads_past_minima_that_are_out_of_step():
 
 @pytest.mark.parametrize("kind", ["space", "time", "surface"])
 def test_noise_is_taken_for_noise_and_a_smooth_rest_is_not(kind):
-    points, smooth = POINTS, np.sin(10.0 * POINTS @ np.array([[1.0, 0.3, 2.0], [0.5, 2.0, 1.0]]))
-    measured = Displacements(points, smooth, np.linspace(0, 1, 64) if kind == "time" else None)
+    smooth = np.sin(10.0 * POINTS @ np.array([[1.0, 0.3, 2.0], [0.5, 2.0, 1.0]]))
+    measured = Displacements(POINTS, smooth, None)
     if kind == "time":
-        measured = replace(measured, points=np.tile(points[:1], (64, 1)), displacement=smooth)
+        measured = Displacements(np.tile(POINTS[:1], (64, 1)), smooth, np.linspace(0, 1, 64))
     if kind == "surface":
-        measured, smooth = Surface(np.column_stack([points, smooth[:, 2]])), smooth[:, 2]
+        measured, smooth = Surface(np.column_stack([POINTS, smooth[:, 2]])), smooth[:, 2]
     rng = np.random.default_rng(3)
     chances = [runs(measured, rng.normal(size=smooth.shape)).probability for _ in range(300)]
     assert sum(chance < UNLIKELY for chance in chances) <= 3  # 0.3 are to be expected
@@ -103,6 +103,8 @@ def test_a_model_that_lacks_something_is_said_not_to_explain_the_data():
 
 def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
     values = noisy(solved(SEED), 5)
+    clean = identify(SEED, Displacements(POINTS, values.copy()), lattice=Lattice(3), refine=False)
+    assert not clean.outliers and clean.explained and not clean.warnings
     values[16, 2] = 0.15
     file = tmp_path / "m.csv"
     rows = [",".join(f"{v:.6g}" for v in row) for row in np.column_stack([POINTS, values])]
@@ -110,15 +112,11 @@ def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path):
     found = identify(SEED, file, lattice=Lattice(3), refine=False)
     (odd,) = found.outliers
     assert (odd.row, odd.component, odd.measured) == (16, "uz", 0.15)
-    assert (
-        f"{file}, line 18: uz = 0.15 m" in found.warnings[0]
-        and "Without this row: young" in found.warnings[0]
-    )
+    assert f"{file}, line 18: uz = 0.15 m" in found.warnings[0]
     assert not any("poor fit" in said for said in found.warnings) and not found.explained
-    low, high = found.without["young"].interval
+    file.write_text(file.read_text().replace(rows[16], rows[16].rpartition(",")[0] + ","))
+    low, high = identify(SEED, file, lattice=Lattice(3), refine=False).unknowns["young"].interval
     assert low < SEED.material.young < high and high / low < 1.04
-    clean = identify(SEED, Displacements(POINTS, noisy(solved(SEED), 5)), lattice=Lattice(3), refine=False)
-    assert not clean.outliers and clean.explained and not clean.warnings
 
 
 @pytest.mark.parametrize("rows, named", [(16, [3, 7]), (15, [])])
@@ -126,7 +124,6 @@ def test_one_row_in_eight_may_be_left_out(rows, named):
     """Two slips, one as large as the other, are distinguished from noise only together."""
     residuals = 1e-3 * np.random.default_rng(1).uniform(-1.0, 1.0, (rows, 3))
     residuals[[3, 7], 2] = 1.0
-    measured = Displacements(np.zeros((rows, 2)), np.zeros((rows, 3)))
 
     class Same(Fit):
         """The same residuals, whatever is left out."""
@@ -140,6 +137,7 @@ def test_one_row_in_eight_may_be_left_out(rows, named):
         def search(self, x):
             return SimpleNamespace(x=x)
 
+    measured = Displacements(np.zeros((rows, 2)), np.zeros((rows, 3)))
     same = Same(measured, (), Model({}, (np.zeros(2), np.zeros(2)), lambda some: None))
     assert [found.row for found in outliers(same, SimpleNamespace(residuals=residuals, x=None))] == named
 

@@ -104,13 +104,13 @@ def test_bad_file_leaves_with_2_and_one_line(fault, tmp_path, capsys):
 @pytest.mark.parametrize("suffix", [".ply", ".vtp"])
 def test_bad_clouds(suffix, tmp_path):
     path = tmp_path / f"cloud{suffix}"
-    with pytest.raises(ValueError, match="no such file"):
+    with pytest.raises(BadInput, match="no such file"):
         read(path, SCENE)
     path.write_text("not a point cloud")
     with pytest.raises(BadInput, match="cloud"):
         read(path, SCENE)
     pyvista.PolyData(np.array([[94.0, 94.0, -6.0]])).save(path)
-    with pytest.raises(ValueError, match="in metres"):
+    with pytest.raises(BadInput, match="in metres"):
         read(path, SCENE)
 
 

@@ -1,4 +1,4 @@
-"""Residuals of measurements, and components that point the other way than the model's."""
+"""Measured deflections that point the other way than the model's."""
 
 import numpy as np
 import pytest
@@ -16,22 +16,6 @@ AXES = (np.linspace(0.0, 0.1, 3), np.linspace(0.0, 0.1, 3))
 def misfit(displacement):
     """Of no unknown, for what does not ask the model."""
     return Fit(Displacements(POINTS, np.asarray(displacement)), (), Model({}, AXES, lambda *_: None))
-
-
-@pytest.mark.parametrize(
-    ("factors", "opposite"),
-    [
-        ((1.0, 1.0, 1.0), []),
-        ((-1.0, 1.0, 1.0), ["ux"]),
-        ((1.0, 1.0, -1.0), ["uz"]),
-        ((1.0, -1.0, 1.0), []),  # of a hundredth of the largest: its sign says nothing
-        ((1.0, 0.0, 1.0), []),
-    ],
-)
-def test_a_component_is_opposite_where_it_is_large_and_its_correlation_negative(factors, opposite):
-    one = misfit(MODEL * factors)
-    residuals, _ = one.residuals(Prediction(MODEL, [np.zeros((3, 3))]))
-    assert one.turned(residuals) == opposite
 
 
 def test_a_deflection_of_the_other_sign_is_refused_with_its_correlation():

@@ -6,8 +6,8 @@ from math import prod
 import fake_solutions
 import numpy as np
 import pytest
-from commands import json_of
 
+import sheetbench as sb
 from comparisons.comparison.comparison import compare
 from comparisons.models import expected_error as estimates
 from comparisons.models.expected_error import (
@@ -20,8 +20,6 @@ from comparisons.models.expected_error import (
 )
 from comparisons.models.grading import grading_of
 from comparisons.models.layers import layers
-from comparisons.models.resolve import resolve
-from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Pressure, load
@@ -37,11 +35,9 @@ def test_an_error_of_second_order_is_found_exactly():
     assert value == pytest.approx(0.03 / (1.0 + 0.03 * 64 / 144), rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("grid", "finer"), [((9, 9, 2), (13, 13, 2)), ((3, 7, 2), (13, 37, 2)), ((17, 33, 2), (25, 49, 2))]
-)
-def test_the_finer_grid(grid, finer):
-    assert finer_grid(grid) == finer
+def test_the_finer_grid():
+    grids = {(9, 9, 2): (13, 13, 2), (3, 7, 2): (13, 37, 2), (17, 33, 2): (25, 49, 2)}
+    assert {grid: finer_grid(grid) for grid in grids} == grids
 
 
 def answered(**changes):
@@ -63,15 +59,15 @@ def answered(**changes):
     ],
 )
 def test_nothing_is_said_where_the_estimate_has_no_ground(changes, options, finer):
+    moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
+
     def answer(candidate):
         assert prod(candidate.settings["grid"][:2]) <= MOST
-        moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
         return replace(moved, settings=candidate.settings, **finer)
 
     plain = Lattice(9, "consistent")
     assert isinstance(expected_error(SCENE, plain.but(**options), answered(**changes), answer), NoEstimate)
     assert "too much memory" in str(expected_error(SCENE, plain, answered(), lambda candidate: None))
-    moved = fake_solutions.solution(SCENE, "lumped", -0.0101)
     assert isinstance(expected_error(SCENE, plain, answered(), lambda candidate: moved), ExpectedError)
 
 
@@ -91,14 +87,15 @@ def test_the_note_names_the_reason_or_what_lowers_the_error(monkeypatch, finer, 
     assert words in str(expected_error(SCENE, Lattice(9, "consistent"), answered(), lambda candidate: moved))
 
 
-def test_compare_says_it_in_the_norm_of_its_error():
-    found = compare("two-edges-clamped", Lattice(5), elements=6)
-    solutions = found.report().document["solutions"]
-    expected, error = solutions[0]["expected_error"], found.error(found.solutions[0])
+def test_compare_says_it_in_the_norm_of_its_error(compared):
+    solutions = compared.report().document["solutions"]
+    expected, error = solutions[0]["expected_error"], compared.error(compared.solutions[0])
     assert expected["grid"] == [13, 13, 2] and "13 × 13 masses" in expected["reason"]
     assert error is not None and 0.5 < error / expected["value"] < 2.0
     assert all("expected_error" not in one for one in solutions[1:])
-    assert any("expected grid error" in note for note in found.report().notes)
+    assert any("expected grid error" in note for note in compared.report().notes)
+    assert "no_estimate" not in compared.document()["solutions"][0]
+    assert not any("no estimate" in note for note in compared.notes())
 
 
 @pytest.mark.parametrize("command", [None, -4.0, (0.0, 1.0, -4.0, 2.0, 0.0, 0.0, 0.0)])
@@ -110,15 +107,10 @@ def test_a_chain_makes_a_layer_by_the_largest_curvature_it_ends_at(command):
     assert f"bent by {4 if command is None else -4} 1/m" in layers(scene)[0].cause
 
 
-def _expected(scene):
-    lattice = resolve(scene, Lattice(9))
-    found = expected_error(scene, lattice.spec, solve(lattice), lambda other: solve(resolve(scene, other)))
-    return found.value if isinstance(found, ExpectedError) else None
-
-
-def test_calibrate_says_it_of_a_scene(capsys):
-    estimate = json_of(capsys, "calibrate", "two-edges-clamped", "--grid", "9")["expected_error"]["value"]
-    assert estimate == pytest.approx(_expected(SCENE), rel=1e-9)
+def test_calibrate_says_it_of_a_scene(compared):
+    estimate = sb.calibrate("two-edges-clamped", grid=5).document()["expected_error"]["value"]
+    told = compared.document()["solutions"][0]["expected_error"]["value"]
+    assert estimate == pytest.approx(told, rel=1e-9)
 
 
 def test_loads_in_its_plane_bend_no_flat_sheet():
@@ -126,9 +118,8 @@ def test_loads_in_its_plane_bend_no_flat_sheet():
     pulled, hanging = (stored()[name]["scene"] for name in ("pull-hard", "hanging"))
     assert layers(pulled) == [] == layers(hanging)
     assert grading_of(pulled, (9, 9, 2), Lattice(calibration="consistent", grading="auto"))[0] == 0.0
-    both, weight = stored()["pull-and-weight"]["scene"], pulled.replace(gravity=SCENE.gravity)
-    pressed = weight.replace(gravity=None, loads=(Pressure(value=3.0),))
-    assert [len(layers(scene)) for scene in (both, weight, pressed)] == [1, 1, 1]
+    both, pressed = stored()["pull-and-weight"]["scene"], pulled.replace(loads=(Pressure(value=3.0),))
+    assert len(layers(both)) == len(layers(pressed)) == 1
     assert layers(both) == layers(both.replace(loads=()))
 
 
@@ -138,6 +129,3 @@ def test_where_none_is_told_the_reason_stands_beside_the_error():
     reason = found.document()["solutions"][0]["no_estimate"]
     assert "bends the sheet within a cell" in reason
     assert any(f"no estimate of its grid error: {reason}." in note for note in found.notes())
-    estimate = compare(SCENE, Lattice(5), elements=4)
-    assert "no_estimate" not in estimate.document()["solutions"][0]
-    assert not any("no estimate" in note for note in estimate.notes())

@@ -44,43 +44,26 @@ def test_grids_are_read_as_people_write_them():
             parse_grid(LONG, text)
 
 
-TEXT = """
-name = "long"
-sheet = { length_x = 0.2, length_y = 0.1, thickness = 0.003 }
-material = { young = 54.5e6, poisson = 0.48, density = 1678.0 }
-gravity = { acceleration = [0.0, 0.0, -9.81] }
-support = [{ edge = "x0", kind = "clamped" }]
-"""
-
-
-def pasted(grid, tmp_path, capsys):
-    """The scene with the springs that `calibrate --toml` prints for a grid."""
-    path = tmp_path / "long.toml"
-    path.write_text(TEXT)
-    assert run("calibrate", str(path), "--grid", grid, "--toml", "--out", str(tmp_path / "out")) == 0
+def test_springs_of_another_grid_are_refused(tmp_path, capsys):
+    """Pasted as `calibrate --toml` prints and writes them."""
+    path, out = tmp_path / "long.toml", tmp_path / "out"
+    SCENE.save(path)
+    assert run("calibrate", str(path), "--grid", "9x9", "--toml", "--out", str(out)) == 0
     springs = capsys.readouterr().out
-    assert (tmp_path / "out" / "springs.toml").read_text(encoding="utf-8") == springs
-    path.write_text(TEXT + springs)
-    return path
-
-
-@pytest.mark.parametrize("verb", ["compare", "modes", "simulate"])
-def test_springs_of_another_grid_are_refused(verb, tmp_path, capsys):
-    path = pasted("9x9", tmp_path, capsys)
-    assert run(verb, str(path), "--lumped", "9") == 2
+    assert (out / "springs.toml").read_text(encoding="utf-8") == springs
+    path.write_text(path.read_text() + springs)
+    assert run("modes", str(path), "--lumped", "9") == 2
     said = one_line(capsys)
     assert said.startswith(f"sheetbench: {path}: scene 'long'")
     assert "springs.grid = 9x9x2" in said and "17x9x2" in said and "calibrate --grid 17x9x2" in said
 
 
-def test_masses_and_grading_of_pasted_springs():
+def test_grading_of_pasted_springs():
     springs = lumped.calibrate(LONG, RUBBER, 3).springs.model_dump()
-    table = {**springs, "grid": (5, 3, 2), "masses": "gregory"}
-    scene = SCENE.model_copy(update={"springs": SpringTable(**table)})
-    assert lumped.given(scene).masses == "gregory"
+    table = {**springs, "grid": (5, 3, 2)}
     graded = SCENE.model_copy(update={"springs": SpringTable(**table, grading=0.5)})
     with pytest.raises(BadInput, match=r"grading = 0\.5"):
         lumped.given(graded)
-    for wrong in ({"grid": (1, 3, 2)}, {"masses": "lumps"}, {"grading": 2.0}):
+    for wrong in ({"grid": (1, 3, 2)}, {"grading": 2.0}):
         with pytest.raises(BadInput, match=next(iter(wrong))):
             SpringTable(**{**table, **wrong})

@@ -1,12 +1,9 @@
 """`sheetbench modes`: both models' natural frequencies, in a table and as a document."""
 
-import json
-
 import meshio
 import numpy as np
 import pytest
 from cases import sheet
-from commands import run
 
 from comparisons.models.spec import Lattice
 from comparisons.modes.pairing import assurance, cell_centres, matched
@@ -16,19 +13,14 @@ from sheetbench import scenes
 STRIP = sheet(0.12, 0.04, 0.002, 0.6e6, 0.48, 1070.0)
 
 
-@pytest.mark.usefixtures("undrawn")
-def test_both_models_agree_and_files_are_left(tmp_path, capsys):
-    arguments = ("one-edge-clamped", "--count", "6", "--elements", "8", "--json", "--out", str(tmp_path))
-    assert run("modes", *arguments) == 0
-    document = json.loads(capsys.readouterr().out)
-    lattice, shell = document["solutions"]
-    assert len(lattice["frequencies_hz"]) == len(shell["frequencies_hz"]) == 6
-    np.testing.assert_allclose(lattice["frequencies_hz"][:2], shell["frequencies_hz"][:2], rtol=0.03)
-    shapes = meshio.read(tmp_path / "modes.vtu").point_data
-    assert len(shapes) == 1 + 2 * 6
+def test_shapes_of_both_models_are_in_one_file(kept):
+    document = kept("modes").document
+    assert [len(one["frequencies_hz"]) for one in document["solutions"]] == [3, 3]
+    shapes = meshio.read(kept("modes").folder / "modes.vtu").point_data
+    assert len(shapes) == 1 + 2 * 3
     first, second = shapes["lumped_mode_1"][:, 2], shapes["shell_mode_1"][:, 2]
     # of shapes scaled alike; the signs are each model's own
-    assert np.abs(np.abs(first) - np.abs(second)).max() < 0.02 * np.abs(second).max()
+    assert np.abs(np.abs(first) - np.abs(second)).max() < 0.1 * np.abs(second).max()
 
 
 def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs():
@@ -39,18 +31,14 @@ def test_modes_of_a_strip_are_paired_by_shape_where_their_order_differs():
     ]  # fmt: skip
     assert [pair.is_ for pair in found.pairs] == [1, 2, 3, 4, 6, 5]
     assert min(pair.mac for pair in found.pairs) > 0.99
+    np.testing.assert_allclose(lattice[:2], shell[:2], rtol=0.03)
     twist, in_plane = found.pairs[4:]
     assert twist.relative == pytest.approx(lattice[4] / shell[5] - 1.0)
     assert in_plane.relative == pytest.approx(lattice[5] / shell[4] - 1.0)
     assert abs(twist.relative) < 0.004 < 0.01 < in_plane.relative < 0.015  # by rank both are between
     document = found.document()["pairs"][4]
     assert list(document) == ["of", "number", "against", "is", "mac", "relative", "kind"]
-    assert (document["of"], document["number"], document["against"], document["is"]) == (
-        "lumped",
-        5,
-        "shell",
-        6,
-    )
+    assert list(document.values())[:4] == ["lumped", 5, "shell", 6]
     report = found.report()
     assert any("swapped" in said and "5 (twist 2) is 6" in said for said in report.notes)
     assert [row[3] for row in report.tables[0].rows] == [1, 2, 3, 4, 6, 5]

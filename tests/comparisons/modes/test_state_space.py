@@ -1,6 +1,5 @@
 """A lattice for control: poles, step responses, what commands do at rest, and the files with them."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -133,14 +132,12 @@ def test_what_has_no_linear_form_is_refused():
         lumped.linearise(scene, springs_of(scene), "flat")
 
 
-@pytest.mark.usefixtures("undrawn")
-def test_the_verb_leaves_matrices_for_numpy_and_matlab(tmp_path, capsys):
-    arguments = ["one-edge-clamped", "--lumped", "4", "--state-space", "5", "--out", str(tmp_path), "--json"]
-    assert run("modes", *arguments) == 0
-    document = json.loads(capsys.readouterr().out)["state_space"]
-    assert len(document["poles"]) == 10 and document["unknowns"] == 72
-    arrays, other = dict(np.load(tmp_path / "linear.npz")), loadmat(tmp_path / "linear.mat")
-    assert other["K"].shape == (72, 72) and other["ss_A"].shape == (10, 10)
+def test_the_verb_leaves_matrices_for_numpy_and_matlab(kept):
+    found = kept("modes state-space")
+    document = found.document["state_space"]
+    assert len(document["poles"]) == 6 and document["unknowns"] == 36
+    arrays, other = dict(np.load(found.folder / "linear.npz")), loadmat(found.folder / "linear.mat")
+    assert other["K"].shape == (36, 36) and other["ss_A"].shape == (6, 6)
     assert [str(cell[0]) for cell in other["inputs"].ravel()] == document["inputs"]
     np.testing.assert_array_equal(arrays["ss_D"], other["ss_D"])
 

@@ -1,4 +1,4 @@
-"""Pictures for papers: a column's width, no title, embedded fonts, the same bytes again, error bars."""
+"""Pictures for papers: a column's width, no title, embedded fonts, the same bytes again."""
 
 import json
 from dataclasses import replace
@@ -8,11 +8,8 @@ import matplotlib
 import numpy as np
 import pytest
 from commands import run
-from fake_solutions import history, solution
+from fake_solutions import history
 
-from comparisons.comparison import probes_figure
-from comparisons.comparison.answer import Comparison
-from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.spec import Lattice
 from comparisons.modes import figure as swinging
 from comparisons.modes.spectra import spectra
@@ -20,7 +17,6 @@ from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
-from fem_reference.uncertainty import Uncertainty
 from sheetbench import scenes
 from sheetbench.answers import history_figure as moving
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
@@ -34,19 +30,7 @@ def scene():
 
 
 @pytest.fixture(scope="module")
-def comparison(scene):
-    """A lattice 10 % off a shell whose own bar is 2 % at every probe but the last, and 20 % there."""
-    reference = solution(scene, "shell")
-    truth = reference.displacement(scene.probe_points())
-    share = np.array([0.02, 0.02, 0.02, 0.2])[:, None]
-    same = np.ones_like(truth)
-    bar = Uncertainty((1.0, 2.0), truth, truth, 2.0 * same, np.abs(truth) * share, same > 0.0, True)
-    lattice = solution(scene, size=-0.011)
-    return Comparison(scene, (lattice, reference), ErrorBar(bar, tuple(scene.probes), (16, 8), 0.1))
-
-
-@pytest.fixture(scope="module")
-def composed(scene, comparison):
+def composed(scene):
     time = np.linspace(0.0, 1.0, 5)
     moved = {"tip": np.outer(time, [0.0, 0.0, 1e-3])}
     rows = [
@@ -59,7 +43,6 @@ def composed(scene, comparison):
     trade = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
     swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
     return {
-        "probes": partial(probes_figure.compose, comparison),
         "history": partial(moving.compose, history(time, moved), scene.title),
         "tradeoff": partial(trading.compose, trade),
         "modes": partial(swinging.compose, swings),
@@ -79,7 +62,7 @@ def test_what_a_figure_may_be():
             parse_figure(wrong)
 
 
-NAMES = ("probes", "history", "tradeoff", "modes")
+NAMES = ("history", "tradeoff", "modes")
 
 
 @pytest.mark.sweep(2)
@@ -93,14 +76,14 @@ def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name)
     assert any(scene.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
     for axis in paper.axes:
         if axis.axison:
-            assert axis.get_xlabel() == "probe" or "[" in axis.get_xlabel() + axis.get_ylabel()
+            assert "[" in axis.get_xlabel() + axis.get_ylabel()
     paper.draw_without_rendering()
     box = paper.get_tightbbox()
     assert box.width <= paper.get_figwidth() + 0.1
 
 
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("name", ["probes", "tradeoff"])
+@pytest.mark.parametrize("name", ["history", "tradeoff"])
 def test_the_same_picture_is_the_same_bytes_with_its_fonts(composed, tmp_path, name):
     files = [tmp_path / f"{name}.{form}" for form in ("pdf", "svg")]
     written = []
@@ -112,19 +95,6 @@ def test_the_same_picture_is_the_same_bytes_with_its_fonts(composed, tmp_path, n
     pdf, svg = written[0]
     assert b"/FontFile2" in pdf and b"/Type3" not in pdf and b"CreationDate" not in pdf
     assert b"<text" not in svg and b"dc:date" not in svg
-
-
-def test_the_references_bar_is_a_band_at_every_probe(comparison):
-    figure = probes_figure.compose(comparison)
-    axis = figure.axes[0]
-    tops = [band.get_paths()[0].vertices[:, 1].max() for band in axis.collections]
-    assert tops == pytest.approx([2.0, 2.0, 2.0, 20.0], rel=1e-9)  # percent
-    assert axis.lines[0].get_ydata() == pytest.approx([10.0] * 4)
-    assert [label.get_text() for label in axis.get_xticklabels()] == list(comparison.scene.probes)
-    still = Comparison(
-        comparison.scene, (solution(comparison.scene), solution(comparison.scene, "shell", 0.0))
-    )
-    assert probes_figure.shown(still) == []
 
 
 def test_the_option(tmp_path, capsys):

@@ -81,12 +81,11 @@ def test_of_plates_and_unstable_answers_nothing_is_said():
     assert solid is not None and solid.thickness == 0.0 and solid.strain_law == pytest.approx(2.3e-3)
 
 
-def test_compare_names_both_parts(capsys):
-    found = compare("two-edges-clamped", Lattice(5), elements=6)
-    bar = found.document()["solutions"][1]["uncertainty"]
+def test_compare_names_both_parts(compared):
+    bar = compared.document()["solutions"][1]["uncertainty"]
     assert bar["mesh"] == bar["error"] and bar["model"] == sum(bar["model_parts"].values()) > 0.0
     assert bar["clamp"] == pytest.approx(0.75 * 0.48 / 0.52 * 0.003 / 0.188)
-    said = [note for note in found.report().notes if note.startswith("shell: ")]
+    said = [note for note in compared.report().notes if note.startswith("shell: ")]
     assert "mesh error ±" in said[0] and "6, 4 and 3 elements" in said[0]
     assert "model error ±" in said[1] and "thickness 0.038 %" in said[1] and "clamp" in said[1]
 

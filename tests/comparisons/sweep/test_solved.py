@@ -52,7 +52,7 @@ def test_tags_and_labels_make_no_other_row(store, monkeypatch):
     others = [
         Ask(SEED, Lattice(4)),
         Ask(SEED, Lattice(3), repeats=1),
-        Ask(SEED, Lattice(3), columns=("bar",)),
+        Ask(SEED, Lattice(3), columns=("model_error",)),
         Ask(SEED, Lattice(3), version="2"),
         Ask(SEED, Lattice(3), duration=1.0, every=0.1),
     ]

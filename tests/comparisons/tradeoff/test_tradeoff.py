@@ -141,7 +141,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(tmp_path):
     assert all(row.step_error is None and row.error > 0.0 for row in others)
     assert found.reference.error == 0.0
     assert of_lattice[0].damping == pytest.approx(of_lattice[-1].damping, rel=0.1)
-    assert all(row.seconds_per_second > 0.0 for row in found.rows)
+    assert all(row.cost > 0.0 for row in found.rows)
     assert found.front and json.loads(to_json(found.document()))["rows"]
 
 

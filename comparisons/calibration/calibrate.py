@@ -13,7 +13,7 @@ from warnings import warn
 
 import lumped
 from comparisons.calibration import damping
-from comparisons.calibration.damping import UNDAMPED, ModeDamping
+from comparisons.calibration.damping import UNDAMPED
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import choice_notes
 from comparisons.models.quantities import checked
@@ -117,13 +117,11 @@ def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
 @dataclass(frozen=True, repr=False)
 class SheetCalibration(Calibration):
     """Springs for a scene's sheet; found: the same with what data tell of them; expected: the error of their
-    grid in the scene, where it is known; modes: the damping of the lowest ones; lattice: files for another
-    code, and what is not in them."""
+    grid in the scene, where it is known; lattice: files for another code, and what is not in them."""
 
     found: Calibration = field(kw_only=True, repr=False)
     scene: Scene = field(kw_only=True)
     expected: ExpectedError | None = None
-    modes: tuple[ModeDamping, ...] = ()
     lattice: tuple[dict[str, Write], list[str]] = field(default=({}, []), compare=False)
 
     def heading(self) -> tuple[str, str, str]:
@@ -131,14 +129,14 @@ class SheetCalibration(Calibration):
 
     def document(self) -> dict[str, Any]:
         known = {} if self.expected is None else {"expected_error": self.expected.as_dict()}
-        return self.found.document() | known | damping.document(self.scene.material, self.modes)
+        return self.found.document() | known | damping.document(self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
-        return (*self.found.tables(), *damping.tables(self.scene.material, self.modes))
+        return (*self.found.tables(), *damping.tables(self.scene.material))
 
     def notes(self) -> tuple[str, ...]:
         expected = () if self.expected is None else (f"in this scene: {self.expected}",)
-        return (*self.found.notes(), *expected, *self.lattice[1])
+        return (*self.found.notes(), *expected, *damping.notes(self.scene.material), *self.lattice[1])
 
     def files(self) -> dict[str, Write]:
         return {"springs.toml": partial(write_text, text=to_toml(self)), **self.lattice[0]}
@@ -148,5 +146,5 @@ def to_toml(springs: Calibration) -> str:
     """Return the [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
     found = springs.document()
     grading = as_settings(springs.grading) if springs.grading else {}
-    keys = {"grid": found["grid"], "masses": found["masses"], **grading, **found["springs"]}
+    keys = {"grid": found["grid"], **grading, **found["springs"]}
     return dumps({"springs": {**keys, "layer_distance": found["layer_distance"]}})

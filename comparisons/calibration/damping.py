@@ -10,25 +10,22 @@ Sensors 24, 6137.
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from itertools import pairwise
-from math import ceil, log10, pi, prod
+from math import ceil, log10, pi
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-import lumped
 from comparisons.identification.columns import Columns, read_columns
-from comparisons.modes.damping import ModeDamping, damping_table, mode_damping
 from sheetbench.answers.table import MILLISECONDS, NUMBER, Table
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Relaxation, Scene
+from sheetbench.scenes import Material, Relaxation
 from sheetbench.scenes.objects.relaxation import A_DECADE
 
-MODES = 10
 LEAST_SHARE = 1e-4  # of a branch that is kept
 FEWEST = 4  # rows of measured moduli
+DAMPED = "sheetbench modes lists the damping ratio of each mode"
 RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement is πη where η is small"
 
 
@@ -63,21 +60,6 @@ def keys(
     return {"loss_factor": loss_factor, "frequency": at, "band": band}
 
 
-def ratios(scene: Scene, springs: lumped.Calibration) -> tuple[ModeDamping, ...]:
-    """Return the damping of a lattice's lowest modes about the flat state; none of a material that does not
-    damp.
-
-    All springs have the dampers in proportion to their stiffness, so that a mode of K at ω swings as
-    s² + ω² E(s)/E∞ = 0, with (1 + τ s) of a damper and Σ a_i s τ_i/(1 + s τ_i) of branches.
-    """
-    material = scene.material
-    if not (material.dashpot_time or material.branches.times):
-        return ()
-    at_rest = scene.replace(material=Material.model_validate({**material.model_dump(), **UNDAMPED}))
-    count = min(MODES, prod(springs.grid) // 2)
-    return mode_damping(material, lumped.modes(at_rest, springs, count=count).frequencies)
-
-
 SERIES = {"frequency": "Hz", "storage": "Pa", "loss": "Pa", "tan_delta": "", "time": "s", "modulus": "Pa"}
 UNDAMPED: dict[str, Any] = {
     "damping_time": 0.0,
@@ -88,45 +70,45 @@ UNDAMPED: dict[str, Any] = {
 }
 
 
-def tables(material: Material, modes: tuple[ModeDamping, ...]) -> tuple[Table, ...]:
-    """Return what the modes get, and the branches."""
-    if not modes:
+def tables(material: Material) -> tuple[Table, ...]:
+    """Return the branches of a material, and what they do to it; none of one without."""
+    known = branches(material)
+    if not known:
         return ()
-    text = f"{RELATION}. {_how(material)}"
-    shown = [damping_table(modes, "Damping of the lowest modes", "damping", text)]
-    if known := branches(material):
-        columns = (NUMBER(".5g", "share"), MILLISECONDS(".5g", "time"))
-        caption = "Maxwell branches, as [[material.relaxation]]"
-        shown.append(Table.listed(caption, columns, known, "branches"))
-    return tuple(shown)
-
-
-def _how(material: Material) -> str:
-    if not material.branches.times:
-        return (
-            f"One damper per spring, {1e3 * material.dashpot_time:.4g} ms · k, gives η in proportion to the "
-            "frequency: it is right at one frequency only"
-        )
-    ends = material.band or tuple(
-        1.0 / (2.0 * pi * t) for t in (material.branches.times[-1], material.branches.times[0])
-    )
+    ends = material.band or tuple(1.0 / (2.0 * pi * time) for _, time in (known[-1], known[0]))
     storage, _ = material.branches.storage_and_loss(np.array(ends))
-    return (
-        f"Motion stiffens these branches: the modulus is {storage[0]:.3g} times the long-time one, which "
-        f"statics take, at {ends[0]:.3g} Hz, and {storage[1]:.3g} times at {ends[1]:.3g} Hz"
+    text = (
+        f"{RELATION}. Motion stiffens these branches: the modulus is {storage[0]:.3g} times the long-time "
+        f"one, which statics take, at {ends[0]:.3g} Hz, and {storage[1]:.3g} times at {ends[1]:.3g} Hz"
     )
+    columns = (NUMBER(".5g", "share"), MILLISECONDS(".5g", "time"))
+    caption = "Maxwell branches, as [[material.relaxation]]"
+    return (Table.listed(caption, columns, known, "branches", text=text),)
 
 
-def document(material: Material, modes: tuple[ModeDamping, ...]) -> dict[str, Any]:
+def notes(material: Material) -> list[str]:
+    """Return the one damper of a material, and what lists the damping of its modes; nothing of one that does
+    not damp."""
+    if material.branches.times:
+        return [DAMPED]
+    if not material.dashpot_time:
+        return []
+    return [
+        f"One damper per spring, {1e3 * material.dashpot_time:.4g} ms · k, gives η in proportion to the "
+        f"frequency: it is right at one frequency only. {RELATION}",
+        DAMPED,
+    ]
+
+
+def document(material: Material) -> dict[str, Any]:
     """Return the key `damping` of the JSON document, if the material damps."""
-    if not modes:
+    if not (material.dashpot_time or material.branches.times):
         return {}
     return {
         "damping": {
             "loss_factor": material.loss_factor,
             "damping_time": material.dashpot_time,
             "relaxation": [{"share": share, "time": time} for share, time in branches(material)],
-            "modes": [asdict(mode) for mode in modes],
         }
     }
 

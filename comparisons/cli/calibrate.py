@@ -122,8 +122,7 @@ def command(
         if export is not None:
             line = command_line(output.verb, output.terminal)
             out.notes.append(exchange.export(export, of, springs, line, output.overwrite))
-        modes = damping.ratios(of, springs)
         own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
         files = ({}, []) if for_ is None else exchange.lattice_files(of, springs, for_)
-        answer = SheetCalibration(**own, found=springs, scene=of, expected=off, modes=modes, lattice=files)
+        answer = SheetCalibration(**own, found=springs, scene=of, expected=off, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -31,10 +31,6 @@ LIMITS = (
     *("model", "elements", "at", MILLIMETRES("z.4f", "u"), MILLIMETRES(".2g", "± u")),
     *(PERCENT("z.2f", "off"), PERCENT(".2g", "± off"), Column("differs from", prose=True)),
 )
-MOVED = (
-    *("probe", "model", *(MILLIMETRES("z.4f", f"u{axis}") for axis in "xyz")),
-    *(MILLIMETRES(".1g", f"± u{axis}") for axis in "xyz"),
-)
 CODES = ("code", Column("what it is", prose=True), Column("version", prose=True))
 
 
@@ -89,31 +85,19 @@ class Crosscheck(Answer):
         return "crosscheck", f"{len(self.scenes)} scenes, every model on meshes of its own", ""
 
     def tables(self) -> tuple[Table, ...]:
-        limits, moved, *codes = self._shown()
-        return (limits, moved, Table.of(Pair, self.pairs, "Every two models", "pairs"), *codes)
+        limits, *codes = self.printed()
+        return (limits, Table.of(Pair, self.pairs, "Every two models", "pairs"), *codes)
 
     def printed(self) -> tuple[Table, ...]:
-        """All but every two models, and displacements of one scene alone."""
-        limits, moved, *codes = self._shown()
-        return (limits, moved, *codes) if self._single else (limits, *codes)
-
-    def _shown(self) -> list[Table]:
+        """All but every two models."""
         scene, single = Column("scene", detail=self._single), self._single
         limits = [(one.scene.name, one.name, *self._limit(one)) for one in self._each()]
-        moved = [
-            (one.scene.name, probe, one.name, *bar.extrapolated[i], *bar.bar[i])
-            for of in self.scenes
-            for i, probe in enumerate(of.probes)
-            for one in self.limits[of.name]
-            if (bar := one.uncertainty) is not None
-        ]
         needs = "absent: needs {}".format
         codes = [(one.name, one.called, one.version() or needs(one.needs)) for one in self.codes.values()]
-        return [
+        return (
             Table.listed("Extrapolated answers", (scene, *LIMITS), limits, "crosscheck", grouped=not single),
-            Table.listed("Extrapolated displacements", (scene, *MOVED), moved, "displacements"),
             *([Table.listed("External codes", CODES, codes, "judges")] if codes else []),
-        ]
+        )
 
     def _limit(self, one: Limit) -> tuple[Any, ...]:
         """Return a model's limit where the sheet moves most, how far off it is, and from whom it differs."""

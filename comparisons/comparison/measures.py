@@ -107,29 +107,20 @@ def largest(one: History, other: History) -> float:
 
 def difference(one: History, other: History) -> dict[str, Any]:
     """How far a motion is from its reference: `largest` and `rms` of all probes over the reference's largest
-    component; `peak` and `period` relative to its own; `phase`, how much later the last extremum is, in
-    periods; `decay`, by how much the decrements differ; `energies`, over its largest energy."""
+    component; `peak` and `period` relative to its own; `decay`, by how much the decrements differ."""
     count = min(len(one.time), len(other.time))
     ours, theirs = (np.array([u[:count] for u in h.probes.values()]) for h in (one, other))
     scale = float(np.abs(theirs).max()) or np.nan
     off = ours - theirs
     mine, truth = measured_alike(one, other)
-    energy = max((float(np.abs(e[:count]).max()) for e in other.energies.values()), default=0.0) or np.nan
 
     def relative(a: float | None, b: float | None) -> float | None:
         return None if a is None or not b else (a - b) / abs(b)
 
-    late = None if mine.last is None or truth.last is None or not truth.period else mine.last - truth.last
     return {
         "largest": float(np.abs(off).max() / scale),
         "rms": float(np.sqrt(np.mean(np.sum(off**2, axis=-1))) / scale),
         "peak": relative(mine.peak, truth.peak),
         "period": relative(mine.period, truth.period),
-        "phase": None if late is None or not truth.period else late / truth.period,
         "decay": None if mine.decay is None or truth.decay is None else mine.decay - truth.decay,
-        "energies": {
-            name: float(np.abs(e[:count] - other.energies[name][:count]).max() / energy)
-            for name, e in one.energies.items()
-            if name in other.energies
-        },
     }

@@ -22,7 +22,7 @@ from sheetbench.scenes.meaning.motion import kinks
 
 DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # a reference's bar beyond which it is doubtful: of itself, of a difference
 DOUBLED = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
-WHOLE = ("largest", "rms", "peak", "period", "phase", "decay")  # of two motions' difference
+WHOLE = ("largest", "rms", "peak", "period", "decay")  # of two motions' difference
 OF_A_RUN = ("label", "integrator", "settings", "status", "message", "steps", "setup_seconds", "solve_seconds")
 DIFFERENCES = (
     *("model", "probe", *(PERCENT("z.2f", name) for name in WHOLE[:-1]), NUMBER("z.4f", "decay")),
@@ -189,12 +189,12 @@ class MotionComparison(Answer):
             for probe, u in history.probes.items():
                 off = (u[:count] - truth.probes[probe][:count]) / scale
                 rms = float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
-                rows.append((d["of"], probe, float(np.abs(off).max()), rms, *[None] * 6))
+                rows.append((d["of"], probe, float(np.abs(off).max()), rms, *[None] * 5))
             within = None if bar is None else not d["distinguishable"]
             rows.append((d["of"], "all", *(d[name] for name in WHOLE), bar, within))
         caption = (
-            f"Difference from the {self.reference}: largest and rms over its largest displacement, phase "
-            "over its period; decay: difference of the log decrements"
+            f"Difference from the {self.reference}: largest and rms over its largest displacement; "
+            "decay: difference of the log decrements"
         )
         text = f"±: how far the {self.reference} itself may be off, by mesh and steps"
         if self.uncertainty:

@@ -1,4 +1,4 @@
-"""The picture of two motions: probes over time, what differs below, then the energies."""
+"""The picture of two motions: probes over time and what differs below."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad
 
 
 def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
-    """A panel a probe, of its component that moves farthest, a panel of differences, one of energies."""
+    """A panel a probe, of its component that moves farthest and a panel of differences."""
     truth, others = found.histories[found.reference], [n for n in found.histories if n != found.reference]
     farthest = {name: float(np.abs(u).max()) for name, u in truth.probes.items()}
     kept = set(sorted(farthest, key=lambda name: farthest[name], reverse=True)[:MOST])
     shown = [name for name in truth.probes if name in kept]
-    figure = Figure(figsize=(style.width, 1.3 * len(shown) + 3.0), layout="constrained")
-    panels = figure.subplots(len(shown) + 2, 1, sharex=True, squeeze=False)[:, 0]
+    figure = Figure(figsize=(style.width, 1.3 * len(shown) + 1.7), layout="constrained")
+    panels = figure.subplots(len(shown) + 1, 1, sharex=True, squeeze=False)[:, 0]
     scale = max(farthest.values()) or 1.0
     for number, (axis, probe) in enumerate(zip(panels, shown, strict=False)):
         component = int(np.abs(truth.probes[probe]).max(axis=0).argmax())
@@ -47,24 +47,15 @@ def compose(found: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
         ours = found.histories[others[0]]
         count = min(len(ours.time), len(truth.time))
         off = ours.probes[probe][:count] - truth.probes[probe][:count]
-        panels[-2].plot(
+        panels[-1].plot(
             truth.time[:count],
             100.0 * np.abs(off).max(axis=1) / scale,
             lw=1.0,
             label=plain(probe, longest=20),
         )
-    panels[-2].set_ylabel("difference\n[% of the peak]")
-    panels[-2].legend(ncols=MOST, **ABOVE)
-    for i, name in enumerate(("kinetic", "elastic", "potential", "dissipated")):
-        for model, history in ((m, h) for m, h in found.histories.items() if h.energies):
-            dashed = "-" if model == found.reference else (0, (4, 2))
-            label = name if model == found.reference else None
-            panels[-1].plot(
-                history.time, 1e3 * history.energies[name], ls=dashed, color=SERIES[i], lw=0.9, label=label
-            )
-    panels[-1].set_ylabel("energy [mJ]")
+    panels[-1].set_ylabel("difference\n[% of the peak]")
+    panels[-1].legend(ncols=MOST, **ABOVE)
     panels[-1].set_xlabel("time [s]")
-    panels[-1].legend(ncols=4, fontsize=6.5, **ABOVE)
     for axis in panels:
         axis.axhline(0.0, color=DARK, lw=0.3)
         axis.margins(x=0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +16,7 @@ from comparisons.modes.pairing import CELLS, Pair, kinds, on_cells, pairs_of
 from comparisons.pictures.array_files import write_mesh
 from comparisons.pictures.plan import plan_mesh
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.modes import Buckling
+from sheetbench.answers.modes import Buckling, NaturalModes
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.solution import About
 from sheetbench.answers.table import HERTZ, NUMBER, PERCENT, Column, Table, number
@@ -28,29 +28,23 @@ FLAT = 0.3  # displacement, in thicknesses, from which on stretching stiffens a 
 
 @dataclass(frozen=True)
 class Spectrum:
-    """A model's lowest natural frequencies (count,) [Hz]; rigid: rigid motions left out; shapes: plan points
-    (n, 2) [m] → displacement of the mid-surface in every mode, (count, n, 3), of any scale."""
+    """A model's lowest natural modes, with its settings and the seconds of the solve."""
 
     model: str
     label: str
     settings: dict[str, Any]
-    frequencies: np.ndarray
-    rigid: int
-    unknowns: int
     seconds: float
-    shapes: Callable[[np.ndarray], np.ndarray]
+    modes: NaturalModes
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """The natural frequencies (count,) [Hz]."""
+        return self.modes.frequencies
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return {
-            "model": self.model,
-            "label": self.label,
-            "settings": self.settings,
-            "frequencies_hz": self.frequencies,
-            "rigid_modes": self.rigid,
-            "unknowns": self.unknowns,
-            "solve_seconds": self.seconds,
-        }
+        own = {"model": self.model, "label": self.label, "settings": self.settings}
+        return {**own, **self.modes.document(), "solve_seconds": self.seconds}
 
 
 @dataclass(frozen=True, repr=False)
@@ -83,7 +77,7 @@ class Spectra(Answer):
     @cached_property
     def _sampled(self) -> tuple[np.ndarray, ...]:
         """Shapes (count, n, 3) of every model on equal plan cells."""
-        return tuple(on_cells(self.scene, spectrum.shapes) for spectrum in self.found)
+        return tuple(on_cells(self.scene, spectrum.modes.displacement) for spectrum in self.found)
 
     @cached_property
     def kinds(self) -> tuple[str | None, ...]:
@@ -170,7 +164,7 @@ class Spectra(Answer):
         plan = plan_mesh(self.scene)
         largest = 0.1 * max(self.scene.sheet.lengths)
         for spectrum in self.found:
-            for mode, shape in enumerate(spectrum.shapes(plan.points[:, :2]), 1):
+            for mode, shape in enumerate(spectrum.modes.displacement(plan.points[:, :2]), 1):
                 shape = largest / (abs(shape).max() or 1.0) * shape
                 plan.point_data.setdefault("displacement", shape)
                 plan.point_data[f"{spectrum.model}_mode_{mode}"] = shape
@@ -210,8 +204,8 @@ class Spectra(Answer):
                     *band
                 )
             )
-        if self[0].rigid:
-            notes.append(f"{self[0].rigid} rigid-body modes, of frequency 0, are left out")
+        if self[0].modes.rigid:
+            notes.append(f"{self[0].modes.rigid} rigid-body modes, of frequency 0, are left out")
         if self.scene.actuators:
             notes.append("these modes are the sheet's alone, without its actuators")
         return notes

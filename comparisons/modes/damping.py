@@ -47,7 +47,7 @@ def mode_damping(material: Material, frequencies: Iterable[float]) -> tuple[Mode
     return tuple(found)
 
 
-def damping_table(modes: Iterable[ModeDamping], caption: str, name: str, text: str = "") -> Table:
+def damping_table(modes: Iterable[ModeDamping], caption: str, name: str) -> Table:
     """Return a row per mode: what was requested, what is got."""
     fields = ("number", "frequency_hz", "asked", "got", "miss")
-    return Table.of(ModeDamping, modes, caption, name, fields=fields, text=text)
+    return Table.of(ModeDamping, modes, caption, name, fields=fields)

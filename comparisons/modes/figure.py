@@ -35,7 +35,7 @@ def compose(found: Spectra, style: FigureStyle = PLAIN) -> Figure:
     size = (style.width, len(found) * rows * panel + (0.3 if style.titled else 0.05))
     figure = Figure(figsize=size, layout="constrained")
     panels = figure.subplots(len(found) * rows, across, squeeze=False).reshape(len(found), rows * across)
-    shapes = [spectrum.shapes(plan[there]) for spectrum in found.found]
+    shapes = [spectrum.modes.displacement(plan[there]) for spectrum in found.found]
     for row, (spectrum, own) in enumerate(zip(found.found, shapes, strict=True)):
         matches = [pair.is_ for pair in found.against(spectrum.model)] if row else range(1, count + 1)
         for column, axis in enumerate(panels[row]):

@@ -99,35 +99,13 @@ def _lattice(model: Resolved[Lattice], count: int, about: About) -> Spectrum:
     distribution = cast("lumped.Inertia | None", model.spec.masses) or lumped.usual_masses(springs)
     modes = lumped.modes(model.scene, springs, count, distribution, about)
     seconds = now() - begin
-    return Spectrum(
-        model="lumped",
-        label=f"lumped {springs.title}, {distribution} masses",
-        settings={
-            "grid": list(springs.grid),
-            "calibration": springs.method,
-            **as_settings(springs.grading),
-            "masses": distribution,
-            **model.reasons,
-        },
-        frequencies=modes.frequencies,
-        rigid=modes.rigid,
-        unknowns=modes.unknowns,
-        seconds=seconds,
-        shapes=modes.displacement,
-    )
+    settings = {"grid": list(springs.grid), "calibration": springs.method, **as_settings(springs.grading)}
+    settings |= {"masses": distribution, **model.reasons}
+    return Spectrum("lumped", f"lumped {springs.title}, {distribution} masses", settings, seconds, modes)
 
 
 def _reference(model: Resolved[Elements], count: int, about: About) -> Spectrum:
     import fem_reference
 
     modes = fem_reference.modes(model.scene, model.spec.kind, model.spec.elements, count, about)
-    return Spectrum(
-        model=model.spec.kind,
-        label=modes.label,
-        settings=modes.settings,
-        frequencies=modes.frequencies,
-        rigid=modes.rigid,
-        unknowns=modes.unknowns,
-        seconds=modes.solve_seconds,
-        shapes=modes.displacement,
-    )
+    return Spectrum(model.spec.kind, modes.label, modes.settings, modes.solve_seconds, modes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +29,10 @@ class NaturalModes(Answer):
     shapes: np.ndarray
     rigid: int
     unknowns: int
+
+    @abstractmethod
+    def displacement(self, points: np.ndarray) -> np.ndarray:
+        """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
 
     def document(self) -> dict[str, Any]:
         return {"frequencies_hz": self.frequencies, "rigid_modes": self.rigid, "unknowns": self.unknowns}

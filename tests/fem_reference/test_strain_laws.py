@@ -84,9 +84,6 @@ def test_elements_through_the_thickness_are_energies_with_their_tangents(law, rn
     energy = lambda e: np.array([sum(element.energies(e).values())])  # noqa: E731
     assert element.stress(strain) == pytest.approx(slopes(energy, strain), rel=1e-6, abs=1e-9)
     assert element.moduli(strain) == pytest.approx(slopes(element.stress, strain), rel=1e-6, abs=1e-8)
-    slow = element.dragged(strain, 3.0)
-    assert slow.stress(strain) == pytest.approx(element.stress(strain))
-    assert slow.moduli(strain) == pytest.approx(slopes(slow.stress, strain), rel=1e-6, abs=1e-8)
 
 
 @pytest.mark.parametrize("shear", [1e-4, 0.3, 1.0, 3.0])

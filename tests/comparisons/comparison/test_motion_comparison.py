@@ -41,7 +41,6 @@ def test_what_two_motions_differ_by_is_what_was_changed():
     slower = difference(swing(4.95, 0.05, 1.02), swing(5.0, 0.05))
     assert slower["period"] == pytest.approx(0.01 / 0.99, rel=2e-2)
     assert slower["peak"] == pytest.approx(-0.02, rel=2e-2)
-    assert slower["phase"] == pytest.approx(4.5 * 0.01 / 0.99, rel=0.1)
     assert slower["rms"] < slower["largest"] < 0.4
     alike = difference(swing(5.0, 0.05), swing(5.0, 0.05))
     assert (alike["largest"], alike["rms"], alike["period"], alike["decay"]) == (0.0, 0.0, 0.0, 0.0)

@@ -2,61 +2,31 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
 
 from lumped.moduli import second_moment
 from sheetbench.answers.table import Column, Table, number
+from sheetbench.scenes import SpringSet
+from sheetbench.scenes.language.schema import sentences
 
-_UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
-_MEANINGS = {
-    "axial": "ka, along x and y in a layer",
-    "diagonal": "kd, diagonal in a layer",
-    "vertical": "kz, through the thickness",
-    "cross": "kdT, between layers, along x and y",
-    "cross_diagonal": "kddT, between layers, diagonal",
-    "area": "area spring of a cell in a layer",
-    "mid_area": "area spring of a mid-surface cell",
-    "shear": "strain spring of a cell in a layer, in-plane shear",
-    "stretch": "strain spring of a cell in a layer, stretching",
-    "mid_shear": "strain spring of a mid-surface cell, in-plane shear",
-    "neo_hookean_shear": "shear modulus × thickness of a layer as a rubber membrane",
-    "neo_hookean_volume": "Λ × thickness of that membrane, energy ½ Λ ln² J",
-    "mooney_rivlin": "coefficient × thickness of I2 − 3 of that membrane",
-    "yeoh_square": "coefficient × thickness of (I1 − 3)² of that membrane",
-    "yeoh_cube": "coefficient × thickness of (I1 − 3)³ of that membrane",
-    "gent_limit": "limit of I1 − 3, without a unit",
-    "face_shear": "strain spring of an upright face along a cell's side, transverse shear",
-    "face_diagonal_shear": "face_shear over a cell's diagonals",
-    "face_coupling": "face_shear over one of them, by its sign: couples both shears",
-    "edge_shear": "correction to the shear spring of a layer's cells along a free, hinged or held edge",
-    "strip_shear": "edge_shear where the opposite edge is free, hinged or held too, by their distance",
-    "edge_coupling": "of the strain along such an edge, which counts with the shear there (no unit)",
-    "far_edge_shear": "edge_shear of the edges x1 and y1",
-    "far_strip_shear": "strip_shear of the edges x1 and y1",
-    "far_edge_coupling": "edge_coupling of the edges x1 and y1",
-    "rim_shear": "edge_shear of cells at rims of outlines and cutouts",
-    "rim_stretch_x": "the same against their stretching along x",
-    "rim_stretch_y": "the same against their stretching along y",
-    "rim_coupling_xy": "the same of both strains",
-    "rim_coupling_x": "the same of strain along x and shear",
-    "rim_coupling_y": "the same of strain along y and shear",
-    "mid_stretch": "strain spring of a mid-surface cell, stretching",
-}
+UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 
 
 def springs(calibration: dict[str, Any]) -> Table:
     """A row per family, and per direction where they differ, of unequal cells the softest and the stiffest
     that is not 0; `calibration` as its `document` gives it."""
-    rows = []
+    rows, meanings = [], sentences(SpringSet)
     by_axis = [value if isinstance(value, dict) else {"": value} for value in calibration["springs"].values()]
     unequal = any(np.ndim(k) for directions in by_axis for k in directions.values())
     for name, directions in zip(calibration["springs"], by_axis, strict=True):
+        meaning = re.split(r"[.:] |, energy|\.$", meanings.get(name, ""))[0]
         for axis, k in directions.items():
             there = np.ravel(k)[np.ravel(k) != 0.0] if np.any(k) else np.zeros(1)  # none in holes
             ends = [float(there.min()), float(there.max())] if unequal else [k]
-            rows.append((f"{name} {axis}".strip(), _MEANINGS.get(name, ""), *ends))
+            rows.append((f"{name} {axis}".strip(), meaning, *ends))
     headings = ("least", "largest") if unequal else ("stiffness",)
     columns = (
         Column("spring"),
@@ -78,7 +48,7 @@ def moduli(calibration: dict[str, Any]) -> Table:
         target, got = row["asked"], row["got"]
         off = (got - target) / target if target else None
         sheet = row.get("kappa_G_h", target)
-        rows.append((row["name"], _UNITS.get(row["name"][:1], ""), sheet, target, got, off))
+        rows.append((row["name"], UNITS.get(row["name"][:1], ""), sheet, target, got, off))
     columns = (
         Column("modulus"),
         Column("unit"),

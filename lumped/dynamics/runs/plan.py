@@ -46,7 +46,7 @@ def plan_run(
 
     @cache
     def period() -> float:
-        return 1.0 / float(modes(system.scene, calibration, 1, calibration.masses).frequencies[0])
+        return 1.0 / float(modes(system.scene, calibration, 1, "tributary").frequencies[0])
 
     spacing = every if every is not None else period() / SAMPLES_PER_PERIOD
     if step is not None and every is None:
@@ -69,6 +69,4 @@ def plan_run(
             f"step = {wanted:g} s: {duration / wanted:.1e} steps to {duration:g} s; {MOST_STEPS:.0e} at most"
         )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    return StepPlan(
-        samples=samples, every=spacing, first=samples, steps=steps, adapts=kind.adaptive and step is None
-    )
+    return StepPlan(samples, spacing, steps, kind.adaptive and step is None)

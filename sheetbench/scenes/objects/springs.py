@@ -86,15 +86,15 @@ class SpringSet(Frozen):
     """Stiffness of each family [N/m] and the distance of neighbouring layers [m]."""
 
     axial: Stiffness
-    """Links along x and y within a layer."""
+    """Links along x and y within a layer (ka)."""
     diagonal: Stiffness
-    """Diagonals of a layer's cells."""
+    """Diagonals of a layer's cells (kd)."""
     vertical: Stiffness
-    """Links between the layers, across the thickness."""
+    """Links between the layers, across the thickness (kz)."""
     cross: Stiffness
-    """Links between the layers along x and y: diagonals of the upright faces."""
+    """Links between the layers along x and y (kdT): diagonals of the upright faces."""
     cross_diagonal: Stiffness
-    """Space diagonals of the cells."""
+    """Space diagonals of the cells (kddT)."""
     area: Annotated[AnySign, Unit("N/m")] = 0.0
     """Area springs of a layer's cells, energy ½ k (a/a0 − 1)² a0; < 0 is allowed while the cell is stable."""
     mid_area: Annotated[AnySign, Unit("N/m")] = 0.0
@@ -194,8 +194,6 @@ class SpringTable(SpringSet):
     """The edges towards which they are smaller, where that is not all four."""
     lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = None
     """x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
-    masses: Distribution = "tributary"
-    """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
 
     @model_validator(mode="before")
     @classmethod

@@ -13,11 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference.defaults import with_defaults
 from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.observer import ReferenceObserver
-from fem_reference.sheets import SHEETS
+from fem_reference.sheets import SHEETS, with_defaults
 from fem_reference.vibration import modes
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, listed

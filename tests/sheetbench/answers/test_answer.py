@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 import fem_reference
 import sheetbench as sb
 from comparisons.cli.app import verb_group
-from fem_reference.shell import statics
+from fem_reference import statics
 from fem_reference.shell.validity import STRETCHED
 from sheetbench import scenes
 from sheetbench.answers.answer import Answer
@@ -165,7 +165,7 @@ def test_advice_names_options_that_compare_has():
 
 def test_a_sheet_divided_evenly_after_all_says_so_in_a_field(monkeypatch):
     scene = scenes.load("one-edge-clamped")
-    even = statics.solve(scene, elements=4, graded=False)
+    even = fem_reference.solve(scene, "shell", elements=4, graded=False)
     monkeypatch.setattr(statics, "stretched", lambda path: STRETCHED)
     found = fem_reference.solve(scene, model="shell", elements=4)
     assert found.fallback == found.message == "divided evenly, for it bends much" and not even.fallback

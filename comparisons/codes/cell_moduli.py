@@ -216,13 +216,10 @@ def homogenise(
     return CellModuli(scene, cell, chosen, off, missing, moduli_of(cell, chosen), others)
 
 
-def given_coefficients(entries: Sequence[Mapping[str, float] | str]) -> dict[str, float]:
-    """Return coefficients by name from NAME=VALUE texts or mappings. Raises BadInput for what is neither."""
+def given_coefficients(entries: Sequence[str]) -> dict[str, float]:
+    """Return coefficients by name from NAME=VALUE texts. Raises BadInput for what is none."""
     given: dict[str, float] = {}
     for entry in entries:
-        if not isinstance(entry, str):
-            given |= entry
-            continue
         name, _, value = entry.partition("=")
         try:
             given[name] = float(value)

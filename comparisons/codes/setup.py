@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from math import ceil
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,7 @@ from comparisons.codes.coefficients import (
     triangular_cell,
 )
 from comparisons.codes.files import OBSTACLES, OWN_MASSES, WRITERS, Problem, files
-from comparisons.codes.sheet_mesh import SheetMesh, refusal, sheet_mesh, with_layers
+from comparisons.codes.sheet_mesh import refusal, sheet_mesh, with_layers
 from comparisons.codes.table import CODES, Code
 from comparisons.models.grids import GridLike
 from sheetbench.answers.files import write_text
@@ -37,7 +36,6 @@ from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice, require_effect
 from sheetbench.scenes import (
-    EDGES,
     AnyScene,
     Material,
     Scene,
@@ -51,7 +49,6 @@ from sheetbench.scenes.meaning.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
-PEAK = 2.0  # shear next to corners, over the mean along held edges
 NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 
 
@@ -87,11 +84,6 @@ class CodeSetup(CellInScene):
         clamp = 2.0 if self.best and self.code.hinge != "height" else 1.0
         return Problem(flat, keys, stretching, tetrahedra, clamp)
 
-    @property
-    def mesh(self) -> SheetMesh:
-        """The mesh of the files."""
-        return self.problem.mesh
-
     def heading(self) -> tuple[str, str, str]:
         where = f"{self.code.mesh}, {self.squares} squares along the shorter side"
         return (
@@ -114,8 +106,6 @@ class CodeSetup(CellInScene):
         notes = list[str]()
         if why := self._refused():
             notes.append(f"No files: {why}.")
-        elif coarse := self._too_coarse():
-            notes.append(coarse)
         if left := undamped(self.code, self.scene.material):
             notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Coefficients of hinges and springs {chosen}.")
@@ -141,30 +131,6 @@ class CodeSetup(CellInScene):
         if self.scene.obstacles and self.code.name not in OBSTACLES:
             return f"obstacle: {self.code.title} is not given it, {' and '.join(OBSTACLES)} are"
         return refusal(self.scene)
-
-    def _too_coarse(self) -> str:
-        """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
-
-        A spring from layer to layer rises by the height H over a side l of a square. Where it rises by s
-        still its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts
-        instead.
-        """
-        if self.code.mesh != LAYERED or len(self.scene.supports) < 2:
-            return ""
-        mesh, sides = self.mesh, self.scene.sheet.lengths
-        height, side = self.coefficients["layers"], min(sides) / self.squares
-        borne = self.coefficients["k"] * (height / side) ** 3 / 27.0**0.5
-        free = (mesh.masses[:, None] * mesh.gravity + mesh.forces)[~mesh.held].sum(axis=0)
-        held = sum(sides[1 - EDGES[support.edge].normal_axis] for support in self.scene.supports)
-        load = float(np.linalg.norm(free)) / held
-        if PEAK * load <= borne:
-            return ""
-        enough = 1 + ceil(self.squares * (PEAK * load / borne) ** (1.0 / 3.0))
-        return (
-            f"The mesh may be too coarse: springs between layers {1e3 * height:.2g} mm apart in squares of "
-            f"{1e3 * side:.3g} mm turn over at a shear of {borne:.2g} N/m, and held edges carry {load:.2g} "
-            f"N/m on average; the sheet then hangs too low. Take --grid {enough} or more."
-        )
 
     def document(self) -> dict[str, Any]:
         return {

@@ -17,7 +17,6 @@ from comparisons.codes.coefficients import moduli_of
 from comparisons.codes.files import OWN_MASSES, WRITERS, _geom
 from comparisons.codes.setup import setup
 from comparisons.codes.sheet_mesh import sheet_mesh
-from comparisons.scoring.reference import references
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Plane, PointLoad, Sphere
@@ -81,7 +80,7 @@ def of_json(folder):
 )
 def test_files_read_back_hold_masses_gravity_held_vertices_and_loads(code, read, tmp_path):
     made = written(code, tmp_path)
-    mesh = made.mesh
+    mesh = made.problem.mesh
     places, masses, held, gravity, forces = read(tmp_path)
     free = ~mesh.held
     assert np.array(places).tolist() == mesh.vertices.tolist() and list(held) == mesh.held.tolist()
@@ -109,7 +108,7 @@ def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
     mujoco = pytest.importorskip("mujoco")
     made = written("mujoco", tmp_path)
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "mujoco.xml"))
-    data, mesh = mujoco.MjData(model), made.mesh
+    data, mesh = mujoco.MjData(model), made.problem.mesh
     total = stiffness(mesh, made.coefficients)
     free = np.flatnonzero(~mesh.held)
     for axes in ([0, 1], [2]):
@@ -126,7 +125,7 @@ def test_mujocos_forces_are_our_energys_on_the_same_mesh(tmp_path):
 @pytest.mark.usefixtures("coarse_limits")
 def test_mujocos_script_steps_until_forces_balance(tmp_path, monkeypatch, capsys):
     mujoco = pytest.importorskip("mujoco")
-    mesh, states, step = written("mujoco", tmp_path).mesh, [], mujoco.mj_step
+    mesh, states, step = written("mujoco", tmp_path).problem.mesh, [], mujoco.mj_step
     monkeypatch.setattr(mujoco, "mj_step", lambda model, data: states.append(data) or step(model, data))
     runpy.run_path(str(tmp_path / "run_mujoco.py"))["main"]()
     said = json.loads(capsys.readouterr().out)
@@ -146,7 +145,7 @@ def test_two_layers_of_equal_springs_bend_as_a_sheet_of_a_third(tmp_path):
     assert found.bending == pytest.approx(expected, rel=1e-9, abs=1e-12)
     written("pybullet", tmp_path)
     read = meshio.read(tmp_path / "sheet.vtk")
-    assert read.points.tolist() == made.mesh.vertices.tolist()
+    assert read.points.tolist() == made.problem.mesh.vertices.tolist()
     assert read.cells_dict["tetra"].tolist() == made.problem.tetrahedra.tolist()
 
 
@@ -159,9 +158,9 @@ def test_a_payload_is_in_the_masses_of_codes_that_have_them(code):
     if code not in OWN_MASSES:
         assert not laden.files() and "No files: mass: " in " ".join(laden.notes())
         return
-    more = laden.mesh.masses - bare.mesh.masses
+    more = laden.problem.mesh.masses - bare.problem.mesh.masses
     assert more.sum() == pytest.approx(0.02)
-    assert more @ laden.mesh.vertices[:, :2] / 0.02 == pytest.approx([0.11, 0.1])
+    assert more @ laden.problem.mesh.vertices[:, :2] / 0.02 == pytest.approx([0.11, 0.1])
     assert laden.files()
     turning = scene.replace(masses=({"at": (0.1, 0.1), "mass": 0.02, "inertia": (1e-6,) * 3},))
     assert "mass.inertia: their vertices are points" in " ".join(setup(turning, code, 4, best=False).notes())
@@ -193,14 +192,6 @@ def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(kept):
 def test_what_a_code_does_not_have_is_said():
     curved = setup(scenes.load("curved-edge"), "newton", 4, best=False)
     assert not curved.files() and curved.notes()[0].startswith("No files")
-
-
-@pytest.mark.usefixtures("coarse_limits")
-@pytest.mark.parametrize(("squares", "grid"), [(8, 28), (40, None)])
-def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(squares, grid):
-    """Two layers of springs in a thin sheet: with 8 squares shear turns over 39 % of those between them."""
-    notes = setup(references("statics")["thin"].scene, "pybullet", squares, best=False).notes()
-    assert [f"--grid {grid} or more" in note for note in notes if "too coarse" in note] == [True] * bool(grid)
 
 
 @pytest.mark.usefixtures("coarse_limits")

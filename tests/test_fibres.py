@@ -92,7 +92,6 @@ SHEETS = {
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", SHEETS)
 def test_lattice_and_shell_agree(name):
-    """Within 2 % of the largest displacement with 17 masses on a side, and no modulus missed."""
     scene = SHEETS[name]
     springs = lattice(scene, 17)
     assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli)

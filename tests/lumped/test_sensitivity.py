@@ -70,7 +70,6 @@ def test_parameters_of_a_scene(base, changes, name, h):
 
 
 def test_at_a_bound_the_difference_is_one_sided():
-    """At the largest ν the slope is that close below, to the distance times the curvature."""
     slopes = []
     for poisson in (0.4999, 0.4999 - 1e-3):
         scene = with_material(scene_of("one-edge-clamped"), poisson=poisson)

@@ -63,7 +63,6 @@ def test_a_table_is_read_as_it_was_written(name):
 
 
 def test_an_even_sheet_is_calibrated_once():
-    """A second call costs no closed form; another sheet has its own."""
     plan, material = Sheet(0.1, 0.1, 0.002), Material(1e6, 0.3, 1e3)
     first = lumped.calibrate(plan, material, 5)
     assert lumped.calibrate(plan, material, 5) is first

@@ -11,6 +11,7 @@ import fem_reference
 import lumped
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes.objects.grid import grid_of
 
 SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
@@ -82,6 +83,13 @@ def with_constants(calibration: lumped.Calibration, **constants: float) -> lumpe
 def relative(u: np.ndarray, reference: np.ndarray) -> float:
     """The design's error: largest difference over the largest component."""
     return float(np.abs(u - reference).max() / np.abs(reference).max())
+
+
+def calibrated(scene: Scene, grid: Any = 3, grading: Any = 0.0, **settings: Any) -> lumped.Calibration:
+    """The springs of a scene's cells on a grid as `grid_of` takes it."""
+    grid = grid_of(scene.sheet, grid)
+    cells = lumped.sections_of(scene, grid, grading)
+    return lumped.calibrate(scene.sheet, scene.material, grid, cells=cells, grading=grading, **settings)
 
 
 def elastica_tip(

@@ -74,7 +74,7 @@ class DiscreteSolid(DiscreteElements):
         super().__init__(scene, moving)
         columns, material = columns_of(mesh, scene, layers, law)
         self.columns, self.plan = columns, columns.plan
-        self.any_strain = LAWS[law].stands_any_strain
+        self.any_strain = not LAWS[law].quadratic
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
         self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)

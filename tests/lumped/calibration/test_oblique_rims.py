@@ -12,7 +12,6 @@ import lumped
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import plan_spacing
-from lumped.calibration.edge_twist import layer_width
 from lumped.spring_constants import Springs, of_edge_cells
 from sheetbench.scenes import Cells, Scene, SpringSet
 from sheetbench.scenes.objects.grid import grid_of
@@ -101,7 +100,7 @@ def lost(strip, method):
 def test_a_strip_at_any_angle_loses_the_width_of_twist_that_a_plate_loses(angle, cells, without):
     """h/√10 a side, within 8 % in cells of half to twice the thickness; without it 18 to 45 % less."""
     strip = Strip(angle, cells * THICKNESS, RUBBER)
-    target = layer_width(THICKNESS)
+    target = THICKNESS / np.sqrt(10.0)
     assert lost(strip, "consistent") == pytest.approx(target, rel=0.08)
     assert lost(strip, "consistent-interior") < (1.0 - without) * target
 

@@ -195,16 +195,11 @@ def test_what_is_not_modelled_is_refused_as_such(tmp_path, text, key):
     assert "did you mean" not in said and "unknown key" not in said
 
 
-@pytest.mark.parametrize(
-    ("ask", "message"),
-    [
-        (lambda: setattr(MATERIAL, "young", 1.0), r"Material.young cannot be changed.*replace\(young=…\)"),
-        (lambda: sb.load("two-edge-clamped"), "did you mean two-edges-clamped"),
-    ],
-)
-def test_a_refusal_says_what_is_meant(ask, message):
-    with pytest.raises(sb.SceneError, match=message):
-        ask()
+def test_a_refusal_says_what_is_meant():
+    with pytest.raises(sb.SceneError, match=r"Material.young cannot be changed.*replace\(young=…\)"):
+        MATERIAL.young = 1.0
+    with pytest.raises(sb.SceneError, match="did you mean two-edges-clamped"):
+        sb.load("two-edge-clamped")
 
 
 def test_no_key_that_a_scene_has_is_said_not_to_be_modelled():

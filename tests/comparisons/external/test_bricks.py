@@ -46,6 +46,9 @@ def test_forces_add_up_and_act_where_they_should(bricks):
         middle = pull[:, 2] @ bricks.positions / pull[:, 2].sum()
         np.testing.assert_allclose(middle, (*at, 0.0), atol=1e-12)
     triangles = Triangles.of(SEED.sheet, 4)
+    first, *others = np.moveaxis(triangles.positions[triangles.elements], 1, 0)
+    twice = np.cross(*(other - first for other in others))[:, 2]
+    assert twice.min() > 0.0 and twice.sum() / 2.0 == pytest.approx(0.188**2)
     for one in (point, line):
         pull = problem(changed(loads=(one,)), triangles, np.ones(1))["force"]
         np.testing.assert_allclose(pull.sum(axis=0), forces(changed(loads=(one,)), bricks).sum(axis=0))

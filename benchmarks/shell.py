@@ -26,7 +26,6 @@ from sheetbench.scenes import load  # noqa: E402
 ELEMENTS, REPEATS = (4, 8, 16, 32), 6
 ASSEMBLY = ("forces", "system", "advance", "imbalance", "gap", "length")
 FACTORS = ("factor", "solve")
-OUTSIDE = ("DiscreteShell", "answered")
 
 
 class Clock:
@@ -63,8 +62,8 @@ class Clock:
 
 def watched() -> Clock:
     """Return a clock of the shell's functions."""
+    from fem_reference import sheets, statics
     from fem_reference.discrete.static import Static
-    from fem_reference.shell import statics
     from sheetbench.numerics.direct import DirectSolver, Factor
 
     clock = Clock()
@@ -72,7 +71,8 @@ def watched() -> Clock:
         (Static, ASSEMBLY, "assembly"),
         (DirectSolver, FACTORS[:1], "factors"),
         (Factor, FACTORS[1:], "factors"),
-        (statics, OUTSIDE, "set-up"),
+        (sheets, ("DiscreteShell",), "set-up"),
+        (statics, ("answered",), "set-up"),
     ):
         for name in names:
             clock.watch(owner, name, kind)

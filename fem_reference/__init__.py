@@ -1,27 +1,25 @@
 """Finite-element references of the sheet on scikit-fem, which the lumped model is held against.
 
-`solve(scene, model="shell", elements=16)` answers with a `Solution`; a model is a module with
-`solve(scene, elements=…, **options)`, loaded when it is first requested.
+`solve(scene, model="shell", elements=16)` answers with a `Solution`; models are loaded when they are first
+requested.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cache
 from importlib import import_module
 from inspect import Parameter, signature
 from typing import Any
 
 import numpy as np
 
-from fem_reference.defaults import with_defaults
 from sheetbench.answers.solution import Iteration, Solution
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import AnyScene, scene_of
 from sheetbench.scenes.objects.material import WORDS
 
-MODELS = {name: f"fem_reference.{name}.statics" for name in REFERENCES}
+MODELS = tuple(REFERENCES)
 
 _MOTION = "fem_reference.motion.simulation"
 _LATER = {"buckling": "fem_reference.linear_buckling", "modes": "fem_reference.vibration"}
@@ -50,15 +48,16 @@ def solve(
     >>> solution.status, solution.displacement([[0.188, 0.188]]).round(4)
     (<Status.CONVERGED: 'converged'>, array([[-0.0004, -0.0004, -0.0135]]))
     """
-    scene = scene_of(scene)
-    requested = with_defaults(scene, options(model), requested)
+    known, scene = options(model), scene_of(scene)
+    from fem_reference import sheets, statics
+
+    requested = sheets.with_defaults(scene, known, requested)
     check(model, requested)
-    requested["progress"] = progress
     if near is not None:
         if model != "shell":
             raise BadInput(f"{model}: is not begun near a shape; the shell is")
         requested["near"] = near
-    return _solver(model)(scene, **requested)
+    return statics.solve(scene, model, progress=progress, **requested)
 
 
 def check(model: str, requested: Mapping[str, Any]) -> None:
@@ -77,19 +76,13 @@ def check(model: str, requested: Mapping[str, Any]) -> None:
 
 def options(model: str) -> dict[str, Any]:
     """A reference model's own options with their defaults. Raises BadInput for an unknown model."""
-    _, _, *own = _parameters(model).values()  # behind scene and elements
-    return {p.name: p.default for p in own if p.kind is not Parameter.KEYWORD_ONLY}
-
-
-@cache
-def _parameters(model: str) -> Mapping[str, Parameter]:
-    return signature(_solver(model)).parameters
-
-
-def _solver(model: str) -> Any:
     if model not in MODELS:
         raise BadInput(f"model = {model!r}: known are {', '.join(MODELS)}")
-    return import_module(MODELS[model]).solve
+    from fem_reference.sheets import SHEETS
+
+    _, _, *own = signature(SHEETS[model]).parameters.values()  # behind scene and elements
+    found = {p.name: p.default for p in own if p.kind is not Parameter.KEYWORD_ONLY}
+    return found | ({"branch": "path"} if model == "shell" else {})
 
 
 def __getattr__(name: str) -> Any:

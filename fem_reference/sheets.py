@@ -1,22 +1,109 @@
-"""The discrete sheet of a scene by model: what modes, buckling and motions divide a sheet into."""
+"""The discrete sheet of a scene by model: what statics, modes, buckling and motions divide a sheet into."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 import numpy as np
 
 from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.plate.statics import plate
-from fem_reference.shell.statics import shell
-from fem_reference.solid.statics import solid
-from sheetbench.errors import NoEquilibrium
+from fem_reference.plate.discrete import DiscretePlate
+from fem_reference.shell.discrete import DiscreteShell
+from fem_reference.solid.discrete import DiscreteSolid
+from fem_reference.surface.borders import borders_of
+from fem_reference.surface.materials import Section
+from fem_reference.surface.mesh import Elements, has_lines, mesh_of
+from sheetbench.choices import STRAIN_LAW
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
+from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
 
+GRADINGS = ("edges", "uniform")
+
+
+def plate(
+    scene: Scene,
+    elements: Elements = 16,
+    hard_edges: tuple[str, ...] = (),
+    section: Section | None = None,
+    graded: bool | None = None,
+    *,
+    moving: bool = False,
+    reach: float = 1.0,
+) -> DiscretePlate:
+    """Return the discrete plate on elements along the shorter side (near-square), or (nx, ny).
+
+    graded: finer towards the edges, or equal elements; unless given, where an edge lets twist go. hard_edges:
+    edges on which the tilt along the edge is held as well. A hinged support is soft; with its edge hard it is
+    the simple support of the published Mindlin benchmarks. section: stiffness per width, from material and
+    thickness unless given; reach: of the grading (`mesh.mesh_of`).
+    """
+    if graded is None:
+        graded = not scene.twisting_edges() <= set(hard_edges)
+    made = DiscretePlate(mesh_of(scene, elements, graded, reach), scene, section, hard_edges, moving)
+    return made.named(
+        elements, graded=graded, hard_edges=list(hard_edges) or None, section=section and section._asdict()
+    )
+
+
+def shell(
+    scene: Scene,
+    elements: Elements = 16,
+    graded: bool = True,
+    section: Section | None = None,
+    law: str = STRAIN_LAW,
+    *,
+    moving: bool = False,
+    reach: float = 1.0,
+) -> DiscreteShell:
+    """Return the discrete shell; law: one of `shell.laws.LAWS`; other options: as of the plate."""
+    made = DiscreteShell(mesh_of(scene, elements, graded, reach), scene, section, law, moving)
+    return made.named(elements, graded=graded, law=law, section=section and section._asdict())
+
+
+def solid(
+    scene: Scene,
+    elements: Elements = 16,
+    layers: int = 1,
+    law: str = STRAIN_LAW,
+    clamp: str = "shell-like",
+    grading: str = "edges",
+    *,
+    moving: bool = False,
+    reach: float = 1.0,
+) -> DiscreteSolid:
+    """Return the discrete solid, whose mesh is the same whatever the reach. Without lines along x and y it
+    has no rows along its rim, for thin curved bricks keep corrections from shrinking.
+
+    layers: bricks through the thickness; law: a key of `solid.materials.LAWS`; clamp: one of
+    `solid.supports.CLAMPS`; grading: one of `GRADINGS`.
+    """
+    if grading not in GRADINGS:
+        raise BadInput(f"grading = {grading!r}: known are {', '.join(GRADINGS)}")
+    mesh = mesh_of(scene, elements, graded=grading == "edges" and has_lines(borders_of(scene)))
+    made = DiscreteSolid(mesh, scene, layers, law, clamp, moving)
+    layers = made.columns.layers
+    return made.named(elements, f" × {layers}", grading=grading, layers=layers, law=law, clamp=clamp)
+
+
 SHEETS: dict[str, Callable[..., DiscreteElements]] = {"plate": plate, "shell": shell, "solid": solid}
+
+
+def with_defaults(scene: Scene, known: Collection[str], requested: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options requested and, of those that a model knows, the law of the scene's rubber, and that
+    a mesh is not graded which is the user's own, or whose edges are all clamped.
+
+    These have no layer of twist (`edge_layer`); elements finer towards them are only larger elsewhere: with 8
+    a sheet bent by less than its thickness is 3 to 30 times as far off, and its error bars miss."""
+    decided: dict[str, Any] = {}
+    if scene.material.law is not None:
+        decided["law"] = scene.material.law
+    if scene.sheet.mesh is not None or not (scene.twisting_edges() or borders_of(scene)):
+        decided["graded"] = False
+    return {name: value for name, value in decided.items() if name in known} | dict(requested)
 
 
 def start(sheet: DiscreteElements) -> np.ndarray:

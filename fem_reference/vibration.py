@@ -31,11 +31,10 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference.defaults import with_defaults
 from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.items import Following
-from fem_reference.sheets import SHEETS
+from fem_reference.sheets import SHEETS, with_defaults
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.modes import NaturalModes

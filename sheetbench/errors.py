@@ -6,9 +6,12 @@ other type, a ValueError too, is a fault of the program and shows where it came 
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
+_CONTROL = ("Cc", "Cs", "Zl", "Zp")  # control characters, surrogates, separators of lines and paragraphs
+_TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # change the direction of writing
 FOREIGN = 160  # characters: what was said first is mostly the reason
 
 
@@ -39,9 +42,12 @@ class Implausible(UserWarning):
         super().__init__(printable(text))
 
 
-def printable(text: str) -> str:
-    """The text with its control characters written out, so that none of a file's reaches a terminal."""
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+def printable(text: str, keep: str = "") -> str:
+    """Return the text with its control characters spelled out, as `\\x1b`, but for those in `keep`: none of
+    a file's reaches a terminal."""
+    acting = {c for c in set(text) if c in _TURNING or unicodedata.category(c) in _CONTROL} - set(keep)
+    spelled = {ord(c): c.encode("unicode_escape").decode("ascii") for c in acting}
+    return text.translate(spelled)
 
 
 def require_effect(why: str, options: Mapping[str, object]) -> None:

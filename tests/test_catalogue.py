@@ -7,10 +7,8 @@ import sys
 
 import numpy as np
 import pytest
-from catalogue import CASES, FILE, MODELS, ROUNDED, WITHIN, answer, document
+from catalogue import CASES, FILE, MODELS, OTHERS, ROUNDED, WITHIN, answer, document, scene_of
 from threadpoolctl import threadpool_limits
-
-from sheetbench.scenes import load
 
 pytestmark = pytest.mark.smoke
 
@@ -30,10 +28,14 @@ def test_the_table_has_every_scene_and_model():
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize(("name", "model"), CASES)
 def test_the_answers_are_those_of_the_table(name, model):
-    solution = MODELS[model](load(name))
+    """In as few factorisations; on the way through snaps and folds rounding may cost one more."""
+    solution = MODELS[model](scene_of(name))
     assert solution.balance.allowed <= SHARP * solution.balance.size
-    kept, found = KEPT[name][model], document(load(name), solution)
-    assert found["status"] == kept["status"] and list(found["displacement"]) == list(kept["displacement"])
+    kept, found = KEPT[name][model], document(scene_of(name), solution)
+    assert list(found["displacement"]) == list(kept["displacement"])
+    assert (found["status"], found["load_factor"]) == (kept["status"], kept["load_factor"])
+    assert found["factorisations"] <= kept["factorisations"] + (name in OTHERS)
+    np.testing.assert_allclose(found["snaps"], kept["snaps"], atol=0.02)
     u = places(kept)
     within = ROUNDED.get((name, model), WITHIN) * np.abs(u).max()
     np.testing.assert_allclose(places(found), u, rtol=0.0, atol=within)

@@ -82,9 +82,8 @@ HISTORY = {"time": (0.0, 1.0), "factor": (0.0, 0.5)}
 PAIRS = {  # two scenes, models, and how far apart their answers may be
     "a clamp that moves, an edge that is moved": (
         held(STILL, Clamped("x1", motion=Motion(**COURSE))), moved("x1", (STILL,), **COURSE), ALL, 1e-7),
-    **{f"a clamp tilted at {edge}, an edge that is turned": (
-        held(Clamped(edge, tilt=0.3)), moved(edge, rotation=(turn,)), ALL, 1e-7)
-        for edge, turn in (("x0", (0.0, 0.3, 0.0)), ("y1", (0.3, 0.0, 0.0)))},
+    "a clamp that is tilted, an edge that is turned": (
+        held(Clamped("y1", tilt=0.3)), moved("y1", rotation=((0.3, 0.0, 0.0),)), ALL, 1e-7),
     "a payload, the force of its weight": (
         laden(masses=[{"at": (0.17, 0.013), "mass": 5e-3}]),
         laden(loads=[PointLoad(at=(0.17, 0.013), force=(0.0, 0.0, PULL))]), ALL, 1e-9),

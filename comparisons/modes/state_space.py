@@ -35,6 +35,10 @@ EXPLANATION = (
 )
 
 
+MATRICES = {
+    **{"M": "mass", "C": "damping", "K": "stiffness", "F": "force", "F_rate": "force_rate"},
+    **{"G": "output", "H": "direct", "jacobian": "jacobian"},
+}
 POLES = (
     *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), TableUnit("1/s", "1/s")("z.5g", "real")),
     TableUnit("rad/s", "rad/s")(".5g", "imaginary"),
@@ -97,25 +101,10 @@ class Linearisation(Answer):
 
     def arrays(self) -> dict[str, Any]:
         """Return what `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
-        matrices, space = self.matrices, self.space
-        return {
-            "M": matrices.mass,
-            "C": matrices.damping,
-            "K": matrices.stiffness,
-            "F": matrices.force,
-            "F_rate": matrices.force_rate,
-            "G": matrices.output,
-            "H": matrices.direct,
-            "jacobian": matrices.jacobian,
-            "ss_A": space.a,
-            "ss_B": space.b,
-            "ss_C": space.c,
-            "ss_D": space.d,
-            "frequencies_hz": space.frequencies,
-            "inputs": np.array(matrices.inputs),
-            "outputs": np.array(matrices.outputs),
-            **self._reduction,
-        }
+        full = {name: getattr(self.matrices, of) for name, of in MATRICES.items()}
+        modal = {f"ss_{name.upper()}": getattr(self.space, name) for name in "abcd"}
+        names = {name: np.array(getattr(self.matrices, name)) for name in ("inputs", "outputs")}
+        return {**full, **modal, "frequencies_hz": self.space.frequencies, **names, **self._reduction}
 
     def heading(self) -> tuple[str, str, str]:
         about = "flat sheet" if self.about == "flat" else "equilibrium"

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, Unpack
 
@@ -29,7 +28,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.stability.answer import Stability
 from comparisons.stability.rows import Row
-from comparisons.sweep.campaign import CampaignKeywords, Run
+from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Ask, Solved, sweep
 from comparisons.sweep.store import Store
@@ -58,16 +57,6 @@ FINE, SAMPLES = 400, 40  # steps of the midpoint rule and samples, a period
 PERIODS = 3.0  # of a run
 PARTS = ("patches", "layers")
 RUN_STEPS, RUN_PERIODS = 500, 2.0  # of a run with default steps: explicit steps, lowest periods, at most
-
-
-@dataclass(frozen=True)
-class DefaultSteps(Ask):
-    """A run of an integrator with its default steps about the lowest `period` [s], and its largest step."""
-
-    @property
-    def task(self) -> Run:
-        arguments = {"scene": self.scene.document(), "lattice": self.spec.settings, **self.run}
-        return Run(f"{__name__}:run", arguments, self.label)
 
 
 def stability(
@@ -145,29 +134,19 @@ def _damped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
         if ratio is not None:
             damping = {"damping_time": ratio * period / np.pi, "damping_rate": 0.0}
             there = scene.replace(material=scene.material.replace(**damping))
-        for name in INTEGRATORS:
+        springs = resolve(there, lattice, "springs").springs
+        for name, integrator in lumped.INTEGRATORS.items():
+            tags, duration = _tags("damping", damping_ratio=ratio, integrator=name), RUN_PERIODS * period
+            if integrator.explicit and not scene.chains():  # else it is refused
+                flat = there.replace(gravity=None, loads=())
+                equations = lumped.System(flat, lumped.build_problem(flat, springs))
+                limit = integrator.limit(equations, np.zeros_like(equations.problem.loads.dead))
+                assert limit is not None
+                tags |= {"computed": limit.step, "advised": limit.advised}
+                duration = min(duration, RUN_STEPS * limit.advised)
             label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
-            tags = _tags("damping", damping_ratio=ratio, integrator=name)
-            run = {"integrator": name, "period": period}
-            yield DefaultSteps(there, lattice, run=run, tags=tags, label=label), None
-
-
-def run(scene: dict[str, Any], lattice: dict[str, Any], integrator: str, period: float) -> dict[str, Any]:
-    """Run an integrator with its default steps, a task; of an explicit one the largest stable step [s] from
-    the lattice's highest frequency (`computed`) and the default one (`advised`) too."""
-    parsed = Scene.model_validate(scene)
-    springs = resolve(parsed, Lattice(**lattice), "springs").springs
-    duration, limits = RUN_PERIODS * period, dict[str, float]()
-    if lumped.INTEGRATORS[integrator].explicit:
-        flat = parsed.replace(gravity=None, loads=())
-        equations = lumped.System(flat, lumped.build_problem(flat, springs))
-        limit = lumped.INTEGRATORS[integrator].limit(equations, np.zeros_like(equations.problem.loads.dead))
-        assert limit is not None
-        limits = {"computed": limit.step, "advised": limit.advised}
-        duration = min(duration, RUN_STEPS * limit.advised)
-    history = lumped.simulate(parsed, springs, duration, integrator=integrator, every=duration)
-    ended = {"status": str(history.status), "message": history.message, "iterations": history.steps}
-    return {**limits, **ended}
+            how: dict[str, Any] = {"duration": duration, "every": duration / SAMPLES, "label": label}
+            yield Ask(there, lattice, run={"integrator": name}, tags=tags, **how), None
 
 
 def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
@@ -220,9 +199,8 @@ def _stiffer(part: Patch | Layer, factor: float) -> Patch | Layer:
 def _row(found: Solved, truth: Solved | None) -> Row:
     """Return a cell's row: how it ended, and its error where its reference has an answer too."""
     steps = found.row.get("iterations") or found.row.get("steps")
-    known = {name: found.row[name] for name in ("computed", "advised") if name in found.row}
     row: Row = {**found.ask.tags, "error": None, "iterations": steps, "seconds": found.run_seconds}
-    row |= {"status": found.status, "message": found.message, **known}
+    row |= {"status": found.status, "message": found.message}
     if truth is None or not found.stable or not truth.stable:
         return row
     if (found.ask.spec, found.ask.run) == (truth.ask.spec, truth.ask.run):

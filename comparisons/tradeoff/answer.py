@@ -10,7 +10,7 @@ from typing import Any
 from comparisons.sweep import load
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
 from comparisons.sweep.model_error import share_of_tolerance
-from comparisons.tradeoff.row import TRADED, MotionRow, TradeoffRow
+from comparisons.tradeoff.row import MOVED, TRADED, MotionRow, TradeoffRow
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.solution import Status, comparable
@@ -19,10 +19,6 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 
 STATED = 0.01  # the tolerance whose parts are said
-SHOWN_MOTION = (
-    *("model", "size", "integrator", "step", "steps", "unknowns", "seconds_per_second", "peak_memory_bytes"),
-    *("error", "step_error", "period_error", "damping", "front", "status"),
-)
 
 
 class Priced(Answer):
@@ -231,12 +227,13 @@ class DynamicTradeoff(Priced):
             "the lattice's steps; period: its error; damping: damping ratio"
         )
         front = self.front
-        rows = [replace(row, front=i in front) for i, row in enumerate(self.rows)]
-        return (Table.of(MotionRow, rows, caption, "motion", fields=SHOWN_MOTION),)
+        rows = ({**row.as_dict(), "front": i in front} for i, row in enumerate(self.rows))
+        columns = (replace(one, name=one.name or key.replace("_", " ")) for key, one in MOVED.items())
+        return (Table.listed(caption, columns, ([row[key] for key in MOVED] for row in rows), "motion"),)
 
     def notes(self) -> list[str]:
         lattices = " · ".join(self.lattices)
-        of = f"{self.reference.model} with {self.reference.size} elements"
+        of = f"{self.reference.model} with {self.reference.ask.spec.size} elements"
         return [
             f"errors: at the probes, against the {of}; uncertainty of that reference: {self.known}",
             *([f"{lattices}; lowest period {self.lowest_period:.4g} s"] if lattices else []),

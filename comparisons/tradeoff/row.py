@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
-from typing import Annotated, Any
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +27,18 @@ TRADED = (
     *(MILLISECONDS(".2f", "to", detail=True), MEMORY(".1f", "memory"), PERCENT(".3g", "error")),
     *(FRONT, Column("status", detail=True)),
 )
+OF_A_RUN = ("unknowns", "steps", "peak_memory_bytes", "load_average", "machine", "versions")
+OF_A_MOTION = ("step_error", "period", "period_error", "damping", "damping_error")
+MOVED = {
+    **{"model": Column(), "size": Column(), "integrator": Column(), "step": MILLISECONDS(".3g")},
+    **{"steps": NUMBER("d", detail=True), "unknowns": NUMBER("d", detail=True)},
+    **{
+        "seconds_per_second": TableUnit("s/s", "s/s")(".3g", "cost"),
+        "peak_memory_bytes": MEMORY(".1f", "memory"),
+    },
+    **{"error": PERCENT(".3g"), "step_error": PERCENT(".2g"), "period_error": PERCENT("z.2f", "period")},
+    **{"damping": PERCENT("z.2f"), "front": FRONT, "status": Column(detail=True)},
+}
 
 
 @dataclass(frozen=True)
@@ -102,74 +114,56 @@ def _cells(settings: Mapping[str, Any]) -> int | None:
 
 
 @dataclass(frozen=True)
-class MotionRow:
+class MotionRow(TradeoffRow):
     """A run of a model's motion beside the reference's.
 
-    size: the grid, or the elements; step [s]: fixed, or the mean of steps that keep to an error;
-    seconds_per_second: the solver's time in a simulated second; error: the largest of the displacement's,
-    a fraction of the reference's largest; step_error: likewise against the same lattice in fine steps;
-    period [s] and damping ratio as `comparisons.comparison.measures` has them, and how far they are off: the
-    period by a fraction, the damping by a difference. None where a run has no answer, or does not swing.
+    error: the largest of the displacement's, a fraction of the reference's largest; step_error: likewise
+    against the same lattice in fine steps; period [s] and damping ratio as `comparisons.comparison.measures`
+    has them, and how far they are off: the period by a fraction, the damping by a difference. None where a
+    run has no answer, or does not swing.
     """
 
-    model_error, samples = None, ()
-    model: str
-    size: str
-    integrator: str
-    step: Annotated[float | None, MILLISECONDS(".3g")]
-    status: Annotated[str, Column(detail=True)]
-    message: str
-    unknowns: Annotated[int | None, NUMBER("d", detail=True)] = None
-    steps: Annotated[int | None, NUMBER("d", detail=True)] = None
-    seconds_per_second: Annotated[float | None, TableUnit("s/s", "s/s")(".3g", "cost")] = None
-    peak_memory_bytes: Annotated[float | None, MEMORY(".1f", "memory")] = None
-    error: Annotated[float | None, PERCENT(".3g")] = None
-    step_error: Annotated[float | None, PERCENT(".2g", "step error")] = None
+    step_error: float | None = None
     period: float | None = None
-    period_error: Annotated[float | None, PERCENT("z.2f", "period")] = None
-    damping: Annotated[float | None, PERCENT("z.2f")] = None
+    period_error: float | None = None
+    damping: float | None = None
     damping_error: float | None = None
-    load_average: float | None = None
-    machine: Mapping[str, Any] | None = None
-    versions: Mapping[str, Any] | None = None
-    front: Annotated[bool, FRONT] = False
 
     @classmethod
     def of(cls, found: Solved, truth: Solved, own: Solved | None = None) -> MotionRow:
-        """Return the row of a run: its settings, cost, and errors; own: the same lattice in fine steps."""
-        spec, requested, steps = found.ask.spec, found.ask.run, found.row.get("steps")
-        history, reference, duration = found.history, truth.history, found.ask.duration or 0.0
-        ended = cls(
-            model=spec.model,
-            size=spec.size,
-            integrator=requested.get("integrator", ""),
-            step=requested.get("step") or (duration / steps if history is not None and steps else None),
-            status=found.status,
-            message=found.message,
-            steps=steps,
-        )
+        """Return the row of a run; own: the same lattice in fine steps."""
+        history, reference = found.history, truth.history
         if history is None or reference is None:
-            return ended
+            return cls(**vars(found))
         off, (mine, theirs) = difference(history, reference), measured_alike(history, reference)
         fine = None if own is None else own.history
-        damping = None if mine.damping is None or theirs.damping is None else mine.damping - theirs.damping
-        return replace(
-            ended,
-            unknowns=found.row["unknowns"],
-            **found.row["cost"],
-            seconds_per_second=history.solve_seconds / duration,
-            error=off["largest"],
-            step_error=None if fine is None else largest(history, fine),
-            period=mine.period,
-            period_error=off["period"],
-            damping=mine.damping,
-            damping_error=damping,
+        step_error = None if fine is None else largest(history, fine)
+        damped = None if mine.damping is None or theirs.damping is None else mine.damping - theirs.damping
+        swings = dict(
+            zip(OF_A_MOTION, (step_error, mine.period, off["period"], mine.damping, damped), strict=True)
         )
+        return cls(**vars(found), error=off["largest"], **swings)
+
+    @property
+    def step(self) -> float | None:
+        """The step [s]: fixed, or the mean of steps that keep to an error."""
+        mean = (self.ask.duration or 0.0) / self.row["steps"] if self.usable and self.row["steps"] else None
+        return self.ask.run.get("step") or mean
+
+    @property
+    def cost(self) -> float | None:
+        """The solver's time in a simulated second."""
+        return self.row["solve_seconds"] / self.ask.duration if self.usable else None
+
+    @property
+    def integrator(self) -> str:
+        """Where there is a choice."""
+        return str(self.ask.run.get("integrator", ""))
 
     @property
     def run(self) -> str:
-        """The model with its size, and the integrator where there is a choice."""
-        return " ".join(filter(None, [self.model, self.size, self.integrator]))
+        """The model with its size and integrator."""
+        return " ".join(filter(None, (self.model, self.ask.spec.size, self.integrator)))
 
     @property
     def name(self) -> str:
@@ -183,17 +177,11 @@ class MotionRow:
 
     @property
     def mark(self) -> str:
-        return milliseconds(self.step) if self.step else self.size
-
-    @property
-    def cost(self) -> float | None:
-        """The solver's time in a simulated second."""
-        return self.seconds_per_second
+        return milliseconds(self.step) if self.step else self.ask.spec.size
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON; machine and versions where there is an answer."""
-        found = asdict(self)
-        del found["front"]  # the document has the rows' numbers
-        if self.machine is None:
-            del found["machine"], found["versions"]
-        return found
+        """For JSON."""
+        own: dict[str, Any] = {"model": self.model, "size": self.ask.spec.size, "integrator": self.integrator}
+        own |= {"step": self.step, "status": self.status, "message": self.message}
+        own |= {name: self.known.get(name) for name in OF_A_RUN} | {"seconds_per_second": self.cost}
+        return own | {"error": self.error, **{name: getattr(self, name) for name in OF_A_MOTION}}

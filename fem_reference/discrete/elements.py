@@ -29,10 +29,12 @@ if TYPE_CHECKING:
 
 class DiscreteElements(Discrete):
     """element: all elements; pattern: of the tangent, the plan's elements first and then the rods' sides;
-    per_vector: 1 of an element's positions (a,), of its directors 1 over the lever."""
+    per_vector: 1 of an element's positions (a,), of its directors 1 over the lever. creep: drag σ and strains
+    e_n (m, k) of a step of creep, which adds σ D (e − e_n) to the stresses, of D at no strain."""
 
     element: Element | Bricks
     creeps: ClassVar[bool] = False
+    creep: tuple[float, np.ndarray] | None = None
     pattern: Pattern
     per_vector: np.ndarray
 
@@ -157,8 +159,7 @@ class DiscreteElements(Discrete):
     def dragged(self, shape: SheetShape, drag: float) -> Self:
         """The sheet whose equilibrium is the end of a step of creep from a shape, against drag σ."""
         slow = copy(self)
-        assert isinstance(self.element, Element)
-        slow.element = self.element.dragged(shape.strain, drag)
+        slow.creep = drag, shape.strain
         slow.bodies = [body.dragged(shape, drag) for body in self.bodies]
         return slow
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from fem_reference.shell.element import weighed
 from sheetbench.scenes.objects.relaxation import BranchStep
 
 
@@ -64,12 +65,17 @@ class SheetShape:
     @cached_property
     def elastic(self) -> Any:
         """Elastic stress (m, k)."""
-        return self.sheet.element.stress(self.strain)
+        stress, element = self.sheet.element.stress(self.strain), self.sheet.element
+        if self.sheet.creep is None:
+            return stress
+        drag, past = self.sheet.creep
+        return stress + drag * weighed(element.stiffness, self.strain - past)
 
     @cached_property
     def moduli(self) -> Any:
         """Derivative (m, k, k) of the elastic stress by the strain."""
-        return self.sheet.element.moduli(self.strain)
+        moduli, element = self.sheet.element.moduli(self.strain), self.sheet.element
+        return moduli if self.sheet.creep is None else moduli + self.sheet.creep[0] * element.stiffness
 
     @cached_property
     def rate(self) -> Any:

@@ -41,6 +41,8 @@ from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
 
+UP = np.array([0.0, 0.0, 1.0])
+
 
 class Discrete(ABC):
     """N = `size` coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
@@ -222,26 +224,39 @@ class Discrete(ABC):
         held = self.exerted(shape.q, residual)
         return edges, *exerted(self.scene, edges, self.supports.moved, held)
 
+    @property
     @abstractmethod
+    def onto_surface(self) -> csr_matrix:
+        """Derivatives (6 n, N) of the nodes' positions φ, then their directors d, by the coordinates, which
+        they are linear in."""
+
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
         """Forces (N,) of dead ones on the mid-surface (n, 3)."""
+        return np.asarray(self.onto_surface.T @ np.append(dead, np.zeros_like(dead)))
 
     @abstractmethod
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         """Coordinates (N,) of displacements and changes of the directors of the plan's nodes, (n, 3)."""
 
+    @cached_property
+    def both(self) -> np.ndarray:
+        """φ, then d at the nodes of the plan's elements (m, 18), among those of all nodes (2 n,)."""
+        return np.concatenate([self.plan.elements, self.nodes + self.plan.elements], axis=1)
+
     def on_surface(self, q: np.ndarray) -> np.ndarray:
         """Position φ and director d at the nodes of the plan's elements, (m, 18, 3)."""
-        surface, on = self.surface(q), self.plan.elements
-        return np.concatenate([surface.position[on], surface.director[on]], axis=1)
+        surface = self.surface(q)
+        return np.concatenate([surface.position, surface.director])[self.both]
 
-    @abstractmethod
     def surface_change(self, change: np.ndarray) -> np.ndarray:
-        """Their change (m, 18, 3) with the coordinates (N,), which it is linear in."""
+        """Their change (m, 18, 3) with the coordinates (N,)."""
+        return (self.onto_surface @ change).reshape(-1, 3)[self.both]
 
-    @abstractmethod
     def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
         """Forces (N,) of those on φ and d of elements `on`, (k, 18, 3)."""
+        components = 3 * self.both[on][:, :, None] + np.arange(3)
+        nodal = np.bincount(components.ravel(), pull.ravel(), 6 * self.nodes)
+        return np.asarray(self.onto_surface.T @ nodal)
 
     # what is shown
 
@@ -271,9 +286,10 @@ class Discrete(ABC):
         self.displacement(q)[:] = displacement
         return self.drawn(q)
 
-    @abstractmethod
     def surface(self, q: np.ndarray) -> Surface:
         """The sheet as it lies."""
+        change = (self.onto_surface @ q).reshape(2, -1, 3)
+        return Surface(self.plan, self.flat + change[0], UP + change[1], self.own)
 
     @abstractmethod
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:

@@ -13,11 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference.defaults import with_defaults
 from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.observer import ReferenceObserver
-from fem_reference.sheets import SHEETS
+from fem_reference.sheets import SHEETS, with_defaults
 from fem_reference.vibration import modes
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, listed
@@ -69,7 +68,8 @@ def simulate(
     moving = SHEETS[model](requested, **options, moving=True)
     spacing = every or 1.0 / float(modes(requested, "plate", 4, count=1).frequencies[0]) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)
-    schedule = Schedule(count, duration / count, count)
+    schedule = Schedule(count, duration / count)
+    method = ConstrainedAlpha(moving, step, error, 0.1 * schedule.every)
     settings = {**moving.settings, "step": step or "adaptive", "error": error}
     flat = moving.displacement(np.zeros(moving.mass.shape[0]))
     recipe: Recipe[SheetMotion] = Recipe(
@@ -77,12 +77,11 @@ def simulate(
         label=moving.label,
         integrator="generalised-alpha",
         settings=settings,
-        key={"model": model, "settings": settings, "every": every},
-        duration=duration,
+        key={"model": model, "settings": settings, "duration": duration, "every": every},
         schedule=schedule,
-        method=lambda schedule: ConstrainedAlpha(moving, step, error, 0.1 * schedule.every),
+        method=method,
         observer=ReferenceObserver(moving, requested),
-        start=lambda method: method.start(),
+        start=method.start,
         rows=len(flat),
     )
     history = record(recipe, keeping, began)

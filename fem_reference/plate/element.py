@@ -5,53 +5,45 @@ Kinematics, u = u₀ + ζ β with the director's tilt β (the director is e_z + 
     ε = sym ∇u₀      κ = sym ∇β      γ = ∇w + β
 
 All fields are biquadratic. Taken as it stands, γ = 0 cannot be met pointwise and the thin plate locks, so
-the covariant components γ_ξ = ∂w/∂ξ + β·∂x/∂ξ and γ_η are sampled at 2 × 3 and 3 × 2 Gauss points and
-interpolated from there: MITC9 (Bucalem & Bathe, Int. J. Numer. Meth. Engng 36, 1993). Constant strains
-are represented exactly in any straight-sided quadrilateral, and there are no spurious zero modes.
+the covariant components γ_ξ = ∂w/∂ξ + β·∂x/∂ξ and γ_η are the shell's (`shell.element`) about the flat
+sheet, sampled at 2 × 3 and 3 × 2 Gauss points and interpolated from there: MITC9 (Bucalem & Bathe, Int. J.
+Numer. Meth. Engng 36, 1993). Constant strains are represented exactly in any straight-sided quadrilateral,
+and there are no spurious zero modes.
 Voigt order (xx, yy, 2xy); plan coordinates in metres.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 import numpy as np
 
-from fem_reference.shell.element import weighed
-from fem_reference.surface.biquadratic import (
-    GAUSS,
-    TYING,
-    areas,
-    interpolation,
-    jacobians,
-    product_grid,
-    shape,
-)
+from fem_reference.shell.element import FORMS, Element, cartesian, upright, weighed
+from fem_reference.shell.element import SHEAR as SAMPLED_SHEAR
+from fem_reference.surface.biquadratic import AT_GAUSS, areas, jacobians
 from fem_reference.surface.materials import Section
 
 MEMBRANE, BENDING, SHEAR = slice(0, 3), slice(3, 6), slice(6, 8)
 
 
 @dataclass(frozen=True)
-class PlateElements:
+class PlateElements(Element):
     """m elements, whose strains (ε, κ, γ) at 9 Gauss points each are linear in the change of their vectors:
     e = B q, (9 m, 8).
 
-    reference: φ and d at rest (m, 18, 3); gradient: ∇N at the Gauss points (m, 9, 2, 9); forms: B
-    (m, 72, 54); stiffness: that per strain times a point's area (9 m, 8, 8); areas: (m, 9) [m²].
+    stiffness: that per strain times a point's area (9 m, 8, 8); gradient: ∇N at the Gauss points
+    (m, 9, 2, 9); forms: B (m, 72, 54).
     """
 
-    reference: np.ndarray
     gradient: np.ndarray
     forms: np.ndarray
-    stiffness: np.ndarray
-    areas: np.ndarray
-    stands_any_strain = False
+    parts: ClassVar[dict[str, slice]] = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
 
     @classmethod
-    def build(cls, nodes: np.ndarray, section: Section) -> PlateElements:
+    def build(cls, nodes: np.ndarray, section: Section) -> Self:
         """Of elements with nodes at plan positions (m, 9, 2) [m]."""
-        _, slope = shape(*GAUSS)
+        slope, reference = AT_GAUSS[1], upright(nodes)
         inverse = np.linalg.inv(jacobians(nodes, slope))  # ∂ξ_a/∂x_b, by a and b
         gradient = np.einsum("agi,egab->egbi", slope, inverse)
         m, q = gradient.shape[:2]
@@ -60,13 +52,13 @@ class PlateElements:
             xx, yy, xy = np.moveaxis(forms[:, :, part, of], 2, 0)
             xx[..., 0] = xy[..., 1] = gradient[:, :, 0]
             yy[..., 1] = xy[..., 0] = gradient[:, :, 1]
-        forms[:, :, SHEAR] = np.einsum("egab,egaic->egbic", inverse, _assumed_shear(nodes))
+        sampled = np.einsum("kij,ejc->ekic", FORMS[SAMPLED_SHEAR], reference)
+        forms[:, :, SHEAR] = np.einsum("egak,ekic->egaic", cartesian(nodes)[2], sampled)
         stiffness, weights = np.zeros((m, q, 8, 8)), areas(nodes)
         for part, moduli in zip((MEMBRANE, BENDING, SHEAR), section, strict=True):
             stiffness[:, :, part, part] = weights[..., None, None] * moduli
-        reference = np.zeros((m, 18, 3))
-        reference[:, :9, :2], reference[:, 9:, 2] = nodes, 1.0
-        return cls(reference, gradient, forms.reshape(m, 8 * q, 54), stiffness.reshape(-1, 8, 8), weights)
+        made = stiffness.reshape(-1, 8, 8), weights, gradient, forms.reshape(m, 8 * q, 54)
+        return cls(reference, *made)
 
     def strain(self, change: np.ndarray) -> np.ndarray:
         """e (9 m, 8) of a change (m, 18, 3) of positions and directors."""
@@ -92,34 +84,7 @@ class PlateElements:
         """Σ |B| |s| (18,) by vector, of stresses (9 m, 8)."""
         return self.forces(np.abs(operator), np.abs(stress)).sum(axis=(0, 2))
 
-    def stress(self, strain: np.ndarray) -> np.ndarray:
-        """s (9 m, 8), conjugate to the strains."""
-        return weighed(self.stiffness, strain)
-
-    def moduli(self, strain: np.ndarray) -> np.ndarray:
-        """∂s/∂e (9 m, 8, 8)."""
-        return self.stiffness
-
     def tangent(self, moduli: np.ndarray) -> np.ndarray:
         """Bᵀ D B (m, 54, 54) of moduli (9 m, 8, 8)."""
         m, points = len(self.forms), self.forms.reshape(-1, 8, 54)
         return self.forms.swapaxes(1, 2) @ (moduli @ points).reshape(m, -1, 54)
-
-    def energies(self, strain: np.ndarray) -> dict[str, float]:
-        """Energy [J] of strains (9 m, 8), by part."""
-        density = strain * self.stress(strain)
-        parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
-        return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
-
-
-def _assumed_shear(nodes: np.ndarray) -> np.ndarray:
-    """Covariant shear (γ_ξ, γ_η) at the Gauss points (m, q, 2, 18, 3), from the tying points."""
-    assumed = []
-    for direction, name in enumerate(("rr", "ss")):
-        value, slope = shape(*product_grid(*TYING[name]))
-        tangent = jacobians(nodes, slope)[..., direction]  # (m, 6, x) = ∂x/∂ξ or ∂x/∂η
-        sampled = np.zeros((*tangent.shape[:2], 18, 3))
-        sampled[:, :, :9, 2] = slope[direction]
-        sampled[:, :, 9:, :2] = tangent[:, :, None] * value[..., None]
-        assumed.append(np.einsum("qt,mtic->mqic", interpolation(*TYING[name], GAUSS), sampled))
-    return np.stack(assumed, axis=2)

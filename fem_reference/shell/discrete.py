@@ -1,5 +1,8 @@
 """The discrete shell: positions and directors, five unknowns a node.
 
+Reissner and Mindlin's, of large displacements and rotations, with the energy ½ h E:C:E + h³/24 κ:C:κ +
+½ k h G γ·γ, k = 5/6, or that of another law (`laws`).
+
 q: displacements u and changes d − e_z of the directors of all nodes, (2 n, 3), then those of the rods' own
 third director m, one more director at every node of their edges, (p, 3): in all 2 n + p vectors. Unknowns are
 u and two tangent-plane components β of every director: δd = T β with T ⊥ d. The constraint |d|² = 1 is linear
@@ -18,11 +21,12 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csc_matrix, csr_matrix, eye_array
 from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
+from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.hyperelastic import elements_of
@@ -31,7 +35,6 @@ from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
-from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, cross
 from fem_reference.surface.carried import add_carried
 from fem_reference.surface.materials import Section, constants_of
@@ -44,8 +47,6 @@ from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState
-
-UP = np.array([0.0, 0.0, 1.0])
 
 
 class DiscreteShell(DiscreteElements):
@@ -241,17 +242,12 @@ class DiscreteShell(DiscreteElements):
 
     def gather(self, q: np.ndarray) -> np.ndarray:
         """At the nodes of the elements (m, 18, 3): positions, then directors."""
-        return q.reshape(-1, 3).take(self._both, axis=0)
-
-    @cached_property
-    def _both(self) -> np.ndarray:
-        """Every element's positions, then directors (m, 18), among those of all nodes (2n,)."""
-        return np.concatenate([self.plan.elements, self.nodes + self.plan.elements], axis=1)
+        return q.reshape(-1, 3).take(self.both, axis=0)
 
     @cached_property
     def _components(self) -> np.ndarray:
         """Their components (54 m,) among all (6n,)."""
-        return (3 * self._both.ravel()[:, None] + np.arange(3)).ravel()
+        return (3 * self.both.ravel()[:, None] + np.arange(3)).ravel()
 
     def scatter(self, pull: np.ndarray) -> np.ndarray:
         return np.bincount(self._components, pull.ravel(), self.size)
@@ -287,22 +283,13 @@ class DiscreteShell(DiscreteElements):
         fixed = np.tile(np.eye(3), (len(directors), 1, 1))
         return block_diagonal([fixed] * 3 + [shape.frame[directors[:, i]] for i in range(6)])
 
-    def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
-        """Dead forces turn no director."""
-        out = np.zeros(self.size)
-        out[: dead.size] = dead.ravel()
-        return out
+    @cached_property
+    def onto_surface(self) -> csr_matrix:
+        return eye_array(6 * self.nodes, self.size, format="csr")
 
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
-        return self.on_coordinates(np.concatenate([displacement, turn]))
-
-    def surface_change(self, change: np.ndarray) -> np.ndarray:
-        return self.gather(change)
-
-    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
-        every = np.zeros_like(self.element.reference)
-        every[on] = pull
-        return self.scatter(every)
+        rods = np.zeros(self.size - 6 * self.nodes)
+        return np.concatenate([displacement.ravel(), turn.ravel(), rods])
 
     # what is shown
 
@@ -317,16 +304,9 @@ class DiscreteShell(DiscreteElements):
 
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
-        directors = (q[3 * self.nodes :].reshape(-1, 3) + self._upright)[: self.nodes]
+        directors = UP + q.reshape(-1, 3)[self.nodes : 2 * self.nodes]
         fields |= {"displacement": self.displacement(q), "director": directors}
         return FieldMesh(self.flat, [("quad", quarters(self.plan.elements.T))], fields)
-
-    def surface(self, q: np.ndarray) -> Surface:
-        return Surface(self.plan, self.position(q), self.directors(q)[: self.nodes], self.own)
-
-    def position(self, q: np.ndarray) -> np.ndarray:
-        """φ of the nodes (n, 3) [m]."""
-        return self.flat + self.displacement(q)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)

@@ -26,9 +26,9 @@ digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mod
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
+from typing import ClassVar
 
 import numpy as np
 
@@ -97,15 +97,19 @@ _OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their
 class Element:
     """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²].
 
-    past, drag: e_n (m, 54) and σ of a step of creep (see `pseudo_transient`), which adds σ D (e − e_n) to the
-    stresses, of D at no strain.
+    parts: which strains are whose. coupled: whether D mixes these; stands_any_strain: whether the law is for
+    large strains.
     """
 
     reference: np.ndarray
     stiffness: np.ndarray
     areas: np.ndarray
-    past: np.ndarray | float = field(default=0.0, kw_only=True)
-    drag: float = field(default=0.0, kw_only=True)
+    parts: ClassVar[dict[str, slice]] = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
+    coupled: ClassVar[bool] = False
+
+    @property
+    def stands_any_strain(self) -> bool:
+        return False
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Element:
@@ -151,32 +155,16 @@ class Element:
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s = D e (m, 54), conjugate to the sampled strains."""
-        dragged = strain + self.drag * (strain - self.past) if self.drag else strain
-        return weighed(self.stiffness, dragged)
+        return weighed(self.stiffness, strain)
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D, ∂s/∂e (m, 54, 54) at strains (m, 54)."""
-        return (1.0 + self.drag) * self.stiffness if self.drag else self.stiffness
-
-    @property
-    def coupled(self) -> bool:
-        """Whether D mixes membrane, bending and shear."""
-        return False
-
-    @property
-    def stands_any_strain(self) -> bool:
-        """Whether the law is meant for large strains."""
-        return False
+        return self.stiffness
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
         """Energy [J] of strains e (m, 54), by part."""
         density = strain * self.stress(strain)
-        parts = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
-        return {name: 0.5 * float(density[:, part].sum()) for name, part in parts.items()}
-
-    def dragged(self, strain: np.ndarray, drag: float) -> Self:
-        """The elements in a step of creep from strains (m, 54) with a drag."""
-        return replace(self, past=strain, drag=drag)
+        return {name: 0.5 * float(density[:, part].sum()) for name, part in self.parts.items()}
 
 
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
@@ -218,10 +206,14 @@ def _built(
     stiffness[:, MEMBRANE, MEMBRANE] = integrated(stretching, membrane, areas)
     stiffness[:, BENDING, BENDING] = integrated(bent, bending, areas)
     stiffness[:, SHEAR, SHEAR] = integrated(slanted, shear, areas)
+    return upright(nodes), stiffness, areas
+
+
+def upright(nodes: np.ndarray) -> np.ndarray:
+    """Q₀ (m, 18, 3) of elements with nodes at plan positions (m, 9, 2) [m]."""
     reference = np.zeros((len(nodes), 18, 3))
-    reference[:, :9, :2] = nodes
-    reference[:, 9:, 2] = 1.0
-    return reference, stiffness, areas
+    reference[:, :9, :2], reference[:, 9:, 2] = nodes, 1.0
+    return reference
 
 
 @kept(last=4, most=1 << 16)

@@ -46,6 +46,7 @@ class HyperelasticElement(Element):
     slanted: np.ndarray
     heights: np.ndarray
     weights: np.ndarray
+    coupled = True
 
     @classmethod
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
@@ -72,21 +73,14 @@ class HyperelasticElement(Element):
         force += np.sum(moment * curvature, axis=-1)[..., None] * slope
         shear, leaning = self._shear[..., None], self._slant(stretch, strain)
         force += shear * leaning.by_strain
-        out = self.drag * weighed(self.stiffness, strain - self.past)
-        out[:, MEMBRANE] += np.einsum("egak,ega->ek", self.membrane, force, optimize=True)
-        out[:, BENDING] += np.einsum("egak,ega->ek", self.bending, t[..., None] * moment, optimize=True)
-        out[:, SHEAR] += np.einsum("egak,ega->ek", self.slanted, shear * leaning.by_slant, optimize=True)
-        return out
+        moment, shearing = t[..., None] * moment, shear * leaning.by_slant
+        forms = (self.membrane, force), (self.bending, moment), (self.slanted, shearing)
+        parts = [np.einsum("egak,ega->ek", form, found, optimize=True) for form, found in forms]
+        return np.concatenate(parts, axis=1)
 
     @property
     def stands_any_strain(self) -> bool:
-        """Whether the law is meant for large strains."""
         return self.law.stands_any_strain
-
-    @property
-    def coupled(self) -> bool:
-        """Whether D mixes membrane, bending and shear."""
-        return True
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D (m, 54, 54)."""
@@ -102,18 +96,15 @@ class HyperelasticElement(Element):
         force += np.sum(moment * curvature, axis=-1)[..., None, None] * bend
         t, areas = t[..., None, None], self.areas
         mixed = t * (mixed + outer(slope, turned)) + outer(slope, moment)
-        out = self.drag * self.stiffness
-        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, force, areas)
-        coupled = integrated(self.membrane, mixed, areas, self.bending)
-        out[:, MEMBRANE, BENDING] += coupled
-        out[:, BENDING, MEMBRANE] += coupled.swapaxes(1, 2)
-        out[:, BENDING, BENDING] += integrated(self.bending, t * t * turn, areas)
-        leaning = self._slant(stretch, strain)
+        leaning, out = self._slant(stretch, strain), np.zeros_like(self.stiffness)
+        out[:, MEMBRANE, MEMBRANE] = integrated(self.membrane, force, areas)
         out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, leaning.strains, self._shear)
-        out[:, SHEAR, SHEAR] += integrated(self.slanted, leaning.slants, self._shear)
-        coupled = integrated(self.membrane, leaning.mixed, self._shear, self.slanted)
-        out[:, MEMBRANE, SHEAR] += coupled
-        out[:, SHEAR, MEMBRANE] += coupled.swapaxes(1, 2)
+        out[:, BENDING, BENDING] = integrated(self.bending, t * t * turn, areas)
+        out[:, SHEAR, SHEAR] = integrated(self.slanted, leaning.slants, self._shear)
+        out[:, MEMBRANE, BENDING] = integrated(self.membrane, mixed, areas, self.bending)
+        out[:, MEMBRANE, SHEAR] = integrated(self.membrane, leaning.mixed, self._shear, self.slanted)
+        for part in (BENDING, SHEAR):
+            out[:, part, MEMBRANE] = out[:, MEMBRANE, part].swapaxes(1, 2)
         return out
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:

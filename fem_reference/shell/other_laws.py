@@ -19,10 +19,10 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.discrete.static import Static, StaticState
+from fem_reference.sheets import shell
 from fem_reference.shell.discrete import UP
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.statics import shell
 from sheetbench.answers.solution import Solution
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.numerics.direct import SingularMatrixError

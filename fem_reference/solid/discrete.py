@@ -3,6 +3,13 @@
 q: displacements of all nodes, (n, levels, 3), then changes of the rods' own vectors. Held components c of a
 column, u = Z c (see `supports`), go to their targets in the first step.
 
+    ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
+
+total Lagrangian, on 27-node bricks that lock neither in a thin sheet nor as ν → ½ (`element`). At every edge
+the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns round, at a clamp
+the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers converge like 1/n (a
+full clamp's stress is singular besides): the mesh is graded towards the edges.
+
 Loads act on the sheet as a surface, its mean position x̄ and director D (see `mesh`), with the shell's
 work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
 on D a traction linear in ζ. To first order in the strain the power of pressure and moment is the shell's.
@@ -15,7 +22,17 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from scipy.sparse import block_diag, bsr_matrix, csc_matrix, csr_matrix, identity
+from scipy.sparse import (
+    block_diag,
+    bsr_matrix,
+    csc_matrix,
+    csr_matrix,
+    eye_array,
+    hstack,
+    identity,
+    kron,
+    vstack,
+)
 from skfem import MeshQuad
 
 from fem_reference.discrete.elements import DiscreteElements
@@ -27,7 +44,6 @@ from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import applied, of_scene
 from fem_reference.surface import rod
 from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
-from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
 from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
@@ -148,10 +164,6 @@ class DiscreteSolid(DiscreteElements):
         """The columns' part (n, levels, 3)."""
         return q[: self._cut].reshape(self.columns.positions.shape)
 
-    def _padded(self, on_columns: np.ndarray) -> np.ndarray:
-        """Forces (N,) of those on the columns (n, levels, 3)."""
-        return np.pad(on_columns.ravel(), (0, self.size - self._cut))
-
     # forces
 
     def gather(self, q: np.ndarray) -> np.ndarray:
@@ -223,25 +235,17 @@ class DiscreteSolid(DiscreteElements):
             k, size, size
         )
 
-    def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
-        """Uniform through the thickness."""
-        return self._padded(self.columns.averages[0][:, None] * dead[:, None, :])
+    @cached_property
+    def onto_surface(self) -> csr_matrix:
+        """Means and directors of columns."""
+        n, aside = len(self.plan.nodes), self.size - self._cut
+        rows = (np.kron(weights, np.eye(3)) for weights in self.columns.averages[:, None])
+        of_columns = vstack([kron(eye_array(n), row) for row in rows])
+        return hstack([of_columns, csr_matrix((6 * n, aside))], format="csr")
 
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
-        return self._padded(self.column_supports.spread(np.array([displacement, turn])))
-
-    def surface_change(self, change: np.ndarray) -> np.ndarray:
-        return np.concatenate([*self._averages(self._on_columns(change))[:, self.plan.elements]], axis=1)
-
-    def _averages(self, positions: np.ndarray) -> np.ndarray:
-        """Means and directors (2, n, 3) of columns at positions (n, levels, 3)."""
-        return np.einsum("pl,nlc->pnc", self.columns.averages, positions)
-
-    def of_surface(self, on: np.ndarray, pull: np.ndarray) -> np.ndarray:
-        out = np.zeros_like(self.columns.positions)
-        force = pull.reshape(len(on), 2, 9, 3)
-        np.add.at(out, self.plan.elements[on], np.einsum("epic,pl->eilc", force, self.columns.averages))
-        return self._padded(out)
+        columns = self.column_supports.spread(np.array([displacement, turn]))
+        return np.pad(columns.ravel(), (0, self.size - self._cut))
 
     # what is shown
 
@@ -268,10 +272,6 @@ class DiscreteSolid(DiscreteElements):
 
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         return self.columns.field_mesh(self._on_columns(q))
-
-    def surface(self, q: np.ndarray) -> Surface:
-        mean, director = self._averages(self.columns.positions + self._on_columns(q))
-        return Surface(self.plan, mean, director, self.own)
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         columns, displacement = self.columns, self._on_columns(q)

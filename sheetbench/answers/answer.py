@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 
 class Answer(ABC):
-    """Base of all answers; file_name: of the files under `--out`, page_name: of its tables' in Markdown and
-    LaTeX, where that differs."""
+    """Base of all answers; file_name: of the files under `--out`, page_name: of its tables' in Markdown,
+    where that differs."""
 
     file_name: ClassVar[str] = "answer"
     page_name: ClassVar[str] = ""

@@ -7,19 +7,11 @@ a browser, formulas for a spreadsheet. Every way to show text goes through one o
 from __future__ import annotations
 
 import re
-import unicodedata
 from typing import Any
 
-_CONTROL = ("Cc", "Cs", "Zl", "Zp")  # control characters, surrogates, separators of lines and paragraphs
-_TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # change the direction of writing
+from sheetbench.errors import printable as terminal
+
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
-
-
-def terminal(text: str, keep: str = "") -> str:
-    """Return the text with its control characters spelled out, as `\\x1b`, but for those in `keep`."""
-    acting = {c for c in set(text) if c in _TURNING or unicodedata.category(c) in _CONTROL} - set(keep)
-    spelled = {ord(c): c.encode("unicode_escape").decode("ascii") for c in acting}
-    return text.translate(spelled)
 
 
 def html(text: str) -> str:

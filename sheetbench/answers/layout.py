@@ -71,8 +71,9 @@ def blocks(table: Table, width: int | None) -> list[Block]:
     brief, width = table.brief(), width and max(width, LEAST)
     shown = [[terminal(text) for text in row] for row in brief.shown_rows()]
     strips = [
-        _Strip(column, terminal(column.title), terminal(column.bracketed_unit), [row[i] for row in shown])
+        _Strip(column, terminal(name), terminal(unit), [row[i] for row in shown])
         for i, column in enumerate(brief.columns)
+        for name, unit in [column.heading(shown=True)]
     ]
     firsts = strips[0].cells
     new = [True, *(a != b or not table.grouped for a, b in pairwise(firsts))][: len(firsts)]

@@ -103,7 +103,7 @@ def _function(name: str) -> Callable[..., Any]:
 class Report:
     """The answer to a question, ready to be shown.
 
-    name: of the document's file; page: of the tables' files in Markdown and LaTeX, `name` unless given.
+    name: of the document's file; page: of the tables' in Markdown, `name` unless given.
     title, subtitle, lead: what it is about, and a line more. result: the answer in a line. tables: in the
     files, each with a name in CSV too; printed: what a terminal shows instead of them. notes: remarks under
     the tables. complaints: what went wrong, a sentence each. document: the JSON document. attachments:
@@ -168,7 +168,7 @@ class Report:
             **{f"{table.name}.csv": table.to_csv() for table in self.tables if table.name},
         }
         if self.tables:
-            texts |= {f"{page}.md": self.to_markdown(made_with), f"{page}.tex": self.to_latex()}
+            texts |= {f"{page}.md": self.to_markdown(made_with)}
         return {**self.attachments, **{name: partial(write_text, text=text) for name, text in texts.items()}}
 
     def to_markdown(self, made_with: str = "") -> str:
@@ -208,8 +208,3 @@ class Report:
             "pictures": [list(picture.names) for picture in self.pictures],
             "met": self.succeeded,
         }
-
-    def to_latex(self) -> str:
-        """Return all tables without their details."""
-        tables = "\n".join(table.to_latex() for table in self.tables)
-        return f"% needs \\usepackage{{booktabs}} in the preamble\n\n{tables}"

@@ -1,9 +1,9 @@
 """Tables: columns with units, rows of plain values, and the ways to write them.
 
 A row is a dataclass whose fields carry their columns, `error: Annotated[float | None, PERCENT(".3g")]`, and
-`Table.of` makes the table of such rows: CSV, Markdown, LaTeX, pandas and a terminal's lines follow from it.
-Values are kept in SI units. CSV has them as they are, with the unit in the header; Markdown, LaTeX and the
-terminal show them scaled and rounded (a displacement in mm, a time in ms). Negative numbers have a minus sign
+`Table.of` makes the table of such rows: CSV, Markdown, pandas and a terminal's lines follow from it.
+Values are kept in SI units. CSV has them as they are, with the unit in the header; Markdown and the terminal
+show them scaled and rounded (a displacement in mm, a time in ms). Negative numbers have a minus sign
 (U+2212) there, in CSV a hyphen, as other programs read it.
 """
 
@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, get_args, get_orig
 
 import numpy as np
 
-from sheetbench.answers.escape import cell, csv_cell, markdown, terminal
-from sheetbench.answers.latex import latex
+from sheetbench.answers.escape import cell, csv_cell, markdown
 from sheetbench.errors import BadInput
 
 if TYPE_CHECKING:
@@ -56,7 +55,7 @@ def unit(si: str) -> TableUnit:
 class Column:
     """A column's name, the SI unit of its values, and how to show them: unit, scale and format.
 
-    Numbers have a format; prose may be broken over lines. A detail is left out on terminals and in LaTeX.
+    Numbers have a format; prose may be broken over lines. A detail is left out on terminals.
     words: for true and false; none: for an empty list; shown_name: if not that of the CSV file.
     """
 
@@ -86,20 +85,14 @@ class Column:
         """Whether the values are numbers, to be set flush right."""
         return bool(self.form)
 
+    def heading(self, shown: bool) -> tuple[str, str]:
+        """Return the name and its unit in brackets, "" without one; shown: those that people read."""
+        name, unit = (self.shown_name or self.name, self.shown_unit) if shown else (self.name, self.unit)
+        return name, f"[{unit}]" if unit else ""
+
     def header(self, shown: bool) -> str:
-        """Return the name with its unit in brackets."""
-        unit = self.bracketed_unit if shown else f"[{self.unit}]" * bool(self.unit)
-        return f"{self.title if shown else self.name} {unit}".rstrip()
-
-    @property
-    def title(self) -> str:
-        """The name that is shown."""
-        return self.shown_name or self.name
-
-    @property
-    def bracketed_unit(self) -> str:
-        """The unit that is shown, in brackets; nothing of a number without one."""
-        return f"[{self.shown_unit}]" * bool(self.shown_unit)
+        """Return both in a line."""
+        return " ".join(self.heading(shown)).rstrip()
 
     def show(self, value: Any, scale: float = 1.0) -> str:
         """Return a value as people read it; a dash where there is none.
@@ -242,27 +235,6 @@ class Table:
         units = [any(isinstance(row[i], TableUnit) for row in self.rows) for i in range(len(self.columns))]
         known |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
         return known if self.name else {**known, "rows": [list(row) for row in self.rows]}
-
-    def to_latex(self) -> str:
-        """Return a booktabs tabular with shown units and without details, its caption as a comment above
-        it."""
-        brief = self.brief()
-        headers = [latex(column.header(shown=True)) for column in brief.columns]
-        kinds = "".join("r" if column.numeric else "l" for column in brief.columns)
-        lines = [" & ".join(latex(shown) for shown in row) + " \\\\" for row in brief.shown_rows()]
-        return "\n".join(
-            [
-                f"% {terminal(self.caption)}",
-                f"\\begin{{tabular}}{{{kinds}}}",
-                "\\toprule",
-                " & ".join(headers) + " \\\\",
-                "\\midrule",
-                *lines,
-                "\\bottomrule",
-                "\\end{tabular}",
-                "",
-            ]
-        )
 
     def brief(self) -> Table:
         """Return the table without its details."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypedDict, cast
 
@@ -24,31 +24,29 @@ from sheetbench.scenes.objects.obstacles import CREEPS
 
 @dataclass(frozen=True)
 class Recipe(Generic[AnyState]):
-    """A motion of a scene to be run. schedule: of a run that begins, to `duration` [s]; key: JSON-able, on
-    what its numbers depend, beside the scene; rows: of a frame; start: of the method, the state to begin in,
-    with the work of what moves at once."""
+    """A motion of a scene to be run. key: JSON-able, on what its numbers depend, beside the scene; rows: of a
+    frame; start: the state to begin in, with the work of what moves at once."""
 
     scene: Scene
     label: str
     integrator: str
     settings: dict[str, Any]
     key: dict[str, Any]
-    duration: float
     schedule: Schedule
-    method: Callable[[Schedule], MotionMethod[AnyState]]
+    method: MotionMethod[AnyState]
     observer: Observer
-    start: Callable[[Any], Advance[AnyState]]
+    start: Callable[[], Advance[AnyState]]
     rows: int
 
 
 class Keeping(TypedDict, total=False):
     """What is kept of a motion, and where: keywords of both solvers' `simulate`.
 
-    store: a folder to stream to; a run that was stopped goes on from there, and one that is to last longer
-    now goes on, sampled as it was. frames: whole displacements to keep, evenly over the run, in `extra`:
-    "frames" (f, n, 3) [m], "frame_times" (f,) [s], the "mesh" they belong to, "sample", which takes one and
-    plan points (p, 2) [m] to displacements (p, 3), and "axes", of each edge with chains the rest places
-    (p, 3) and displacements (f, p, 3) [m] of its axis. progress: called with the time reached [s].
+    store: a folder to stream to; a run that was stopped goes on from there. frames: whole displacements to
+    keep, evenly over the run, in `extra`: "frames" (f, n, 3) [m], "frame_times" (f,) [s], the "mesh" they
+    belong to, "sample", which takes one and plan points (p, 2) [m] to displacements (p, 3), and "axes", of
+    each edge with chains the rest places (p, 3) and displacements (f, p, 3) [m] of its axis. progress: called
+    with the time reached [s].
     """
 
     store: Path | None
@@ -84,7 +82,7 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
     Raises BadInput for a folder that holds another run, or one of other code, that another process writes to
     or that cannot be written, and for damaged files.
     """
-    frames, store = keeping.get("frames", 0), keeping.get("store")
+    frames, store, method = keeping.get("frames", 0), keeping.get("store"), recipe.method
     columns, schedule = recipe.observer.columns, recipe.schedule
     described = [[kind, name, list(shape)] for kind, name, shape in columns]
     with ExitStack() as open_store:
@@ -98,15 +96,11 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
                 "columns": described,
             }
             kept = open_store.enter_context(FolderStore(store, width(columns), recipe.rows, key))
-            if kept.plan is not None:
-                schedule = type(schedule)(**kept.plan).longer(recipe.duration)
-            kept.begin(asdict(schedule))
         shown = schedule.shown(frames)
-        method = recipe.method(schedule)
         run = Run(method, recipe.observer, schedule, kept, shown, keeping.get("progress"))
         ready = now()
         with one_blas_thread():
-            status, message = run.finish(lambda: recipe.start(method))
+            status, message = run.finish(recipe.start)
         done = now()
         parts, whole = split(columns, kept.samples()), kept.frames()
     creeping = (f"{name}: {CREEPS}" for name, one in recipe.scene.named_obstacles().items() if one.friction)

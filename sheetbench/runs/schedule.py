@@ -1,9 +1,8 @@
-"""How samples divide a run, one that is taken up again to last longer too."""
+"""How samples divide a run."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Self
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,30 +16,16 @@ MOST_SAMPLES = 10**7  # that any run keeps: gigabytes
 
 @dataclass(frozen=True)
 class Schedule:
-    """samples: after the start, `every` [s] apart; first: samples of the run as it began, before it was to
-    last longer."""
+    """samples: after the start, `every` [s] apart."""
 
     samples: int
     every: float
-    first: int
-
-    def longer(self, duration: float) -> Self:
-        """Return the one that goes on to the first sample at or after `duration` [s]. Raises BadInput where
-        that is before the end of this one."""
-        samples = int(np.ceil(duration / self.every - 1e-9))
-        if samples < self.samples:
-            raise BadInput(
-                f"duration = {duration:g} s: the run that is kept there is one of "
-                f"{self.samples * self.every:g} s; ask for that or longer, or choose another folder"
-            )
-        return replace(self, samples=samples)
 
     def shown(self, frames: int) -> list[int]:
-        """Samples to keep whole: `frames` evenly over the run as it began, and on at that distance."""
+        """Samples to keep whole, `frames` evenly over the run."""
         if frames < 2:
             return list(range(frames))
-        frame_spacing = self.first / (frames - 1)
-        return sorted({round(i * frame_spacing) for i in range(int(self.samples / frame_spacing + 1e-9) + 1)})
+        return sorted({round(i * self.samples / (frames - 1)) for i in range(frames)})
 
 
 def require_error(error: float) -> None:

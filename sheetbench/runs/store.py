@@ -1,11 +1,11 @@
 """Where a run's samples go: to memory, or to a folder that grows while the run goes on and can be resumed.
 
-A folder holds `run.json` (its settings, version and source of the code, and how it is sampled),
-`samples.bin` (rows of float64, one a sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and
-`checkpoint.npz`. Those that are not appended to are replaced as a whole. The checkpoint counts the bytes of
-the others and holds their CRC-32. Rows after it are dropped on resuming and computed again, so that a resumed
-run gives the same file to the last bit; a run of other code is not gone on with. Memory does not grow with
-the duration. A folder has one writer at a time; links in it are not followed.
+A folder holds `run.json` (its settings, version and source of the code), `samples.bin` (rows of float64, one
+a sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`. Those that are
+not appended to are replaced as a whole. The checkpoint counts the bytes of the others and holds their CRC-32.
+Rows after it are dropped on resuming and computed again, so that a resumed run gives the same file to the
+last bit; a run of other code is not gone on with. Memory does not grow with the duration. A folder has one
+writer at a time; links in it are not followed.
 """
 
 from __future__ import annotations
@@ -65,8 +65,7 @@ class MemoryStore:
 class FolderStore:
     """Samples in a folder, open while it is entered.
 
-    description: JSON-able description of the run, beside which the code is noted. plan: how the run there is
-    sampled, None in a new folder.
+    description: JSON-able description of the run, beside which the code is noted.
     Entering raises BadInput for a folder of another run, one that another process writes to or that cannot be
     written, and for damaged files.
     """
@@ -76,27 +75,18 @@ class FolderStore:
         code = {"version": version(), "source": source()}
         self._description = json.loads(json.dumps({**description, **code}))
         self._checksums = dict.fromkeys(APPENDED, 0)
-        self.plan: dict[str, Any] | None = None
 
     def __enter__(self) -> Self:
         with writing(self.folder):
             self.folder.mkdir(parents=True, exist_ok=True)
         with ExitStack() as held:
             held.enter_context(only_writer(self.folder))
-            self.plan = self._kept()
+            self._note()
             self._held = held.pop_all()
         return self
 
     def __exit__(self, *ended: object) -> None:
         self._held.close()
-
-    def begin(self, plan: dict[str, Any]) -> None:
-        """Note the run's settings and how it is to be sampled."""
-        if plan != self.plan:
-            with whole(self.folder / "run.json") as partial:
-                text = json.dumps({"asked": self._description, "plan": plan}, sort_keys=True)
-                partial.write_text(text, encoding="utf-8")
-        self.plan = plan
 
     def sample(self, rows: np.ndarray) -> None:
         """Append one sample (width,), or several (k, width)."""
@@ -149,16 +139,17 @@ class FolderStore:
         """All frames, (n, rows, 3), mapped from the file."""
         return self._mapped("frames", (self._rows, 3))
 
-    def _kept(self) -> dict[str, Any] | None:
-        """How the run that is kept here is sampled."""
+    def _note(self) -> None:
+        """Note the run's settings, or see that those of the run that is kept here are the same."""
         path = self.folder / "run.json"
         if not path.exists():
             if (self.folder / "checkpoint.npz").exists():
                 raise self._damaged(path, "is missing beside a checkpoint")
-            return None
+            with whole(path) as partial:
+                text = json.dumps({"asked": self._description}, sort_keys=True)
+                partial.write_text(text, encoding="utf-8")
         try:
-            kept = json.loads(path.read_text(encoding="utf-8"))
-            other, plan = dict(kept["asked"]), dict(kept["plan"])
+            other = dict(json.loads(path.read_text(encoding="utf-8"))["asked"])
         except (OSError, ValueError, TypeError, LookupError) as error:
             raise self._damaged(path, f"is damaged ({error})") from None
         own = self._description
@@ -174,7 +165,6 @@ class FolderStore:
                 f"{self.folder}: holds another run (of another {', '.join(off)}); choose another folder or "
                 "remove this one"
             )
-        return plan
 
     def _cut(self, sizes: dict[str, int]) -> None:
         """Cut the files that are appended to down to so many bytes, making them where they are not."""

@@ -5,7 +5,7 @@ The documentation's build writes it as scene.md, `sheetbench check --schema --ou
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from sheetbench.scenes.language.schema import branches, json_schema, kind, resolved
@@ -32,50 +32,38 @@ Written in a line, as `history = {time = [0.0, 0.5], factor = [0.0, 1.0]}`, or u
 `[[material.relaxation]]`. Tables over time are linear between samples, before the first and after the last
 one constant; `simulate` follows them, statics take the last sample.
 """
+HEADINGS: dict[Any, str] = {"object": "[{}]", "array": "[[{}]]"}  # of keys that take tables
 
 
 def markdown() -> str:
     """Return the page."""
     schema = json_schema(Scene)
-    top, shown = schema["properties"], list[dict[str, Any]]()
-    headings = {key: heading for key, node in top.items() if (heading := _heading(key, node, schema))}
-    parts = [HEAD, "## At the top\n", _keys_table(schema, schema, leave_out=headings)]
+    keys, shown = schema["properties"], list[dict[str, Any]]()
+    types = {key: resolved(schema, node).get("type") for key, node in keys.items()}
+    headings = {key: HEADINGS[types[key]].format(key) for key in keys if types[key] in HEADINGS}
+    plain = {key: node for key, node in keys.items() if key not in headings}
+    parts = [HEAD, "## At the top\n", _keys_table({**schema, "properties": plain}, schema)]
     for key, heading in headings.items():
-        parts += [f"## {heading}\n", f"{top[key]['description']}\n"]
-        if key == "probes":
-            parts.append("Any name, with a plan point [x, y] in metres: `P1 = [0.094, 0.094]`.\n")
-            continue
-        tables = branches(schema, top[key].get("items", top[key]))
+        parts += [f"## {heading}\n", f"{keys[key]['description']}\n"]
+        tables = branches(schema, keys[key].get("items", keys[key]))
         for table in tables:
-            if len(tables) > 1:
-                optional = "" if "kind" in table["required"] else " The kind where none is given."
-                parts.append(f'### kind = "{kind(table)}"\n')
-                parts.append(f"{table['properties']['kind']['description']}{optional}\n")
-            parts.append(_keys_table(table, schema, leave_out={"kind"} if len(tables) > 1 else ()))
+            parts += [f'### kind = "{kind(table)}"\n'] * (len(tables) > 1)
+            parts += [_keys_table(table, schema)] if "properties" in table else []
         shown += tables
     parts.append(WITHIN)
     for name, table in schema["$defs"].items():
-        if not any(table["properties"].items() <= one["properties"].items() for one in shown):
-            users = ", ".join(f"`{user}`" for user in _users(name, schema))
+        if not any(table["properties"].items() <= one.get("properties", {}).items() for one in shown):
+            every = [key for one in (schema, *schema["$defs"].values()) for key in one["properties"].items()]
+            users = ", ".join(dict.fromkeys(f"`{key}`" for key, node in every if f"/{name}'" in str(node)))
             parts += [f"### For {users}\n", f"{table['description']}\n", _keys_table(table, schema)]
     return "\n".join(parts)
 
 
-def _heading(key: str, node: dict[str, Any], schema: dict[str, Any]) -> str | None:
-    """How a table of the top is headed in TOML; None for a key with a value of its own."""
-    node = resolved(schema, node)
-    if node.get("type") == "object":
-        return f"[{key}]"
-    return f"[[{key}]]" if node.get("type") == "array" else None
-
-
-def _keys_table(table: dict[str, Any], schema: dict[str, Any], leave_out: Collection[str] = ()) -> str:
+def _keys_table(table: dict[str, Any], schema: dict[str, Any]) -> str:
     """The keys, those that are needed first."""
     lines = ["| key | unit | value | unless given | what it is |", "| --- | --- | --- | --- | --- |"]
     needed = table.get("required", ())
     for key, node in sorted(table["properties"].items(), key=lambda item: item[0] not in needed):
-        if key in leave_out:
-            continue
         default = "*needed*" if key in needed else _shown(node.get("default"))
         cells = (f"`{key}`", node.get("unit", ""), value(node, schema), default, node["description"])
         lines.append(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |")
@@ -115,10 +103,3 @@ def _shown(default: Any) -> str:
     if default is None or default == [] or default == "":
         return "–"
     return f'"{default}"' if isinstance(default, str) else str(default).lower()
-
-
-def _users(name: str, schema: dict[str, Any]) -> list[str]:
-    """Return the keys that take the table of this name."""
-    tables = [schema, *schema["$defs"].values()]
-    every = [key for table in tables for key in table["properties"].items()]
-    return list(dict.fromkeys(key for key, node in every if f"/{name}'" in str(node)))

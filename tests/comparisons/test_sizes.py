@@ -14,7 +14,6 @@ import sheetbench as sb
 from comparisons.external import memory
 from comparisons.models import sizes
 from comparisons.models.spec import spec_of
-from comparisons.sweep.campaign import campaign
 from comparisons.tradeoff.statics import tradeoff
 from fem_reference.footprint import footprint as of_reference
 from sheetbench import scenes
@@ -64,14 +63,15 @@ def test_peaks_are_within_a_factor_of_two_of_what_is_told(model, settings):
 
 
 def test_sizes_grow_with_every_count():
+    def grows(footprint, *pair):
+        one, other = (footprint(*given) for given in pair)
+        return one.unknowns < other.unknowns and one.memory < other.memory and one.seconds < other.seconds
+
     for a, b in ((2, 3), (9, 17), (33, 65), (129, 257), (1000, 2000)):
         for small, large in (((a, 9, 2), (b, 9, 2)), ((9, a, 2), (9, b, 2)), ((9, 9, a), (9, 9, b))):
-            one, other = lumped.footprint(small), lumped.footprint(large)
-            assert one.unknowns < other.unknowns and one.memory < other.memory
-            assert one.seconds < other.seconds
+            assert grows(lumped.footprint, (small,), (large,))
         for model in ("plate", "shell", "solid"):
-            one, other = of_reference(model, (a, 4)), of_reference(model, (b, 4))
-            assert one.memory < other.memory and one.seconds < other.seconds
+            assert grows(of_reference, (model, (a, 4)), (model, (b, 4)))
     assert of_reference("solid", (8, 8), 1).memory < of_reference("solid", (8, 8), 2).memory
 
 
@@ -90,18 +90,20 @@ def test_a_strip_is_banded_and_a_square_dissected():
 
 
 def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch):
-    scene, spec = scenes.load(SCENE), spec_of("lumped", {"grid": 257})
+    def require(grid):
+        sizes.require_room(scenes.load(SCENE), spec_of("lumped", {"grid": grid}))
+
     room(monkeypatch, 16 * GB)
-    sizes.require_room(scene, spec)
+    require(257)
     room(monkeypatch, 4 * GB)
     with pytest.raises(
         BadInput, match=r"lumped 257x257x2: 396 294 unknowns take about .* GB of memory"
-    ) as predicted:
-        sizes.require_room(scene, spec)
-    fitting = int(str(predicted.value).split("--lumped ")[1].split()[0])
-    sizes.require_room(scene, spec_of("lumped", {"grid": fitting}))
+    ) as no:
+        require(257)
+    fitting = int(str(no.value).split("--lumped ")[1].split()[0])
+    require(fitting)
     with pytest.raises(BadInput):
-        sizes.require_room(scene, spec_of("lumped", {"grid": fitting + 1}))
+        require(fitting + 1)
 
 
 def test_a_long_thin_sheet_is_refused_with_what_fits(strip, monkeypatch):
@@ -116,16 +118,14 @@ def test_a_long_thin_sheet_is_refused_with_what_fits(strip, monkeypatch):
         sb.tradeoff(strip, tolerance=0.01)
 
 
-def test_every_candidate_is_looked_at_before_the_first_run(tmp_path, monkeypatch):
+def test_every_candidate_is_looked_at_before_the_first_run(store, monkeypatch):
     room(monkeypatch, 3 * GB)
-    scene = scenes.load(SCENE)
+    few = {"store": store, "pool": pytest.fail}
     listed = [spec_of("lumped", {"grid": 3}), spec_of("solid", {"elements": 64})]
-    judge = spec_of("shell", {"elements": 4})
-    with campaign(tmp_path) as store:
-        with pytest.raises(BadInput, match=r"solid 64x64x1: .*--solid \d+ would fit"):
-            tradeoff(scene, listed, store, reference=judge, pool=pytest.fail)
-        with pytest.raises(BadInput, match=r"shell 128x128: .*--elements \d+ would fit"):
-            tradeoff(scene, [spec_of("shell", {"elements": 64})], store, pool=pytest.fail)
+    with pytest.raises(BadInput, match=r"solid 64x64x1: .*--solid \d+ would fit"):
+        tradeoff(scenes.load(SCENE), listed, reference=spec_of("shell", {"elements": 4}), **few)
+    with pytest.raises(BadInput, match=r"shell 128x128: .*--elements \d+ would fit"):
+        tradeoff(scenes.load(SCENE), [spec_of("shell", {"elements": 64})], **few)
 
 
 MOVED = "--duration 0.004 --lumped"
@@ -151,13 +151,6 @@ def test_every_verb_refuses_what_does_not_fit(line, little, capsys):
     assert not Path("out").exists()
 
 
-def written(root, files):
-    for name, text in files.items():
-        path = root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-
-
 FREE = {"proc/meminfo": "MemTotal:  9000000 kB\nMemAvailable:    4000000 kB\n"}
 SECOND = {
     "proc/self/cgroup": "0::/user/box\n",
@@ -179,11 +172,12 @@ FIRST = {
 @pytest.mark.parametrize(("files", "left"), [({}, 4096 * 10**6), (SECOND, 10**9), (FIRST, 15 * 10**8)])
 def test_what_is_free_is_the_least_that_anything_leaves(files, left, tmp_path, monkeypatch):
     """The machine, and control groups with their parents; pages of files are given back."""
-    written(tmp_path, FREE | files)
+    files = {"proc/self/status": "VmPeak: 9 kB\nVmSize:\t  100000 kB\n"} | FREE | files
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
     monkeypatch.setattr(memory, "ROOT", tmp_path)
-    monkeypatch.setattr(memory.resource, "getrlimit", lambda which: (memory.resource.RLIM_INFINITY,) * 2)
-    assert memory.available() == left
-    monkeypatch.setattr(memory.resource, "getrlimit", lambda which: (300_000_000, 300_000_000))
-    (tmp_path / "proc/self").mkdir(parents=True, exist_ok=True)
-    (tmp_path / "proc/self/status").write_text("VmPeak: 9 kB\nVmSize:\t  100000 kB\n")
-    assert memory.available() == 300_000_000 - 102_400_000
+    limits = memory.resource
+    for limit, known in ((limits.RLIM_INFINITY, left), (300_000_000, 300_000_000 - 102_400_000)):
+        monkeypatch.setattr(limits, "getrlimit", lambda which, limit=limit: (limit, limit))
+        assert memory.available() == known

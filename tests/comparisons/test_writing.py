@@ -69,15 +69,8 @@ def test_verbs_that_write_one_file_replace_no_other_kind(tmp_path, capsys, argum
 def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(tmp_path):
     dead = subprocess.Popen([sys.executable, "-c", ""])
     dead.wait()
-    left = tmp_path / f".file.{dead.pid}.partial.txt"
-    others = [
-        tmp_path / name
-        for name in (
-            f".file.{os.getppid()}.partial.txt",
-            f".other.{dead.pid}.partial.txt",
-            ".file.partial.txt",
-        )
-    ]
+    names = (f".file.{os.getppid()}.partial.txt", f".other.{dead.pid}.partial.txt", ".file.partial.txt")
+    left, *others = (tmp_path / name for name in (f".file.{dead.pid}.partial.txt", *names))
     for path in (left, *others):
         path.write_text("half")
     with whole(tmp_path / "file.txt") as partial:
@@ -102,26 +95,26 @@ def test_what_stands_in_the_way_is_said_with_the_remedy(tmp_path, number, said):
 
 def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):
     (tmp_path / "link").symlink_to(tmp_path / "nothing")
-    with pytest.raises(BadInput, match="a link to nothing stands there"):
-        folder(tmp_path / "link")
     (tmp_path / "file").touch()
-    with pytest.raises(BadInput, match="Not a directory"):
-        folder(tmp_path / "file" / "under")
-    with pytest.raises(BadInput, match="a device, pipe or socket stands there: choose another name"):
-        require_file(Path(os.devnull))
-    for root in ("/", "//", "/usr/.."):
-        with pytest.raises(BadInput, match="the root of the file system; name a folder in it"):
-            folder(root)
+    root = "the root of the file system; name a folder in it"
+    device = "a device, pipe or socket stands there: choose another name"
+    for ask, place, said in (
+        (folder, tmp_path / "link", "a link to nothing stands there"),
+        (folder, tmp_path / "file" / "under", "Not a directory"),
+        (require_file, Path(os.devnull), device),
+        *((folder, place, root) for place in ("/", "//", "/usr/..")),
+    ):
+        with pytest.raises(BadInput, match=said):
+            ask(place)
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     with pytest.raises(BadInput, match="cannot be written to; make it writable"):
         folder(tmp_path)
 
 
 def test_overwriting_removes_runs_that_stream_to_folders_in_a_folder(tmp_path):
-    victim = tmp_path / "victim"
+    out, victim = tmp_path / "out", tmp_path / "victim"
     victim.mkdir()
     (victim / "mine.csv").touch()
-    out = tmp_path / "out"
     runs = Folder(out, "compare", ["sheetbench", "compare"]).reserve("runs/")
     (runs / "shell-1").mkdir(parents=True)
     (runs / "shell-1" / "steps.csv").touch()

@@ -7,8 +7,8 @@ from dynamic_cases import make_scene
 
 import lumped
 from fem_reference.discrete.static import Static
+from fem_reference.sheets import solid
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.solid.statics import solid
 from fem_reference.surface.mesh import mesh_of
 from sheetbench.numerics.direct import NearFactor
 

@@ -112,7 +112,7 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem):
     row[0, :3] = 0.25, 1.0, 1.0  # time, kinetic, elastic
 
     def checked(balance):
-        run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0, 1), MemoryStore(6, 1), (), None)
+        run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), MemoryStore(6, 1), (), None)
         run.watch = Watch(balance, lowest=balance, largest=3.0)
         return run._sound(moving, row)
 

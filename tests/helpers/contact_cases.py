@@ -17,6 +17,11 @@ CYLINDER_FORCE, CYLINDER_TIP = 1.458414, -0.36446  # N and m: elastica over a cy
 DROP = 0.03  # m, of a strip that falls on a plane
 TABLE = Plane(position=(0.0, 0.0, -DROP - 0.001))
 FALLING = sheet(0.2, 0.05, 0.002, 5e6, weight=GRAVITY, obstacles=(TABLE,))
+OBSTACLES = {
+    "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
+    "sphere": Sphere(position=(0.5, 0.05, -0.3), radius=0.28),
+    "cylinder": Cylinder(position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09),
+}
 QUARTER = (Symmetric(edge="x0"), Symmetric(edge="y0"))
 FALLEN = 1e3 * 0.002 * 0.01 * GRAVITY * DROP  # W H, J
 

@@ -69,6 +69,4 @@ def plan_run(
             f"step = {wanted:g} s: {duration / wanted:.1e} steps to {duration:g} s; {MOST_STEPS:.0e} at most"
         )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    return StepPlan(
-        samples=samples, every=spacing, first=samples, steps=steps, adapts=kind.adaptive and step is None
-    )
+    return StepPlan(samples, spacing, steps, kind.adaptive and step is None)

@@ -14,11 +14,10 @@ import numpy as np
 
 from lumped.calibration import Calibration, default
 from lumped.dynamics.explicit.step_limit import soften_items
-from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import initial_state
 from lumped.dynamics.runs.observer import LatticeObserver
-from lumped.dynamics.runs.plan import StepPlan, plan_run
+from lumped.dynamics.runs.plan import plan_run
 from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.mid_surface import MidSurface
@@ -29,7 +28,6 @@ from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
 from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.record import Recipe, parted, record
-from sheetbench.runs.schedule import Schedule
 from sheetbench.scenes import AnyScene, scene_of
 from sheetbench.scenes.meaning.motion import let_go
 from sheetbench.scenes.objects.grading import as_settings
@@ -97,23 +95,23 @@ def simulate(
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])
     key = {
         "springs": calibration.document()["springs"],
-        "step": step,
-        "every": every,
+        **{"duration": duration, "step": step, "every": every},
         "settings": settings,
         "weights": weights,
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
+    kind = INTEGRATORS[integrator]
+    extra: dict[str, Any] = {"fixed": not plan.adapts} if kind.adaptive else {}
     recipe = Recipe(
         scene=scene,
         label=f"lumped {calibration.title}",
         integrator=integrator,
         settings=settings,
         key=key,
-        duration=duration,
         schedule=plan,
-        method=lambda plan: _method(system, plan, integrator, options),
+        method=kind(system, plan.every / plan.steps, **options, **extra),
         observer=LatticeObserver(system, drawn),
-        start=lambda method: Advance(start, 0.0, 0.0),
+        start=lambda: Advance(start, 0.0, 0.0),
         rows=len(drawn),
     )
     history = record(recipe, keeping, began)
@@ -131,10 +129,3 @@ def simulate(
         }
     )
     return history
-
-
-def _method(system: System, plan: Schedule, integrator: str, options: dict[str, Any]) -> Integrator:
-    assert isinstance(plan, StepPlan)
-    kind = INTEGRATORS[integrator]
-    extra: dict[str, Any] = {"fixed": not plan.adapts} if kind.adaptive else {}
-    return kind(system, plan.every / plan.steps, **options, **extra)

@@ -4,7 +4,7 @@ Lengths are in sizes of the structure, residuals relative to the forces that bal
 a hundredth of a shell's and a correction with factors at hand next to nothing: it goes nearer to rounding,
 has more factorisations and is looked at for other branches later. Its first reach and the growth of that are
 less: with those of elements a sheet softened 54-fold takes 68 factorisations for 17, one that a careful run
-from 16 factorisations on looks at 49 (`tests/lumped/statics/test_thirty_scenes.py`).
+from 16 factorisations on looks at 49 (`tests/test_catalogue.py`).
 """
 
 from __future__ import annotations

@@ -11,7 +11,6 @@ import fake_solutions
 import numpy as np
 import pytest
 from commands import run
-from scene_files import written
 from terminals import Terminal
 
 from comparisons.cli import interruption, startup
@@ -65,17 +64,6 @@ def test_a_shell_can_complete_the_verbs(monkeypatch, capsys):
     assert {"simulate", "stability", "study"} <= set(capsys.readouterr().out.split())
 
 
-def test_a_grid_whose_masses_are_all_held_is_named(tmp_path, capsys):
-    edges = "".join(f'[[support]]\nedge = "{edge}"\nkind = "clamped"\n' for edge in ("x0", "x1", "y0", "y1"))
-    text = "name = 'frame'\n[sheet]\nlength_x = 0.2\nlength_y = 0.2\nthickness = 0.002\n"
-    text += "[material]\nyoung = 1e6\npoisson = 0.3\ndensity = 1000.0\n"
-    path = written(tmp_path, text + edges)
-    for grid, verb in (("3x2", "compare"), ("2x2", "modes")):
-        assert run(verb, str(path), "--lumped", grid) == 2
-        said = capsys.readouterr().err.splitlines()[-1]
-        assert f"{grid.replace('x', '×')}×2" in said and "every mass" in said
-
-
 @pytest.mark.parametrize(
     "fault", [ValueError("of ours"), TypeError("of ours"), np.linalg.LinAlgError("of ours")]
 )
@@ -115,8 +103,8 @@ def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path
     monkeypatch.setattr(table, "solve", answer)
     assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
     assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
-    (run_of_compare,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
-    assert run_of_compare["files"] == ["lumped.vtu"] and not run_of_compare["finished"]
+    (record,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
+    assert record["files"] == ["lumped.vtu"] and not record["finished"]
 
 
 def test_an_interrupt_within_compiled_code_is_an_interrupt(monkeypatch, capsys):

@@ -2,6 +2,7 @@
 
 import io
 import sys
+from functools import partial
 from typing import Any
 
 import pytest
@@ -58,16 +59,9 @@ def test_what_will_last_is_said_before_it_starts(said):
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 def test_every_iteration_is_told_with_its_load_factor(model):
     reports: list[Iteration] = []
-    if model == "lumped":
-        solution = lumped.solve(SCENE, lumped.calibrate(*parts(), grid=5), progress=reports.append)
-    else:
-        solution = fem_reference.solve(SCENE, model, elements=2, progress=reports.append)
+    solve = lumped.solve if model == "lumped" else partial(fem_reference.solve, model=model, elements=2)
+    solution = solve(SCENE, progress=reports.append)
     assert tuple(reports) == solution.history and reports[-1].load_factor == 1.0
-
-
-def parts():
-    scene = sb.load(SCENE)
-    return scene.sheet, scene.material
 
 
 def test_a_comparison_tells_what_it_solves_and_how_far_it_is():
@@ -120,7 +114,6 @@ SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--n
 def chatty(monkeypatch):
     """A command that says all that there is to say."""
     monkeypatch.setattr(console, "QUIET", 0.0)
-    monkeypatch.setattr(work, "LONG", 0.0)
 
     def command():
         with console.progress() as show:

@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 from commands import one_line, run
 
+from sheetbench.scenes import Clamped, load
+
 ONE, TWO = "one-edge-clamped", "two-edges-clamped"
 IDENTIFY = f"identify {TWO} --measured measured.csv"
 SIMULATE = f"simulate {TWO} --lumped 3 --duration 0.01"
@@ -135,6 +137,8 @@ ROWS = {
     "report none": "there is no such folder",
     "report .": "no verb has written here",
     "weigh": "No such command 'weigh'; see sheetbench --help",
+    "compare frame.toml --lumped 3x2": "3×2×2|every mass",
+    "modes frame.toml --lumped 2x2": "2×2×2|every mass",
     "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "no scheduler there",
 }
 
@@ -159,7 +163,8 @@ for verb, command in SHORT.items():
 def test_it_is_refused_in_a_line(row, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.094,0.094,,,-0.0024\n0.188,0.188,,,-0.0134\n")
+    load(ONE).replace(supports=[Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")]).save("frame.toml")
     assert run(*shlex.split(row)) == 2
     line = one_line(capsys)
-    assert [path.name for path in tmp_path.iterdir()] == ["measured.csv"]
+    assert {path.name for path in tmp_path.iterdir()} == {"frame.toml", "measured.csv"}
     assert all(part in line for part in ROWS[row].split("|")), line

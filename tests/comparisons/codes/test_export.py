@@ -83,8 +83,6 @@ def test_an_exported_lattice_carries_the_payload(tmp_path):
     bare, found = (lumped.describe(one, own) for one in (scene, laden))
     assert (found.mass - bare.mass).sum() == pytest.approx(0.05)
     assert (found.dead - bare.dead).sum(axis=0) == pytest.approx([0.0, 0.0, -9.81 * 0.05])
-    far, near = (one.states[-1].displacement for one in (found, bare))
-    assert np.abs(far - near).max() > 0.1 * np.abs(far).max()
     export(tmp_path, laden, own)
     assert sum(float(row["mass"]) for row in table(tmp_path / "nodes.csv")) == pytest.approx(found.mass.sum())
     with pytest.raises(BadInput, match=r"mass.inertia: an exported lattice has masses alone"):

@@ -5,6 +5,7 @@ import pytest
 from contact_cases import (
     CYLINDER_FORCE,
     GRAVITY,
+    OBSTACLES,
     WEIGHT,
     bent_over,
     draped_quarter,
@@ -19,13 +20,7 @@ import fem_reference
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import divisions, mesh_of
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Cylinder, Plane, SceneError, Sphere
-
-OBSTACLES = {
-    "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
-    "sphere": Sphere(position=(0.5, 0.05, -0.3), radius=0.28),
-    "cylinder": Cylinder(position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09),
-}
+from sheetbench.scenes import Plane, SceneError
 
 
 @pytest.mark.parametrize("name", OBSTACLES)

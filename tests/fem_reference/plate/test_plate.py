@@ -7,12 +7,17 @@ import pytest
 from cases import WEIGHT, sheet
 from skfem import MeshQuad
 
-from fem_reference.plate import statics as plate
+import fem_reference
 from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.surface.location import locate
 from fem_reference.surface.materials import section_of
 from sheetbench import scenes
 from sheetbench.scenes import EDGES, BadInput, Material, Scene
+
+
+def plate(scene, elements, **options):
+    return fem_reference.solve(scene, "plate", elements=elements, **options)
+
 
 MATERIAL = Material(young=1.0e7, poisson=0.3, density=1000.0)
 
@@ -67,7 +72,7 @@ def test_strip_with_edge_moment_and_forces():
     moment, (fx, fy, fz) = 0.02, (3.0, 0.0, 0.01)
     load = {"kind": "edge", "edge": "x1", "force_per_length": (fx, fy, fz), "moment_per_length": moment}
     scene = sheet(length, width, thickness, young, 0.0, loads=[load])
-    answer = plate.solve(scene, 2)
+    answer = plate(scene, 2)
     bending, shear = young * thickness**3 / 12, 5 / 6 * young / 2 * thickness
     tip = moment * length**2 / (2 * bending) + fz * (length**3 / (3 * bending) + length / shear)
     exact = [fx * length / (young * thickness), 0.0, tip]
@@ -77,7 +82,7 @@ def test_strip_with_edge_moment_and_forces():
 
 @pytest.mark.parametrize("name", ["two-edges-clamped", "one-edge-clamped"])
 def test_the_energy_is_half_the_work_of_the_weight(name):
-    answer = plate.solve(scenes.load(name), 8)
+    answer = plate(scenes.load(name), 8)
     x = np.polynomial.legendre.leggauss(24)
     points, shares = 0.094 * (x[0] + 1.0), x[1] / 2.0
     grid = np.array([(a, b) for a in points for b in points])
@@ -90,7 +95,7 @@ def test_in_plane_loads_and_a_corner_shared_by_two_supports():
     rollers = (scenes.Held(edge="x0", components=("x", "z")), scenes.Held(edge="y0", components=("y", "z")))
     pull = [{"kind": "edge", "edge": "x1", "force_per_length": (50.0, 0.0, 0.0)}]
     scene = square(0.01, loads=pull).model_copy(update={"supports": rollers})
-    answer = plate.solve(scene, 2)
+    answer = plate(scene, 2)
     strain = 50.0 / (MATERIAL.young * 0.01)
     np.testing.assert_allclose(
         answer.displacement([[1.0, 1.0], [0.3, 0.7]]),
@@ -102,7 +107,7 @@ def test_in_plane_loads_and_a_corner_shared_by_two_supports():
 
 def test_curved_edge_follows_the_linearised_rod():
     scene = scenes.load("curved-edge")
-    answer = plate.solve(scene, 8)
+    answer = plate(scene, 8)
     y = np.linspace(0, 0.188, 17)
     edge = answer.displacement(np.column_stack([np.zeros(17), y]))
     expected = np.column_stack([np.zeros((17, 2)), 4.0 * (y - 0.094) ** 2 / 2])
@@ -123,9 +128,9 @@ def test_graded_where_edges_let_twist_go(kinds):
     """On 16 × 16 within 0.05 % of 40 × 40 graded ones; on equal elements 0.3 to 0.5 % off."""
     scene = sheet_on(kinds)
     points = scene.probe_points()
-    truth = plate.solve(scene, 28, graded=True).displacement(points)
+    truth = plate(scene, 28, graded=True).displacement(points)
     largest = np.abs(truth).max()
-    graded, equal = plate.solve(scene, 16), plate.solve(scene, 16, graded=False)
+    graded, equal = plate(scene, 16), plate(scene, 16, graded=False)
     assert graded.settings["graded"] and not equal.settings["graded"]
     assert np.abs(graded.displacement(points) - truth).max() < 5e-4 * largest
     assert np.abs(equal.displacement(points) - truth).max() > 2e-3 * largest
@@ -133,13 +138,13 @@ def test_graded_where_edges_let_twist_go(kinds):
 
 def test_the_seed_s_linear_sheet_has_its_converged_corner():
     scene = scenes.load("two-edges-clamped")
-    corner = plate.solve(scene, 16).displacement([scene.probes["P4"]])[0, 2]
+    corner = plate(scene, 16).displacement([scene.probes["P4"]])[0, 2]
     assert corner == pytest.approx(-19.835e-3, rel=5e-4)
 
 
 def test_what_is_written_for_pictures_is_what_probes_tell():
     """At the nodes; directors are e_z and their linear change."""
-    found = plate.solve(sheet_on({"x0": "clamped"}), 2)
+    found = plate(sheet_on({"x0": "clamped"}), 2)
     plan, moved = found.mesh.points[:, :2], found.mesh.point_data["displacement"]
     np.testing.assert_allclose(moved, found.displacement(plan), atol=1e-12 * np.abs(moved).max())
     directors = found.mesh.point_data["director"]
@@ -148,8 +153,8 @@ def test_what_is_written_for_pictures_is_what_probes_tell():
 
 
 def test_divided_evenly_where_all_edges_hold_the_director():
-    assert not plate.solve(sheet_on(dict.fromkeys(EDGES, "clamped")), 2).settings["graded"]
-    hard = plate.solve(sheet_on(dict.fromkeys(EDGES, "hinged")), 2, hard_edges=tuple(EDGES))
+    assert not plate(sheet_on(dict.fromkeys(EDGES, "clamped")), 2).settings["graded"]
+    hard = plate(sheet_on(dict.fromkeys(EDGES, "hinged")), 2, hard_edges=tuple(EDGES))
     assert not hard.settings["graded"] and hard.settings["hard_edges"] == list(EDGES)
 
 

@@ -8,11 +8,11 @@ import pytest
 from scipy.integrate import simpson
 from scipy.optimize import minimize_scalar
 
+import fem_reference
 import lumped
 from comparisons.comparison.comparison import error
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static, StaticState
-from fem_reference.shell import statics as shell
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import point_force
 from fem_reference.surface.mesh import rectangle
@@ -224,7 +224,7 @@ def taped():
 
 def test_a_tape_spring_snaps_as_the_lattice_does(taped):
     ours = lumped.solve(taped, lumped.calibrate(taped.sheet, taped.material, (17, 17)))
-    truth = shell.solve(taped, elements=6)
+    truth = fem_reference.solve(taped, "shell", elements=6)
     assert truth.status is Status.CONVERGED and truth.load_factor == 1.0
     assert list(truth.snaps) == pytest.approx(list(ours.snaps), rel=0.05)
     points = taped.probe_points()

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from contact_cases import (
-    CYLINDER_FORCE,
     CYLINDER_TIP,
     GRAVITY,
+    OBSTACLES,
     THICKNESS,
     WEIGHT,
     bent_elastica,
@@ -30,17 +30,10 @@ from lumped.contact import points_of_cells
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Cylinder, Motion, Plane, SceneError, Sphere
+from sheetbench.scenes import Motion, Plane, SceneError
 from sheetbench.scenes.objects.grading import Grading
 
-OBSTACLES = {
-    "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
-    "sphere": Sphere(position=(0.5, 0.05, -0.3), radius=0.28),
-    "cylinder": Cylinder(position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09),
-    "rubbing": Cylinder(
-        position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09, friction=0.3, contact_damping=2.0
-    ),
-}
+TOUCHED = {**OBSTACLES, "rubbing": OBSTACLES["cylinder"].replace(friction=0.3, contact_damping=2.0)}
 
 
 def solve(scene, grid, grading=0.0, method="consistent", **options):
@@ -58,9 +51,9 @@ def clamp(solution):
     ) / WEIGHT
 
 
-@pytest.fixture(params=OBSTACLES)
+@pytest.fixture(params=TOUCHED)
 def item(request):
-    scene = laid_strip(0.1, obstacles=(OBSTACLES[request.param],))
+    scene = laid_strip(0.1, obstacles=(TOUCHED[request.param],))
     problem = build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(11, 4, 2)))
     rng = np.random.default_rng(1)
     u = 0.01 * rng.normal(size=problem.loads.dead.shape) - [0.0, 0.0, 0.02]
@@ -187,20 +180,15 @@ def test_sheet_that_lies_presses_evenly():
     assert solution.iterations <= 8
 
 
-def test_strip_over_a_cylinder_against_the_elastica():
-    solution = solve(bent_over(), (41, 3, 2))
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize("at", [0.3, 0.35, 0.4, 0.45, 0.5])
+def test_strip_over_a_cylinder_against_the_elastica(at):
+    solution = solve(bent_over(at), (41, 3, 2))
     assert solution.status is Status.CONVERGED
     force = np.linalg.norm(solution.reactions["obstacle 1"])
-    assert force == pytest.approx(CYLINDER_FORCE, rel=5e-3)
-    assert solution.displacement([[1.0, 0.05]])[0, 2] == pytest.approx(CYLINDER_TIP, abs=1e-3)
-
-
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("at", [0.3, 0.35, 0.45, 0.5])
-def test_strip_over_a_cylinder_at_other_places(at):
-    assert bent_elastica(0.4) == pytest.approx(CYLINDER_FORCE, rel=1e-5)
-    force = np.linalg.norm(solve(bent_over(at), (41, 3, 2)).reactions["obstacle 1"])
     assert force == pytest.approx(bent_elastica(at), rel=5e-3)
+    if at == 0.4:
+        assert solution.displacement([[1.0, 0.05]])[0, 2] == pytest.approx(CYLINDER_TIP, abs=1e-3)
 
 
 def test_thin_rod_is_not_walked_through_and_one_thinner_than_the_points_is_refused():

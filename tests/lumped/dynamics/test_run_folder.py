@@ -107,25 +107,13 @@ def kept(run_kept, tmp_path):
     return folder, history, partial(run_in, folder)
 
 
-def test_a_longer_duration_goes_on_with_the_run(kept, tmp_path):
-    """To the last bit what a run of that length gives; frames go on at their distance."""
-    folder, _, again = kept
-    longer = again(2.0 * LENGTH)
-    at_once = run_in(tmp_path / "at once", 2.0 * LENGTH)
-    assert longer.resumed_from == pytest.approx(50 * 2e-4)
-    assert (folder / "samples.bin").read_bytes() == (tmp_path / "at once" / "samples.bin").read_bytes()
-    assert longer.time[-1] == pytest.approx(2.0 * LENGTH) and longer.steps == at_once.steps
-    assert np.allclose(longer.extra["frame_times"], 2e-4 * np.array([0, 14, 28, 41, 55, 69, 82, 96, 110]))
-    assert len(longer.extra["frames"]) == 9
-    with pytest.raises(BadInput, match=r"duration = 0.011 s: the run that is kept there is one of 0.022 s"):
-        again()
-
-
 def test_another_run_in_the_folder_is_refused_by_what_differs(kept):
     folder, _, again = kept
     before = (folder / "run.json").read_bytes()
     with pytest.raises(BadInput, match=r"holds another run \(of another every, step\)"):
         again(step=1e-5, every=1e-4)
+    with pytest.raises(BadInput, match=r"holds another run \(of another duration\)"):
+        again(2.0 * LENGTH)
     assert (folder / "run.json").read_bytes() == before
 
 

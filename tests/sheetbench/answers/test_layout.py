@@ -107,5 +107,5 @@ def test_an_exponent_is_for_large_numbers(value, form, shown):
 
 def test_details_are_in_the_files_only():
     table = Table("", (Column("a"), Column("b", detail=True)), (("x", "y"),))
-    assert "b" not in " ".join(text_of(table, None)) and "y" not in table.to_latex()
+    assert "b" not in " ".join(text_of(table, None))
     assert "b" in table.to_csv() and "b" in table.to_markdown()

@@ -63,15 +63,6 @@ def test_csv_cells_are_no_formulas_and_numbers_stay_numbers():
     )
 
 
-def test_latex_is_plain_on_one_line_a_row():
-    text = hostile_table().to_latex()
-    assert len(text.splitlines()) == 9 and "\x1b" not in text
-    row = text.splitlines()[5]
-    assert r"\$" in row and r"\textbackslash{}" in row and row.count(" & ") == 1
-    whole = Report("x", "t", {}, tables=(hostile_table(),)).to_latex()
-    assert whole.startswith("% needs \\usepackage{booktabs}")
-
-
 HOSTILE_SCENE = """
 name = "=cmd<script>"
 title = "\\u001b[2J <img src=x> | `$\\\\foo$"

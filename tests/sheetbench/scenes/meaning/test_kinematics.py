@@ -123,17 +123,6 @@ def test_curvatures_are_told_joint_by_joint_whatever_they_are_given_as():
     assert_allclose(chain((), segments=1).curvatures().at(), [0.0])
 
 
-@pytest.mark.parametrize("segments", [1, 2, 3, 6])
-@pytest.mark.parametrize("base", ["free", "start", "middle", "end"])
-def test_pieces_of_a_chain_cover_the_edge(base, segments):
-    chain = Chain(
-        edge="x0", segments=segments, bending_stiffness=1.0, line_density=1.0, radius=1e-3, base=base
-    )
-    bounds = chain.pieces()
-    assert len(bounds) == len(chain.curvatures().at()) + 1
-    assert bounds[0] == 0.0 and bounds[-1] == segments and np.all(np.diff(bounds) > 0.0)
-
-
 def test_a_smooth_course_is_scipys_and_its_derivatives_are_its_slopes():
     """Constant outside; one slope from either side at an inner sample, none beyond the ends."""
     time, values = (1.0, 2.0, 4.0, 5.0), ((0.0, 1.0), (2.0, 1.0), (3.0, 1.5), (3.0, -3.0))

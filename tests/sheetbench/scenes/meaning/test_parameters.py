@@ -4,7 +4,7 @@ import pytest
 
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Chain, Clamped, Curved, Scene, SceneError, Symmetric
+from sheetbench.scenes import Chain, Clamped, Curved, Scene, SceneError
 from sheetbench.scenes.meaning.parameters import parameter, put
 
 SCENE = scenes.load("one-edge-clamped")
@@ -63,17 +63,6 @@ def test_what_a_scene_does_not_have_is_refused(name, said):
 def test_values_that_cannot_be_are_refused(name, value):
     with pytest.raises(SceneError):
         put(SCENE, name, value)
-
-
-def test_a_scene_is_validated_again_when_something_is_replaced():
-    with pytest.raises(SceneError, match="off the sheet"):
-        SCENE.replace(probes={"P": (1.0, 0.0)})
-    with pytest.raises(SceneError, match="turns the director"):
-        SCENE.replace(supports=(Clamped(edge="x0", tilt=0.1), Clamped(edge="y0")))
-    with pytest.raises(SceneError, match="lenght"):
-        SCENE.replace(lenght=1.0)
-    halved = SCENE.replace(supports=(*SCENE.supports, Symmetric(edge="y1")))
-    assert halved.supports[-1].edge == "y1" and halved.probes == SCENE.probes
 
 
 def test_a_scene_s_document_is_the_scene():

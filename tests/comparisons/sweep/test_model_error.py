@@ -117,7 +117,7 @@ def test_a_law_that_the_material_states_is_no_part_of_the_error():
     rubber = Material(young=1e6, poisson=0.49, density=1000.0, law="neo-hookean")
     scene = pulled((3000.0, 0.0), material=rubber)
     for law, part in (("neo-hookean", False), ("biot", True)):
-        found = model_error(scene, fem_reference.solve(scene, "solid", elements=2, law=law))
+        found = model_error(scene, fem_reference.solve(scene, "shell", elements=2, law=law))
         assert found is not None and (found.strain_law > 0.1) is part
 
 

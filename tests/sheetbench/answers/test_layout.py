@@ -67,7 +67,6 @@ def test_blocks_repeat_the_figures_that_tell_rows_apart():
     st.integers(4, 100),
 )
 def test_no_text_is_lost_or_too_wide(rows, width):
-    """Whatever stands in the cells: all of it is printed, and nothing beyond the width."""
     table = Table("", (Column("name"), Column("x", form=".3e"), Column("said", prose=True)), tuple(rows))
     lines = text_of(table, width)
     assert all(cell_len(line) <= max(width, 20) for line in lines)

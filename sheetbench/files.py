@@ -22,22 +22,20 @@ LOCK = ".lock"
 PARTIAL = re.compile(r"\.(?P<stem>.+)\.(?P<process>\d+)\.partial(?P<suffix>\..*)?")
 KINDS = ((stat.S_ISLNK, "link"), (stat.S_ISDIR, "folder"))
 NOT_FOLLOWED = os.O_CLOEXEC | os.O_NOFOLLOW
+AGAIN, ELSEWHERE = "run the same command again", "choose another folder"
 REMEDIES = {
-    errno.ENOSPC: "free some and run the same command again",
-    errno.EDQUOT: "free some and run the same command again",
+    **dict.fromkeys((errno.ENOSPC, errno.EDQUOT), f"free some and {AGAIN}"),
     errno.EFBIG: "raise the limit, or write elsewhere",
-    errno.EACCES: "make it writable, or choose another folder",
-    errno.EPERM: "make it writable, or choose another folder",
-    errno.EROFS: "choose another folder",
+    **dict.fromkeys((errno.EACCES, errno.EPERM), f"make it writable, or {ELSEWHERE}"),
+    errno.EROFS: ELSEWHERE,
     errno.EISDIR: "a folder stands there: move it away",
     errno.ENAMETOOLONG: "choose a shorter one",
-    errno.EEXIST: "a file stands there: choose another folder",
-    errno.ENOTDIR: "a part of the path is a file: choose another folder",
+    errno.EEXIST: f"a file stands there: {ELSEWHERE}",
+    errno.ENOTDIR: f"a part of the path is a file: {ELSEWHERE}",
     errno.ELOOP: "a link stands there: remove it",
-    errno.ENOENT: "the folder is gone: run the same command again",
-    errno.EIO: "the disk is at fault: choose another folder",
-    errno.ENOLCK: "this file system has no locks: choose another folder",
-    errno.ENOTSUP: "this file system has no locks: choose another folder",
+    errno.ENOENT: f"the folder is gone: {AGAIN}",
+    errno.EIO: f"the disk is at fault: {ELSEWHERE}",
+    **dict.fromkeys((errno.ENOLCK, errno.ENOTSUP), f"this file system has no locks: {ELSEWHERE}"),
 }
 
 

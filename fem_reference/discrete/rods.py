@@ -57,13 +57,15 @@ class Rods:
         linear: bool = False,
     ):
         self.bound, self._bind, self._linear, self._size = bound, bind, linear, size
+        places = np.arange(9) if places is None else places
+        self._directors = places[3:6]
         k, a = bound.sites.shape
         self.rows = (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
         self.elements: RodElements = bound.elements
         self._commands: list[tuple[np.ndarray, Factor]] = [
             (bind(alone).elements.intrinsic, factor) for alone, factor in commands
         ]
-        self._mass = self._side_masses(scene, np.arange(9) if places is None else places)
+        self._mass = self._side_masses(scene, places)
         self._viscous = self._dampers(scene)
 
     def __bool__(self) -> bool:
@@ -147,10 +149,17 @@ class Rods:
         """Sums (N,) of the sides' (k, a, 3)."""
         return np.bincount(self.rows.ravel(), of_sides.ravel(), self._size)
 
+    def directors(self, q: np.ndarray) -> np.ndarray:
+        """d of the sides' nodes (k, 3, 3)."""
+        return self._vectors(self.gather(q))[:, self._directors]
+
     def _gradient(self, change: np.ndarray) -> np.ndarray:
         """B = H Q (k, s, a, 3) at Q₀ + change (k, a, 3)."""
-        at = self.elements.reference + (0.0 if self._linear else change)
-        return np.einsum("esij,ejc->esic", self.elements.forms, at)
+        return np.einsum("esij,ejc->esic", self.elements.forms, self._vectors(change))
+
+    def _vectors(self, change: np.ndarray) -> np.ndarray:
+        """Q (k, a, 3) that strains are formed about."""
+        return self.elements.reference + (0.0 if self._linear else change)
 
     def _step(self, gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
         found: np.ndarray = np.einsum("esic,eic->es", gradient, self.gather(step))

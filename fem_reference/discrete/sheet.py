@@ -29,7 +29,7 @@ from fem_reference.discrete.items import Dead, Drag, Following, SheetItem
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads, rod
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Elements, Plan, divisions
@@ -297,8 +297,15 @@ class Discrete(ABC):
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         """What the rods exert, which pull at their sides' vectors (k, a, 3)."""
-        surface = self.surface(q)
-        return on_edges(self.rods.bound, pull, surface.position, surface.director)
+        found, body = list[OnEdge](), self.rods
+        for one, on in zip(body.bound.rods, body.bound.by_rod(np.arange(len(pull))), strict=True):
+            own = np.zeros_like(pull)
+            own[on] = -pull[on]
+            nodal, position = self.exerted(q, body.scatter(own))
+            director = np.zeros((len(one.line), 3))
+            director[one.places] = body.directors(q)[on]
+            found.append(OnEdge(one, nodal[one.line], position[one.line], director))
+        return found
 
     @abstractmethod
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -43,7 +43,7 @@ from fem_reference.solid.mesh import columns_of
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import applied, of_scene
 from fem_reference.surface import rod
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
+from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
 from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
@@ -74,7 +74,7 @@ class DiscreteSolid(DiscreteElements):
         super().__init__(scene, moving)
         columns, material = columns_of(mesh, scene, layers, law)
         self.columns, self.plan = columns, columns.plan
-        self.any_strain = LAWS[law].stands_any_strain
+        self.any_strain = not LAWS[law].quadratic
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
         self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
@@ -277,19 +277,6 @@ class DiscreteSolid(DiscreteElements):
         columns, displacement = self.columns, self._on_columns(q)
         middle = (columns.positions + displacement)[:, columns.layers]
         return HoldingForces(columns.about_middle(displacement, self._on_columns(exerted)), middle)
-
-    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
-        columns, bound, displacement = self.columns, self.rods.bound, self._on_columns(q)
-        middle = (columns.positions + displacement)[:, columns.layers]
-        own, found, first = q[self._cut :].reshape(-1, 3) + bound.own, list[OnEdge](), 0
-        for one, at in zip(bound.rods, bound.by_rod(pull), strict=True):
-            nodal, count = np.zeros_like(displacement), len(one.line)
-            np.subtract.at(nodal, one.nodes, at[:, :-DIRECTORS].reshape(*one.nodes.shape, -1, 3))
-            about = columns.about_middle(displacement, nodal)
-            director = own[first : first + count]
-            found.append(OnEdge(one, about[one.line], middle[one.line], director))
-            first += 3 * count
-        return found
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         turned = self.frame(q, at).swapaxes(1, 2)

@@ -88,8 +88,7 @@ def of_scene(scene: Scene, plan: Plan) -> list[Rod]:
     node where a base is held."""
     found = []
     for edge, here in scene.chains().items():
-        line = Line.along(plan.mesh, plan.mesh.boundaries[edge], plan.corners)
-        sides = plan.elements[line.elements[:, None], line.sides]
+        sides = Line.along(plan, plan.mesh.boundaries[edge]).nodes
         found.append(_rod(scene, edge, here, plan.nodes, sides))
     return found
 

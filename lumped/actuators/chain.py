@@ -62,7 +62,7 @@ class BoundChain:
         first = chains[0]
         self.edge: str = first.edge
         self._curvatures = [chain.curvatures() for chain in chains]
-        self.names, self._chains, self._scale = names, tuple(chains), scale
+        self.names, self._chains = names, tuple(chains)
         edge = EDGES[first.edge]
         along = np.eye(3)[edge.along_axis]
         offsets = np.array([chain.axis_height(sheet.thickness) for chain in chains])
@@ -72,6 +72,7 @@ class BoundChain:
         self._parts = parts_of_a_segment(first, len(lattice.edge_columns(first.edge)) - 1)
         divided = first.replace(segments=self._parts * first.segments, curvature=0.0)
         self.frames = frames = Frames(divided, start, sheet.lengths[edge.along_axis], axes, held, shared)
+        self._scale = scale * frames.length  # σ ds
         self._pieces = [mean_curvatures(chain, frames) for chain in chains]
         self.rest, self.axis, self.corners = frames.rest, frames.rest[: frames.points], frames.held
         self.multipliers = frames.constraints
@@ -95,15 +96,18 @@ class BoundChain:
         weight: np.ndarray = self.mass[:, : self.frames.points].sum(axis=1)[:, None] * acceleration
         return weight
 
+    def energy(self, y: np.ndarray, drive: Drive) -> float:
+        """Return the joints' energy [J]."""
+        springs, offset = self._joint_springs(drive)
+        stored = joints.derivatives(self._measures(self._vectors(y)[1]), *springs)[0]
+        return float(stored.sum()) + offset
+
     def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
         """Return the joints' energy [J] and the gradient of energy + σ ds λ·Φ, (rows, 3) [N]."""
-        v = self.frames.vectors(y)
-        values = self.frames.products(v)
-        measures = self._measures(values)
-        stiffness, rest, offset = self._joint_springs(drive)
-        by_measure, _ = joints.derivatives(measures, stiffness, rest)
-        stored = float(joints.energy(measures, stiffness, rest).sum()) + offset
-        return stored, self._gradient(y, v, values, by_measure)
+        v, values = self._vectors(y)
+        springs, offset = self._joint_springs(drive)
+        stored, by_measure, _ = joints.derivatives(self._measures(values), *springs)
+        return float(stored.sum()) + offset, self._gradient(y, v, values, by_measure)
 
     def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
         """Discrete gradient: constraint gradients at the mean, where their differences are exact.
@@ -112,26 +116,23 @@ class BoundChain:
         """
         mean = 0.5 * (start + end)
         mean[self.frames.coordinates :] = end[self.frames.coordinates :]
-        stiffness, rest, _ = self._joint_springs(drive)
-        values = self.frames.products(self.frames.vectors(end))
-        before = self._measures(self.frames.products(self.frames.vectors(start)))
-        by_measure = joints.average_gradient(before, self._measures(values), stiffness, rest)
-        return self._gradient(mean, self.frames.vectors(mean), values, by_measure)
+        before, values = self._vectors(start)[1], self._vectors(end)[1]
+        springs, _ = self._joint_springs(drive)
+        by_measure = joints.average_gradient(self._measures(before), self._measures(values), *springs)
+        return self._gradient(mean, self._vectors(mean)[0], values, by_measure)
 
     def tangent(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """Return joint stiffness, constraint gradients and both curvatures, (rows, 3, rows, 3) [N/m]."""
         frames, count = self.frames, self.frames.coordinates
-        v = frames.vectors(y)
-        stiffness, rest, _ = self._joint_springs(drive)
-        by_measure, hessian = joints.derivatives(self._measures(frames.products(v)), stiffness, rest)
+        (v, values), (springs, _) = self._vectors(y), self._joint_springs(drive)
+        _, by_measure, hessian = joints.derivatives(self._measures(values), *springs)
         gradient = frames.gradient(v)
-        by_constraint = self._scale * frames.length * gradient[: self.multipliers]
+        by_constraint = self._scale * gradient[: self.multipliers]
         of_joints = gradient[self.multipliers :].reshape(-1, 3, 3 * count)
-        weights = np.concatenate([self._forces_of(y), by_measure.ravel()])
         out = np.zeros((self.rows, 3, self.rows, 3))
         bent = np.einsum("jak,jab,jbl->kl", of_joints, hessian, of_joints, optimize=True)
         out[:count, :, :count, :] = bent.reshape(count, 3, count, 3)
-        geometric = frames.curvature_of(weights)
+        geometric = frames.curvature_of(self._weights(y, by_measure))
         for axis in range(3):
             out[:count, axis, :count, axis] += geometric
         flat = out.reshape(3 * self.rows, 3 * self.rows)
@@ -144,46 +145,25 @@ class BoundChain:
         """Return σ ds times the gradients of the constraints, (multipliers, rows, 3)."""
         gradient = np.zeros((self.multipliers, self.rows, 3))
         own = self.frames.gradient(self.frames.vectors(y))[: self.multipliers]
-        gradient[:, : self.frames.coordinates] = self._scale * self.frames.length * own
+        gradient[:, : self.frames.coordinates] = self._scale * own
         return gradient
-
-    def command_force(self, y: np.ndarray, drive: Drive) -> np.ndarray:
-        """Return −k dφ0/d(load factor) on every joint's angle, (rows, 3) [N]."""
-        frames = self.frames
-        v = frames.vectors(y)
-        _, first, _ = joints.angles(self._measures(frames.products(v)))
-        stiffness, rest, _ = self._joint_springs(Drive(1.0, drive.time))
-        by_measure = np.einsum("ji,jia->ja", -stiffness[:, None] * rest, first)
-        return self._spread(frames.gradient(v)[self.multipliers :], by_measure)
-
-    def command_power(self, y: np.ndarray, drive: Drive, later: Drive) -> float:
-        """Return the energy [J] gained by the joints when their rest angles move under them."""
-        measures = self._measures(self.frames.products(self.frames.vectors(y)))
-        energies = []
-        for moment in (drive, later):
-            stiffness, rest, offset = self._joint_springs(moment)
-            energies.append(float(joints.energy(measures, stiffness, rest).sum()) + offset)
-        return energies[1] - energies[0]
 
     def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the power taken [W] and the force (rows, 3) [N] of c φ̇ on every joint's angles."""
+        force = np.zeros_like(y)
         if not self._damping.any():
-            return 0.0, np.zeros_like(y)
-        gradient, first = self._angle_gradient(y)
-        rate = np.einsum("jakq,kq->ja", gradient, v[: self.frames.coordinates])
-        rate = np.einsum("jia,ja->ji", first, rate)
+            return 0.0, force
+        by_row, count = self._angle_gradient(y), self.frames.coordinates
+        rate = by_row @ v[:count].ravel()
         torque = self._damping[:, None] * rate
-        by_measure = np.einsum("ji,jia->ja", torque, first)
-        force = self._spread(gradient.reshape(-1, *gradient.shape[2:]), by_measure)
+        force[:count] = np.tensordot(torque, by_row, 2).reshape(-1, 3)
         return float((torque * rate).sum()), force
 
     def damping_tangent(self, y: np.ndarray) -> np.ndarray:
         """Return Σ c ∇φ ∇φᵀ, (rows, 3, rows, 3) [N·s/m]."""
-        count = self.frames.coordinates
-        gradient, first = self._angle_gradient(y)
-        of_angles = np.einsum("jia,jak->jik", first, gradient.reshape(len(first), 3, -1))
+        by_row, count = self._angle_gradient(y), self.frames.coordinates
         out = np.zeros((self.rows, 3, self.rows, 3))
-        damped = np.einsum("j,jik,jil->kl", self._damping, of_angles, of_angles, optimize=True)
+        damped = np.einsum("j,jik,jil->kl", self._damping, by_row, by_row, optimize=True)
         out[:count, :, :count, :] = damped.reshape(count, 3, count, 3)
         return out
 
@@ -201,14 +181,9 @@ class BoundChain:
         whole = np.where(self.free, 0.0, acting.on_rows + self.binding.T @ acting.on_masses)[:count]
         moment = np.cross(self.frames.rest + acting.y[:count], whole).sum(axis=0)
         on_base = np.cross(self._arms, acting.on_masses).sum(axis=0)
-        return moment + on_base + self._on_ground(acting.y, drive)
-
-    def _on_ground(self, y: np.ndarray, drive: Drive) -> np.ndarray:
-        """Moment (3,) [N·m] of the base on the chain through its joints and constraints."""
-        v = self.frames.vectors(y)
-        stiffness, rest, _ = self._joint_springs(drive)
-        by_measure, _ = joints.derivatives(self._measures(self.frames.products(v)), stiffness, rest)
-        return self.frames.ground_couple(v, np.concatenate([self._forces_of(y), by_measure.ravel()]))
+        (v, values), (springs, _) = self._vectors(acting.y), self._joint_springs(drive)
+        _, by_measure, _ = joints.derivatives(self._measures(values), *springs)
+        return moment + on_base + self.frames.ground_couple(v, self._weights(acting.y, by_measure))
 
     def place_corner(self, end: int, layers: np.ndarray, moved: np.ndarray) -> np.ndarray:
         """Displacement (rows, 3) [m] that follows a corner's layers at the heights (l,), moved by (l, 3)."""
@@ -251,8 +226,8 @@ class BoundChain:
         values = self._pieces[member] @ self._curvatures[member].at(drive.time)
         return drive.load_factor * values[self.frames.command]
 
-    def _joint_springs(self, drive: Drive) -> tuple[np.ndarray, np.ndarray, float]:
-        """Stiffness (j,), rest angles (j, 2) of all chains together, and the energy that their rest angles
+    def _joint_springs(self, drive: Drive) -> tuple[tuple[np.ndarray, np.ndarray], float]:
+        """Stiffness (j,) and rest angles (j, 2) of all chains together, and the energy that their rest angles
         hold against each other [J]."""
         frames = self.frames
         component = 1 if self._chains[0].plane == "inplane" else 0
@@ -264,35 +239,32 @@ class BoundChain:
         rest = np.zeros((len(mean), 2))
         rest[:, component] = mean
         held = 0.5 * float((self._stiffness * wanted**2).sum() - (stiffness * mean**2).sum())
-        return stiffness, rest, held
+        return (stiffness, rest), held
+
+    def _vectors(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Vectors of the frames, and the quantities of these: constraints, then measures."""
+        v = self.frames.vectors(y)
+        return v, self.frames.products(v)
 
     def _measures(self, values: np.ndarray) -> np.ndarray:
         return values[self.multipliers :].reshape(-1, 3)
 
-    def _forces_of(self, y: np.ndarray) -> np.ndarray:
-        """σ ds λ of every constraint."""
-        forces: np.ndarray = (
-            self._scale * self.frames.length * y[self.frames.coordinates :].ravel()[: self.multipliers]
-        )
-        return forces
+    def _weights(self, y: np.ndarray, by_measure: np.ndarray) -> np.ndarray:
+        """What the energy + σ ds λ·Φ changes with every quantity."""
+        multipliers = y[self.frames.coordinates :].ravel()[: self.multipliers]
+        return np.concatenate([self._scale * multipliers, by_measure.ravel()])
 
     def _gradient(
         self, y: np.ndarray, v: np.ndarray, values: np.ndarray, by_measure: np.ndarray
     ) -> np.ndarray:
-        weights = np.concatenate([self._forces_of(y), by_measure.ravel()])
-        out = self._spread(self.frames.gradient(v), weights)
-        residual = np.zeros(3 * self.frames.multiplier_rows)
-        residual[: self.multipliers] = self._scale * self.frames.length * values[: self.multipliers]
-        out[self.frames.coordinates :] = residual.reshape(-1, 3)
+        out, count = np.zeros((self.rows, 3)), self.frames.coordinates
+        out[:count] = np.tensordot(self._weights(y, by_measure), self.frames.gradient(v), axes=1)
+        out[count:].ravel()[: self.multipliers] = self._scale * values[: self.multipliers]
         return out
 
-    def _spread(self, gradient: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        out = np.zeros((self.rows, 3))
-        out[: self.frames.coordinates] = np.tensordot(weights.ravel(), gradient, axes=1)
-        return out
-
-    def _angle_gradient(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        v = self.frames.vectors(y)
-        _, first, _ = joints.angles(self._measures(self.frames.products(v)))
+    def _angle_gradient(self, y: np.ndarray) -> np.ndarray:
+        """Derivatives (j, 2, 3 coordinates) of the joints' angles by the rows."""
+        v, values = self._vectors(y)
+        _, first, _ = joints.angles(self._measures(values))
         gradient = self.frames.gradient(v)[self.multipliers :]
-        return gradient.reshape(-1, 3, *gradient.shape[1:]), first
+        return np.matmul(first, gradient.reshape(len(first), 3, -1))

@@ -175,16 +175,9 @@ class Coupling:
         """Mass of every pair of `pairs` [kg]."""
         return np.concatenate([np.empty(0), *(a.mass[a.pairs] for a in self.bodies)])
 
-    def command_force(self, u: np.ndarray, drive: Drive) -> np.ndarray:
-        """Derivative (size, 3) [N] of the internal force by the load factor."""
-        force = np.zeros((self.size, 3))
-        for body, place in self._bodies:
-            force[place] = body.command_force(u[place], drive)
-        return force
-
     def command_work(self, u: np.ndarray, drive: Drive, later: Drive) -> float:
         """Work [J] of the commands going from one drive to the next at displacement u."""
-        return sum(body.command_power(u[place], drive, later) for body, place in self._bodies)
+        return sum(b.energy(u[at], later) - b.energy(u[at], drive) for b, at in self._bodies)
 
     def add_damping_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
         """Add the damping force to `force` (size, 3) [N]; the power taken [W]."""

@@ -44,21 +44,16 @@ def angles(measures: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return s * g[:, None], first, second
 
 
-def energy(measures: np.ndarray, stiffness: np.ndarray, rest: np.ndarray) -> np.ndarray:
-    """½ k |φ − φ0|² of every joint, (j,) [J]; stiffness (j,), rest angles (j, 2)."""
-    stored: np.ndarray = 0.5 * stiffness * ((angles(measures)[0] - rest) ** 2).sum(axis=1)
-    return stored
-
-
 def derivatives(
     measures: np.ndarray, stiffness: np.ndarray, rest: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Gradient (j, 3) and Hessian (j, 3, 3) of the energy by the measures."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Energy of every joint (j,) [J], its gradient (j, 3) and Hessian (j, 3, 3) by the measures."""
     phi, first, second = angles(measures)
     torque = stiffness[:, None] * (phi - rest)
     gradient = np.einsum("ji,jia->ja", torque, first)
     hessian = np.einsum("j,jia,jib->jab", stiffness, first, first)
-    return gradient, hessian + np.einsum("ji,jiab->jab", torque, second)
+    stored = 0.5 * (torque * (phi - rest)).sum(axis=1)
+    return stored, gradient, hessian + np.einsum("ji,jiab->jab", torque, second)
 
 
 def average_gradient(
@@ -66,10 +61,11 @@ def average_gradient(
 ) -> np.ndarray:
     """Gonzalez' discrete gradient (j, 3): times (end − start) it is the difference of the energies."""
     change = end - start
-    middle, _ = derivatives(0.5 * (start + end), stiffness, rest)
+    _, middle, _ = derivatives(0.5 * (start + end), stiffness, rest)
     size = (change**2).sum(axis=1)
     moving = size > 1e-20  # below, the correction is of third order in a change that rounding hides
-    stored = energy(end, stiffness, rest) - energy(start, stiffness, rest)
+    before, after = (derivatives(at, stiffness, rest)[0] for at in (start, end))
+    stored = after - before
     miss = np.where(moving, stored - (middle * change).sum(axis=1), 0.0)
     corrected: np.ndarray = middle + (miss / np.where(moving, size, 1.0))[:, None] * change
     return corrected

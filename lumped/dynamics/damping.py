@@ -13,7 +13,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.dynamics import drag
-from lumped.springs.all_families import table_dampers
+from lumped.springs.all_families import AllFamilies, table_dampers
 from lumped.springs.families import Family
 from sheetbench.scenes import Scene
 
@@ -27,7 +27,7 @@ class Damping:
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
-        self._coupling = assembly.coupling
+        self._coupling, self._pattern = assembly.coupling, assembly.pattern
         self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self.drag, self._own = drag.of_scene(scene, assembly), assembly.pattern.diagonal[: len(mass)]
         self.rate = scene.material.damping_rate * mass
@@ -36,7 +36,7 @@ class Damping:
             self.dampers: list[Family] = [table_dampers(assembly.lattice, assembly.pattern, scene.dampers)]
         else:
             time = scene.material.dashpot_time
-            self.dampers = [family.damped(time) for family in assembly.springs] if time else []
+            self.dampers = assembly.all_families.damped(time) if time else []
             self.time = time if assembly.conservative else 0.0
         self._in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         others = scene.dampers or scene.actuators or self.drag.coefficient
@@ -59,15 +59,9 @@ class Damping:
     def add_velocity_tangent(self, u: np.ndarray, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks, but for the dampers in
         proportion to the springs (`time`) and to the masses (`rate`)."""
-        if not self.time:
-            for dampers in self.dampers:
-                dampers.add_velocity_tangent(u, scale, blocks)
+        if self.dampers and not self.time:
+            blocks += AllFamilies(self.dampers, self._pattern).tangent(u, share=0.0, scale=scale)
         if self.drag.coefficient:
             blocks[self._own] += scale * drag.velocity_tangent(self.drag, u, v)
         if self._in_chains and self._coupling is not None:
             self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
-
-    def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
-        """Add the derivative of the lattice's damping force by the displacement, which is unsymmetric."""
-        for dampers in self.dampers:
-            dampers.add_displacement_tangent(u, v, blocks)

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from lumped.springs.families import Family
+from lumped.springs.families import DirectionalLinks, Family
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Branches
 from sheetbench.scenes.objects.relaxation import BranchStep
@@ -28,7 +28,7 @@ class Maxwell:
     others."""
 
     def __init__(self, families: Sequence[Family], branches: Branches):
-        if not all(family.conservative for family in families):
+        if any(isinstance(family, DirectionalLinks) for family in families):
             raise BadInput(
                 "material.relaxation: springs with different stiffnesses along x, y and z have no energy, "
                 "and no Maxwell branches; give each link one number, or a damping_time"

@@ -65,9 +65,12 @@ class System:
         shared = masses(scene, lattice, self.assembly.inertia, self.assembly.cells)
         self.lattice_mass = shared if mass is None else mass
         self.damping = Damping(scene, self.assembly, self.lattice_mass)
-        self.natural = problem.assembly.natural  # whose springs' rest data change: they are not packed
-        springs = self.assembly.springs if self.natural is None else ()
-        self.packing = pack(lattice, springs, self.damping.dampers)
+        self.natural = problem.assembly.natural
+        branches = scene.material.branches
+        self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
+        # whether the compiled loops over `packing` have the springs' forces
+        self.packed = self.maxwell is None and self.natural is None and self.assembly.conservative
+        self.packing = pack(lattice, self.assembly.springs if self.packed else (), self.damping.dampers)
         self.scratch = scratch(self.packing)
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
@@ -94,11 +97,7 @@ class System:
         self._own[entries.col[identity]] = entries.row[identity]
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
-        branches = scene.material.branches
-        self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
         self.growing = self.natural if self.natural is not None and self.natural.moves else None
-        # whether the compiled loops over `packing` have the springs' forces
-        self.packed = self.maxwell is None and self.natural is None
         self.prescribed = PrescribedMotion(scene, problem)
 
     @property
@@ -121,48 +120,38 @@ class System:
         """The actuators' commands at a time."""
         return Drive(1.0, time)
 
-    def internal(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, float, np.ndarray]:
-        """Elastic energy, power taken by the dampers, and both their forces, actuators with their multipliers
-        included."""
-        energy, force = (0.0, np.zeros_like(u)) if self.packed else self.elastic(u, time)
-        damped = self.packing.damped
-        stored, power = add_forces(u, v, self.packed, damped, self.packing, self.scratch, force)
-        power += self.damping.add_other_forces(u, v, force)
-        if self.coupling is not None and self.packed:
-            energy += self.coupling.add_force(u, self.drive(time), force)
+    def internal(
+        self, u: np.ndarray, v: np.ndarray, time: float, elastic: bool = True, damped: bool = True
+    ) -> tuple[float, float, np.ndarray]:
+        """Elastic energy, power taken by the dampers, and both their forces or one of them: springs with
+        their branches, actuators with their multipliers, items."""
+        energy, power, force, at = 0.0, 0.0, np.zeros_like(u), (u, self.drive(time))
+        packed, resists = elastic and self.packed, damped and self.packing.damped
+        if elastic and self.maxwell is not None:
+            energy = self.maxwell.add_force(u, force)
+        elif elastic and not packed:
+            energy, force = self.assembly.at(time=time).force(u)
+        if packed or resists:
+            stored, power = add_forces(u, v, packed, resists, self.packing, self.scratch, force)
+            energy += stored
+        if damped:
+            power += self.damping.add_other_forces(u, v, force)
+        if elastic and self.coupling is not None:
+            energy += self.coupling.add_force(*at, force)
         for item in self.items:
-            energy += item.add_force((u, self.drive(time)), force) if self.packed else 0.0
-            power += item.add_resistance((u, self.drive(time)), v, force)
-        return energy + stored, power, force
+            energy += item.add_force(at, force) if elastic else 0.0
+            power += item.add_resistance(at, v, force) if damped else 0.0
+        return energy, power, force
 
     @cached_property
     def kinks(self) -> np.ndarray:
         """Times at which something changes its course, sorted [s]."""
         return np.array(kinks(self.scene))
 
-    def elastic(self, u: np.ndarray, time: float) -> tuple[float, np.ndarray]:
-        """Elastic energy and internal force, actuators with their multipliers and branches included."""
-        force = np.zeros_like(u)
-        if self.maxwell is not None:
-            energy = self.maxwell.add_force(u, force)
-        elif not self.packed:
-            energy, force = self.assembly.at(time=time).force(u)
-        else:
-            energy, _ = add_forces(u, u, True, False, self.packing, self.scratch, force)
-        if self.coupling is not None:
-            energy += self.coupling.add_force(u, self.drive(time), force)
-        for item in self.items:
-            energy += item.add_force((u, self.drive(time)), force)
-        return energy, force
-
     def damping_force(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, np.ndarray]:
         """Power taken and damping force."""
-        force, power = np.zeros_like(u), 0.0
-        if self.packing.damped:
-            _, power = add_forces(u, v, False, True, self.packing, self.scratch, force)
-        for item in self.items:
-            power += item.add_resistance((u, self.drive(time)), v, force)
-        return power + self.damping.add_other_forces(u, v, force), force
+        _, power, force = self.internal(u, v, time, elastic=False)
+        return power, force
 
     def power(self, state: State) -> float:
         """Power [W] that goes into dampers and branches."""
@@ -215,7 +204,8 @@ class System:
         stiffness: float,
         ends: tuple[State, np.ndarray] | None = None,
     ) -> np.ndarray:
-        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. ends: of a
+        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. How C
+        changes with the shape is left out: it is unsymmetric, of the order of the turn in a step. ends: of a
         step of which the items have the mean force's derivative by its end."""
         own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
@@ -228,15 +218,11 @@ class System:
         self.problem.loads.add_tangent(u, stiffness, blocks, time)
         if self.shared_mass:
             blocks[self._bodies[0]] += mass * self._bodies[1]
-        if not self.problem.conservative or self.coupling is not None:
-            others = np.zeros_like(blocks)
-            if not self.problem.conservative:
-                self.damping.add_displacement_tangent(u, v, others)
-            if self.coupling is not None:
-                slots = self.assembly.coupling_slots
-                self.coupling.add_tangent(u, self.drive(time), slots, others)
-                np.add.at(blocks, slots, mass * self._chain_mass)
-            blocks += stiffness * others
+        if self.coupling is not None:
+            slots, of_chains = self.assembly.coupling_slots, np.zeros_like(blocks)
+            self.coupling.add_tangent(u, self.drive(time), slots, of_chains)
+            np.add.at(blocks, slots, mass * self._chain_mass)
+            blocks += stiffness * of_chains
         self.damping.add_velocity_tangent(u, v, damping, blocks)
         for item in self.items:
             if ends is None:

@@ -9,6 +9,7 @@ family's own; here they release the interpreter's lock. Springs without an energ
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cache, cached_property
 from typing import Any, NamedTuple
 
@@ -25,7 +26,6 @@ from lumped.springs.cells import CellArrays
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
 from lumped.springs.survey import Survey, survey
-from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.typed import njit, typed
@@ -61,18 +61,17 @@ class AllFamilies:
 
     def __init__(self, families: Sequence[Family], pattern: MassPattern):
         self.families = tuple(families)
-        found = {_place(family): family for family in families}
+        self._others = [family for family in families if isinstance(family, DirectionalLinks)]
+        found = {_place(family): family for family in families if family not in self._others}
         links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
         where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
         layers, middle, faces = (CellArrays(*parts) for parts in cells_)
         arrays = SpringArrays(LinkArrays(*links_), layers, middle, faces, where)
         self.springs, self._found, self._pattern = typed(arrays), found, pattern
         self._cells = {at: family for at, family in found.items() if isinstance(family, SpringCells)}
-        self._others = [family for place, family in found.items() if place < 0]
         along = [family for family in families if isinstance(family, Links)]
-        self.alone = not self._others
+        self.conservative = not self._others
         self.links, self.all_links = along[0], along
-        self.conservative = all(family.conservative for family in families)
         self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
 
     @cached_property
@@ -86,25 +85,24 @@ class AllFamilies:
         """Return its norm."""
         return float(np.linalg.norm(self.link_stiffness))
 
-    @cached_property
-    def _areas(self) -> Any:
-        """The area springs alone, of the layers' cells, the mid-surface's and the faces."""
-        found = [self._cells.get(at) for at in (1, 2, 3)]
-        return typed(tuple([_no_cells()[3] if each is None else each.area_alone for each in found]))
+    def damped(self, time: float) -> list[Family]:
+        """Return the dampers of the families, with `time` [s], of all links together."""
+        links, *others = [family.damped(time) for family in self.families]
+        for more in (family for family in others if isinstance(family, Links)):
+            names = ("nodes", "stiffness", "slots", "offset", "rest_length", "kind")
+            each = {name: np.append(getattr(links, name), getattr(more, name), axis=0) for name in names}
+            links = replace(links, **each)
+        return [links, *(family for family in others if isinstance(family, SpringCells))]
 
     def survey(self, u: np.ndarray, layers: int) -> Survey:
         """Return what the springs of a lattice of so many layers store at u, and how far they are
         strained."""
-        kind, names = self.links.kind, len(self.links.names)
-        found = survey(np.ascontiguousarray(u), self.springs, self._areas, kind, names, layers)
-        energies, sums = (
-            self.links.by_name(found[0][:names].tolist()),
-            found[0][names:].reshape(3, 2).tolist(),
-        )
-        for at, family in self._found.items():
-            if at > 0:
-                energies |= family.by_name(sums[at - 1])
-        return Survey(energies, *found[1:])
+        names, cells = list(self.links.names), self._cells
+        energies, *rest = survey(np.ascontiguousarray(u), self.springs, self.links.kind, len(names), layers)
+        names += [cells[at].name if at in cells else "" for at in (1, 2, 3)]
+        by_name = dict(zip(names, energies.tolist(), strict=True))
+        by_name.pop("", None)
+        return Survey(by_name, *rest)
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""
@@ -155,16 +153,16 @@ class AllFamilies:
         )
         for family in self._others:
             apart = np.zeros_like(blocks)
-            family.add_tangent(u, NO_STRESSES[0], apart)
+            family.add_tangent(u, apart)
             blocks += scale * apart
         return blocks
 
 
 def _place(family: Family) -> int:
-    """Which of the families in `Springs` it is; −1 if none."""
+    """Which of the families in `SpringArrays` it is."""
     if isinstance(family, SpringCells):
         return 3 if family.upright else 1 if family.nodes.shape[2] == 1 else 2
-    return 0 if family.conservative else -1
+    return 0
 
 
 def _arrays(family: Family) -> tuple[Any, ...]:
@@ -224,10 +222,10 @@ def tangent(
     where = springs.where
     blocks = np.zeros((where.total, 3, 3))
     strain = extrapolated and measures(springs.layers.law) == 3
-    links.add_tangent(u, springs.links, stress[0], strain, share, NUMBA_TRUE, blocks)
-    cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, NUMBA_TRUE, blocks)
-    cells.add_tangent(u, springs.middle, stress[2], extrapolated, share, NUMBA_TRUE, blocks)
-    cells.add_tangent(u, springs.faces, stress[3], extrapolated, share, NUMBA_TRUE, blocks)
+    links.add_tangent(u, springs.links, stress[0], strain, share, blocks)
+    cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, blocks)
+    cells.add_tangent(u, springs.middle, stress[2], extrapolated, share, blocks)
+    cells.add_tangent(u, springs.faces, stress[3], extrapolated, share, blocks)
     if scale != 1.0:
         entries = blocks.ravel()
         for e in range(len(entries)):
@@ -285,14 +283,14 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
             squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
             found = of_rubber(springs, squares, every_area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield SpringCells(nodes, stiffness, slots, sides, area, ("", "rubber"), False, RUBBER, others)
+            yield SpringCells(nodes, stiffness, slots, sides, area, "rubber", False, RUBBER, others)
             continue
         strains = kept_cells(springs.strains(family.name))
         strains = strains + (1 if family.name == "area" else -layers) * edges[lattice.kept]
         stiffness = np.column_stack([kept_cells(springs.along(family.name, 0)), strains])
         if stiffness.any():
-            names = family.name, "strain" if family.name == "area" else "mid_strain"
-            yield SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, names)
+            name = "cells" if family.name == "area" else "mid_cells"
+            yield SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, name)
 
 
 def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
@@ -307,7 +305,7 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
         stiffness = np.zeros((len(nodes), 4))
         stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
         others = stiffness[:, 3:] / area[:, None]
-        yield SpringCells(nodes, stiffness, slots, sides, area, ("", "face_shear"), True, FACE, others)
+        yield SpringCells(nodes, stiffness, slots, sides, area, "face_shear", True, FACE, others)
 
 
 FAMILIES: tuple[Callable[[Lattice, MassPattern, Constants], Iterator[Family]], ...] = (

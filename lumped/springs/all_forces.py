@@ -13,10 +13,10 @@ from lumped.springs import packing as kinds
 from lumped.springs import tiles
 from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.packing import Packing, Scratch
-from lumped.springs.tiles import HALF, LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
+from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
 from sheetbench.numerics.typed import njit
 
-DIRECTIONAL, CELLS, FACES = map(np.uint64, (kinds.DIRECTIONAL, kinds.CELLS, kinds.FACES))
+CELLS, FACES = np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
 UINT_ONE = np.uint64(1)
 
 
@@ -109,15 +109,11 @@ def _pass(
         run = packing.runs[r]
         kind, blocks, t, a, b, at = run[0], run[1], run[2], run[3], run[4], run[7]
         if kind < CELLS:
-            if kind == DIRECTIONAL:
-                if not elastic:
-                    continue
-                tiles.stretch_directional(u, rest, t, a, b, size, blocks, tile, at)
-            elif fresh:
+            if fresh:
                 energy += tiles.stretch_links(u, share, rest, t, a, b, size, blocks, tile, at)
             else:
                 tile[: blocks * LANES] = 0.0
-            if damped and kind != DIRECTIONAL:
+            if damped:
                 power += tiles.resist_links(v, rest, t, a, b, size, blocks, tile, at)
             tiles.pull_ends(-1.0, a, size, blocks, tile, at, force)
             tiles.pull_ends(1.0, b, size, blocks, tile, at, force)
@@ -139,10 +135,10 @@ def _pass(
         if damped:
             tiles.gather_sides(v, a, b, c, d, size, blocks, tile)
             power += tiles.resist_cells(rest, t, blocks, tile, at)
-        tiles.push_corner(-HALF, -HALF, a, size, blocks, tile, force)
-        tiles.push_corner(HALF, -HALF, b, size, blocks, tile, force)
-        tiles.push_corner(HALF, HALF, c, size, blocks, tile, force)
-        tiles.push_corner(-HALF, HALF, d, size, blocks, tile, force)
+        tiles.push_corner(-0.5, -0.5, a, size, blocks, tile, force)
+        tiles.push_corner(0.5, -0.5, b, size, blocks, tile, force)
+        tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
+        tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
     if packing.mid:
         share_out(packing, force)
     return energy, power
@@ -152,7 +148,7 @@ def _pass(
 def average(packing: Packing, x: np.ndarray) -> None:
     """Put the layers' mean in the mid-surface's places."""
     plane, mid = packing.plane, packing.layers * packing.plane
-    part = x.dtype.type(1.0) / x.dtype.type(packing.layers)
+    part = 1.0 / packing.layers
     for q in range(3):
         first = np.uint64(q) * packing.size
         for i in range(plane):
@@ -178,7 +174,7 @@ def clear(packing: Packing, force: np.ndarray) -> None:
 def share_out(packing: Packing, force: np.ndarray) -> None:
     """Give the force on the mid-surface to the layers, equally."""
     plane, mid = packing.plane, packing.layers * packing.plane
-    part = force.dtype.type(1.0) / force.dtype.type(packing.layers)
+    part = 1.0 / packing.layers
     for q in range(3):
         first = np.uint64(q) * packing.size
         for k in range(packing.layers):

@@ -23,12 +23,6 @@ def by_sides(d: Three, a: Vector, b: Vector) -> Pair:
 
 
 @inner(error_model="numpy")
-def both(one: Pair, other: Pair) -> Pair:
-    """The sum of two pairs of vectors."""
-    return plus(one[0], other[0]), plus(one[1], other[1])
-
-
-@inner(error_model="numpy")
 def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarray) -> None:
     """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
     derivatives of S₁, S₂, S₃ by the sides: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
@@ -63,9 +57,9 @@ def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.
 
 
 @inner(error_model="numpy")
-def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool, blocks: np.ndarray) -> None:
-    """Add a tangent in a cell's diagonals, (4, 9), to the blocks of its corners, each a mean of p masses, or
-    to those on and below the diagonal."""
+def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
+    """Add a tangent in a cell's diagonals, (4, 9), to the blocks on and below the diagonal of its corners,
+    each a mean of p masses."""
     flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
     for corner in range(4):
         for other in range(4):
@@ -74,7 +68,7 @@ def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool,
             for s in range(p):
                 for t in range(p):
                     row, column = corner * p + s, other * p + t
-                    if lower and slots[row, column] < slots[column, row]:
+                    if slots[row, column] < slots[column, row]:
                         continue
                     block = flat[np.uint64(slots[row, column])]
                     for e in range(9):
@@ -83,14 +77,14 @@ def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, lower: bool,
 
 @inner(cache=True, error_model="numpy", forceinline=True)
 def add_warped_blocks(
-    in_diagonals: np.ndarray, of_warp: np.ndarray, slots: np.ndarray, lower: bool, blocks: np.ndarray
+    in_diagonals: np.ndarray, of_warp: np.ndarray, slots: np.ndarray, blocks: np.ndarray
 ) -> None:
     """Add a tangent in a cell's diagonals, (4, 9), and q, (3, 9), as `add_blocks`; each corner one mass."""
     flat = blocks.reshape(-1, 9)
     for corner in range(4):
         side, turn = -1.0 if corner < 2 else 1.0, 1.0 if corner % 2 == 0 else -1.0
         for other in range(4):
-            if lower and slots[corner, other] < slots[other, corner]:
+            if slots[corner, other] < slots[other, corner]:
                 continue
             side2, turn2 = -1.0 if other < 2 else 1.0, 1.0 if other % 2 == 0 else -1.0
             block = flat[np.uint64(slots[corner, other])]

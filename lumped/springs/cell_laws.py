@@ -42,7 +42,7 @@ Tag = AreaAndStrains | Rubber | Face
 
 
 @inner(error_model="numpy")
-def face(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, float, Four]:
+def face(d: Four, g: Three, area: float, k: Constants) -> tuple[float, float, Four]:
     """The law of upright faces: the shear of their director b against the direction of their chord a,
 
         W = ½ k₄ δg₁₂²/(1 + δg₁₁/g₁₁),
@@ -50,11 +50,11 @@ def face(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[flo
     whatever the chord is stretched. k₀ to k₃: the springs of its small strains [N/m³]. Return W, its
     stiffness against δg₁₂, and S.
     """
-    now, none = g[0] + d[0], half - half
+    now = g[0] + d[0]
     stiff = k[4] * g[0] / now
     pull = stiff * d[2]
-    energy = half * pull * d[2]
-    return energy, stiff, (-energy / now, none, pull, none)
+    energy = 0.5 * pull * d[2]
+    return energy, stiff, (-energy / now, 0.0, pull, 0.0)
 
 
 @inner(error_model="numpy")
@@ -103,7 +103,7 @@ def _linear(stiffness: Callable[..., Any]) -> Callable[..., Any]:
 
 @dataclass(frozen=True)
 class CellLaw:
-    """tag: of its loops; respond: (½, δg and s, g at rest, area, constants) → energy, what its stiffness
+    """tag: of its loops; respond: (δg and s, g at rest, area, constants) → energy, what its stiffness
     takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, 11 22 33
     12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, that, stress, constants, their rate) →
     what a linearisation predicts, and of_extrapolated: (δg and s, g, that, it) → that and the stress;

@@ -12,7 +12,7 @@ dW/dg, D = d²W/dg² and the change δ of g,
 
 The tangent takes S as an argument of its own: that at u, an extrapolated one (`lumped.springs.links`), its
 nonnegative part, none. Dampers have the stress M ġ (`lumped.springs.laws`), of area and strains whatever the
-law; of it the derivative by the displacement is unsymmetric.
+law.
 
 Arrays: stress (c, 4) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, both, by_sides, by_warp, to_diagonals
+from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, by_sides, by_warp, to_diagonals
 from lumped.springs.cell_laws import (
     Tag,
     constants_of,
@@ -36,20 +36,14 @@ from lumped.springs.cell_laws import (
 )
 from lumped.springs.laws import (
     Four,
-    Six,
     Three,
     Vector,
     dot,
     less,
     plus,
-    stiffness_of_area_and_strains,
     times,
-    times_six,
 )
 from sheetbench.numerics.typed import inner, njit
-
-HALF = 0.5
-NO_CHANGE = (0.0, 0.0, 0.0, 0.0)
 
 
 class CellArrays(NamedTuple):
@@ -166,7 +160,7 @@ def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
     energy = 0.0
     for c in range(len(cells.nodes)):
         d, g, area, shape = measure(u, cells, c)
-        stored, _, stress = respond(cells.law, HALF, d, g, area, constants_of(cells.law, c))
+        stored, _, stress = respond(cells.law, d, g, area, constants_of(cells.law, c))
         energy += stored
         pull(cells, c, stress, shape, force)
     return energy
@@ -187,7 +181,7 @@ def add_remembering_forces(
     energy = 0.0
     for c in range(len(cells.nodes)):
         d, g, area, shape = measure(u, cells, c)
-        stored, _, s = respond(cells.law, HALF, d, g, area, constants_of(cells.law, c))
+        stored, _, s = respond(cells.law, d, g, area, constants_of(cells.law, c))
         energy += stored
         k = constant[c]
         for e in range(4):
@@ -198,13 +192,12 @@ def add_remembering_forces(
 
 
 @njit(cache=True, error_model="numpy")
-def energies(u: np.ndarray, cells: CellArrays, part: Tag) -> np.ndarray:
-    """Energy of every cell by a part of its law's constants, and by all others, (c, 2) [J]."""
-    out = np.empty((len(cells.nodes), 2))
+def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
+    """Energy of every cell, (c,) [J]."""
+    out = np.empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
         d, g, area, _ = measure(u, cells, c)
-        out[c, 0] = respond(part, HALF, d, g, area, constants_of(part, c))[0]
-        out[c, 1] = respond(cells.law, HALF, d, g, area, constants_of(cells.law, c))[0] - out[c, 0]
+        out[c] = respond(cells.law, d, g, area, constants_of(cells.law, c))[0]
     return out
 
 
@@ -214,7 +207,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
     out = np.empty((len(cells.nodes), 4))
     for c in range(len(cells.nodes)):
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
-        _, memory, s = respond(cells.law, HALF, d, g, area, k)
+        _, memory, s = respond(cells.law, d, g, area, k)
         va, vb, vq = changes(step, cells.nodes, c)
         r1, r2, r3 = rate(a, b, va, vb)
         moved = extrapolate(cells.law, d, g, area, memory, s, k, (r1, r2, r3, 2.0 * dot(q, vq)))
@@ -235,13 +228,6 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
         )
 
 
-@inner(error_model="numpy")
-def _material(cells: CellArrays, c: int, now: Three) -> Six:
-    """M of the dampers of cell c, whose measure is `now`."""
-    memory, k = (0.0, now[0] * now[1] - now[2] * now[2]), constants_of(cells.law, c)
-    return stiffness_of_area_and_strains(NO_CHANGE, now, cells.area[c], memory, 0.0, k)[0]
-
-
 @njit(cache=True, error_model="numpy")
 def add_tangent(
     u: np.ndarray,
@@ -249,17 +235,16 @@ def add_tangent(
     stress: np.ndarray,
     extrapolated: bool,
     share: float,
-    lower: bool,
     blocks: np.ndarray,
 ) -> None:
     """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks; with what is `extrapolated` D − M is that of it. lower: to
-    those on and below the diagonal alone."""
+    and with M + share (D − M), to the 3×3 blocks on and below the diagonal; with what is `extrapolated` D − M
+    is that of it."""
     in_diagonals, of_warp = np.empty((4, 9)), np.empty((3, 9))
     own = len(stress) == 0
     for c in range(len(cells.nodes)):
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
-        _, memory, s = respond(cells.law, HALF, d, g, area, k)
+        _, memory, s = respond(cells.law, d, g, area, k)
         if own:
             s = share * s[0], share * s[1], share * s[2], share * s[3]
         else:
@@ -275,38 +260,6 @@ def add_tangent(
         to_diagonals((s[0], s[1], s[2]), a, b, rows, in_diagonals)
         if measures(cells.law) == 4:
             by_warp(s[3], more, a, b, q, of_warp)
-            add_warped_blocks(in_diagonals, of_warp, cells.slots[c], lower, blocks)
+            add_warped_blocks(in_diagonals, of_warp, cells.slots[c], blocks)
         else:
-            add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], lower, blocks)
-
-
-@njit(cache=True, error_model="numpy")
-def add_damping_tangent(u: np.ndarray, v: np.ndarray, cells: CellArrays, blocks: np.ndarray) -> None:
-    """Add the derivative of the damping force by the displacement to the 3×3 blocks, unsymmetric. Of the area
-
-    q₀ [Ȧ ∇²A + ∇A (∇²A ġ)ᵀ],   ∇A = n/2A,   ∇²A = N/2A − n nᵀ/4A³
-
-    is ∂(M ġ)/∂g; with M and the sides' velocities comes ∂ġ.
-    """
-    in_diagonals = np.empty((4, 9))
-    for c in range(len(cells.nodes)):
-        _, _, _, (a, b, _) = measure(u, cells, c)
-        now = products(a, b)
-        va, vb, _ = changes(v, cells.nodes, c)
-        moving = rate(a, b, va, vb)
-        square, k = now[0] * now[1] - now[2] * now[2], _material(cells, c, now)
-        n, turned = (now[1], now[0], -2.0 * now[2]), (moving[1], moving[0], -2.0 * moving[2])
-        along = dot(n, moving) / square
-        scale = 0.25 * constants_of(cells.law, c)[0] / square
-        h = less(turned, times(0.5 * along, n))  # 2A ∇²A ġ
-        h, growing = times(scale, less(h, times(0.5 * along, n))), scale * along * square
-        r1 = plus(times(n[0], h), (0.0, growing, 0.0))
-        r2 = plus(times(n[1], h), (growing, 0.0, 0.0))
-        r3 = plus(times(n[2], h), (0.0, 0.0, -2.0 * growing))
-        rows = (
-            both(by_sides(r1, a, b), by_sides((k[0], k[3], k[4]), va, vb)),
-            both(by_sides(r2, a, b), by_sides((k[3], k[1], k[5]), va, vb)),
-            both(by_sides(r3, a, b), by_sides((k[4], k[5], k[2]), va, vb)),
-        )
-        to_diagonals(times_six(k, moving), a, b, rows, in_diagonals)
-        add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], False, blocks)
+            add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], blocks)

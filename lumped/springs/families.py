@@ -32,8 +32,6 @@ class Family(ABC):
 
     loops: ClassVar[Any]
     measures: ClassVar[int] = 4  # that a spring's memory holds room for
-    conservative: ClassVar[bool] = True  # whether there is an energy, and so a symmetric tangent
-    no_stress: ClassVar[np.ndarray]  # for which the tangent takes its own
 
     def __len__(self) -> int:
         return len(self.nodes)
@@ -42,11 +40,6 @@ class Family(ABC):
     @abstractmethod
     def arrays(self) -> Any:
         """Return what the loops take after the displacement, `LinkArrays` or `CellArrays`."""
-
-    def add_force(self, u: np.ndarray, force: np.ndarray) -> float:
-        """Add the internal force; return the energy [J]."""
-        energy: float = self.loops.add_forces(u, self.arrays, force)
-        return energy
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
         """Add the force over a step whose work is the energy stored in it."""
@@ -63,35 +56,10 @@ class Family(ABC):
         """Return stresses with which, and with the material part M, the tangent is a sum of squares; with
         negative area springs (ν < 1/3) only while strains are small."""
 
-    def add_tangent(
-        self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0, lower: bool = False
-    ) -> None:
-        """Add the tangent with this stress, and M + share (D − M), to the 3×3 blocks [N/m], or to those on
-        and below the diagonal."""
-        self.loops.add_tangent(u, self.arrays, stress, False, share, lower, blocks)
-
-    @abstractmethod
-    def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return the energy of every spring, (m,), or of both kinds of springs on every cell, (m, 2) [J]."""
-
-    @abstractmethod
-    def by_name(self, sums: list[float]) -> dict[str, float]:
-        """Return sums of energies [J], by kind of link or of both kinds of springs on cells, under the names
-        that the springs have in a spring set."""
-
     def damped(self, time: float) -> Family:
         """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
         stiffness [N·s/m] in its place, of stress M ġ; they take the power ġ·M ġ."""
         return self.scaled(time)
-
-    def add_velocity_tangent(self, u: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the dampers' force by the velocity to the 3×3 blocks."""
-        self.scaled(scale).add_tangent(u, self.no_stress, blocks, 0.0)
-
-    def add_displacement_tangent(self, u: np.ndarray, v: np.ndarray, blocks: np.ndarray) -> None:
-        """Add the derivative of the dampers' force at the velocity v (n, 3) [m/s] by the displacement to the
-        3×3 blocks, unsymmetric."""
-        self.loops.add_damping_tangent(u, v, self.arrays, blocks)
 
     def scaled(self, factor: float) -> Self:
         """Return the springs or dampers with so many times their stiffness."""
@@ -112,7 +80,6 @@ class Links(Family):
 
     loops: ClassVar[Any] = links
     measures: ClassVar[int] = 1
-    no_stress: ClassVar[np.ndarray] = np.empty(0)
 
     @cached_property
     def arrays(self) -> LinkArrays:
@@ -137,34 +104,22 @@ class Links(Family):
         """Return ½ k e² of every link."""
         return 0.5 * self.stiffness * self.elongations(u) ** 2
 
-    def by_name(self, sums: list[float]) -> dict[str, float]:
-        return dict(zip(self.names, sums, strict=True))
-
 
 @dataclass(frozen=True, eq=False)
 class DirectionalLinks(Links):
     """Links of the per-direction law of Habibi et al., stiffness (m, 3); neither energy nor stress."""
 
-    conservative: ClassVar[bool] = False
-
-    def add_force(self, u: np.ndarray, force: np.ndarray) -> float:
-        """Add the force; return no energy, 0 [J]."""
+    def add_force(self, u: np.ndarray, force: np.ndarray) -> None:
+        """Add the internal force."""
         links.add_directional_forces(u, self.arrays, force)
-        return 0.0
 
-    def add_tangent(
-        self, u: np.ndarray, stress: np.ndarray, blocks: np.ndarray, share: float = 1.0, lower: bool = False
-    ) -> None:
-        """Add the tangent, whatever the stress; it is unsymmetric, all of it is added."""
+    def add_tangent(self, u: np.ndarray, blocks: np.ndarray) -> None:
+        """Add the tangent to the 3×3 blocks [N/m]; it is unsymmetric."""
         links.add_directional_tangent(u, self.arrays, blocks)
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
         """Add the force in the middle of the step, for want of an energy."""
         self.add_force(0.5 * (start + end), force)
-
-    def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return zero: this law has no energy."""
-        return np.zeros(len(self))
 
     def damped(self, time: float) -> Links:
         """Return dampers along the links, of the mean stiffness."""
@@ -177,19 +132,18 @@ class SpringCells(Family):
     """Springs on the cells of the layers, of the mid-surface or on upright faces: nodes (c, 4, p), stiffness
     (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides, or
     (c, 7) with what couples these, which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area
-    (c,) [m²]; the names of area springs and of all others; their law, and what constants it has beside
+    (c,) [m²]; their name among energies; their law, and what constants it has beside
     (c, n); natural: area and δg₀ (4, c) of a sheet that is not flat at rest."""
 
     sides: np.ndarray
     area: np.ndarray
-    names: tuple[str, str]
+    name: str
     upright: bool = False  # faces between the layers
     law: CellLaw = AREA_AND_STRAINS
     others: np.ndarray | None = None
     natural: np.ndarray | None = None
 
     loops: ClassVar[Any] = cells
-    no_stress: ClassVar[np.ndarray] = np.empty((0, 4))
 
     @cached_property
     def constants(self) -> np.ndarray:
@@ -217,26 +171,10 @@ class SpringCells(Family):
         return np.column_stack([found, np.maximum(s[:, 3:], 0.0)])
 
     def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return the energy of the area spring and of all else of every cell; of rubber that of the membrane
-        less that of the links along its sides."""
-        stored: np.ndarray = cells.energies(u, self.arrays, self.area_alone)
+        """Return the energy of every cell's springs, (c,) [J]; of rubber that of the membrane less that of
+        the links along its sides."""
+        stored: np.ndarray = cells.energies(u, self.arrays)
         return stored
-
-    @cached_property
-    def area_alone(self) -> Any:
-        """Return the law's constants of the area springs alone."""
-        areas = self.constants.copy()
-        areas[:, 1:] = 0.0
-        return self.law.tag(areas)
-
-    @cached_property
-    def _there(self) -> tuple[bool, bool]:
-        return bool(self.stiffness[:, 0].any()), bool(self.stiffness[:, 1:].any())
-
-    def by_name(self, sums: list[float]) -> dict[str, float]:
-        return {
-            name: sum for name, sum, has in zip(self.names, sums, self._there, strict=True) if name and has
-        }
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""

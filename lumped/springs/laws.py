@@ -10,8 +10,6 @@ and so does the tangent (`lumped.springs.links`, `lumped.springs.cells`). D is M
 part M = Σ k ∇ε ∇εᵀ of the strains ε that an energy ½ Σ k ε² is of; dampers of coefficients c in place of k
 have the stress M ġ. Laws take the change δg since rest, not g alone: where it is small no digits are lost.
 
-`half` is ½.
-
 Laws of cells take and return one measure more, s = q·q of what the corners have beside mean sides
 (`lumped.springs.cells`); they are the rows of `lumped.springs.cell_laws.LAWS`.
 
@@ -75,15 +73,13 @@ def dot(a: Vector, b: Vector) -> float:
 
 
 @inner(error_model="numpy")
-def elongation(
-    half: float, change: float, square: float, rest_length: float, k: float
-) -> tuple[float, float, float, float]:
+def elongation(change: float, square: float, rest_length: float, k: float) -> Four:
     """W = ½ k (r − L)², r = √g: return W, S = ½ k (r − L)/r, M = ¼ k/g and D − M = −½ S/g."""
     length = math.sqrt(square)
     strain = change / ((length + rest_length) * length)
-    stress = half * k * strain
-    inverse = half / square
-    return stress * strain * square, stress, half * k * inverse, -stress * inverse
+    stress = 0.5 * k * strain
+    inverse = 0.5 / square
+    return stress * strain * square, stress, 0.5 * k * inverse, -stress * inverse
 
 
 @inner(error_model="numpy")
@@ -104,7 +100,7 @@ def times_six(d: Constants, x: Three) -> Three:
 
 
 @inner(error_model="numpy")
-def area_and_strains(half: float, d: Four, g: Three, area: float, q: Constants) -> tuple[float, Memory, Four]:
+def area_and_strains(d: Four, g: Three, area: float, q: Constants) -> tuple[float, Memory, Four]:
     """W = ½ q₀ (A − A₀)² + ½ δg·Q δg, A² = det g: energy of an area spring and of springs against the Green
     strains of the sides, Q of q₁ to q₆ (11, 22, 33, 12, 13, 23) with what couples them, as fibres do. d: δg;
     g: at rest; area: A₀; q: [N/m³] (`of_stiffness`).
@@ -117,11 +113,11 @@ def area_and_strains(half: float, d: Four, g: Three, area: float, q: Constants) 
     square = area * area + change
     now = math.sqrt(square)
     grown = change / (now + area)
-    t = half * q[0] * grown / now
+    t = 0.5 * q[0] * grown / now
     s1, s2, s3 = times_six(q[1:], (d1, d2, d3))
-    energy = half * (q[0] * grown * grown + s1 * d1 + s2 * d2 + s3 * d3)
+    energy = 0.5 * (q[0] * grown * grown + s1 * d1 + s2 * d2 + s3 * d3)
     s1, s2, turned = s1 + t * (g[1] + d2), s2 + t * (g[0] + d1), t * (g[2] + d3)
-    return energy, (t, square), (s1, s2, s3 - (turned + turned), half - half)
+    return energy, (t, square), (s1, s2, s3 - (turned + turned), 0.0)
 
 
 @inner(error_model="numpy")
@@ -247,10 +243,10 @@ def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[
 
 
 @inner(error_model="numpy")
-def rubber(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
+def rubber(d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
     """Return W since rest; θ − 1 and A, which `stiffness_of_rubber` takes; S."""
     if k[4] + k[5] == 0.0:  # there is no cell
-        return 0.0 * half, (0.0, 1.0), (0.0 * half, 0.0 * half, 0.0 * half, 0.0 * half)
+        return 0.0, (0.0, 1.0), (0.0, 0.0, 0.0, 0.0)
     e1, e2 = (d[0] + d[3] / 12.0) / g[0], (d[1] + d[3] / 12.0) / g[1]
     square = d[2] * d[2] / (area * area)
     product = e1 * e2 - square
@@ -264,20 +260,15 @@ def rubber(half: float, d: Four, g: Three, area: float, k: Constants) -> tuple[f
     curved = less_logarithm(change, growth) + less_logarithm(thinning, x)
     stored = f0 + k[4] * (curved - product) + c01 * (curved + curved - product + thinning * excess)
     d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
-    w1, p1, _, _ = elongation(half, d1, g[0] + d1, math.sqrt(g[0]), k[10])
-    w2, p2, _, _ = elongation(half, d2, g[1] + d2, math.sqrt(g[1]), k[11])
-    energy = half * sheared * d[2] + stored + 0.125 * k[8] * volume * volume - w1 - w2
+    w1, p1, _, _ = elongation(d1, g[0] + d1, math.sqrt(g[0]), k[10])
+    w2, p2, _, _ = elongation(d2, g[1] + d2, math.sqrt(g[1]), k[11])
+    energy = 0.5 * sheared * d[2] + stored + 0.125 * k[8] * volume * volume - w1 - w2
     turned = c01 * theta * square
     inverse = 1.0 / (1.0 + change)
     m1 = inverse / g[0] * ((f1 + c01 * (1.0 + e2)) * (e1 + product - thinning * (1.0 + e2)) - turned)
     m2 = inverse / g[1] * ((f1 + c01 * (1.0 + e1)) * (e2 + product - thinning * (1.0 + e1)) - turned)
     m3 = 2.0 * d[2] / (area * area) * (theta * (f1 + c01 * (2.0 + excess)) * inverse - c01)
-    stress = (
-        m1 - p1,
-        m2 - p2,
-        m3 + sheared,
-        (m1 + m2) / 12.0 - 0.25 * (p1 + p2),
-    )
+    stress = m1 - p1, m2 - p2, m3 + sheared, (m1 + m2) / 12.0 - 0.25 * (p1 + p2)
     return energy, (thinning, 1.0 + change), stress
 
 
@@ -288,8 +279,8 @@ def stiffness_of_rubber(
     """M + share (D − M) of `rubber`, its 11 22 33 12 13 23 and 14 24 34 44."""
     o = _stiffness_of_membrane(d, g, area, memory, k)
     d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
-    _, _, m1, r1 = elongation(0.5, d1, g[0] + d1, math.sqrt(g[0]), k[10])
-    _, _, m2, r2 = elongation(0.5, d2, g[1] + d2, math.sqrt(g[1]), k[11])
+    _, _, m1, r1 = elongation(d1, g[0] + d1, math.sqrt(g[0]), k[10])
+    _, _, m2, r2 = elongation(d2, g[1] + d2, math.sqrt(g[1]), k[11])
     c1, c2 = m1 + r1, m2 + r2
     square = (g[0] + d[0]) * (g[1] + d[1]) - d[2] * d[2]
     springs = k[0], k[1], k[2], k[3], 0.0, 0.0, 0.0
@@ -340,11 +331,11 @@ def mean_rubber(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four
     """The stress over a step whose work is the energy stored: that in its middle, and along the step what is
     left of the energy (Gonzalez 1996)."""
     middle = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2]), 0.5 * (d0[3] + d1[3])
-    s = rubber(0.5, middle, g, area, k)[2]
+    s = rubber(middle, g, area, k)[2]
     m1, m2, m3, m4 = d1[0] - d0[0], d1[1] - d0[1], d1[2] - d0[2], d1[3] - d0[3]
     length = m1 * m1 + m2 * m2 + m3 * m3 + m4 * m4
     if length <= 1e-12 * area * area:  # what is left is rounding
         return s
-    stored = rubber(0.5, d1, g, area, k)[0] - rubber(0.5, d0, g, area, k)[0]
+    stored = rubber(d1, g, area, k)[0] - rubber(d0, g, area, k)[0]
     left = (stored - s[0] * m1 - s[1] * m2 - s[2] * m3 - s[3] * m4) / length
     return s[0] + left * m1, s[1] + left * m2, s[2] + left * m3, s[3] + left * m4

@@ -6,8 +6,7 @@ the tangent is 2 S I + 4 D r rᵀ. The change of g, (2 d₀ + du)·du, loses no 
 tangent takes S as an argument of its own: that at u, its positive part, none, or what the linearisation
 predicts (Magisano, Leonetti and Garcea 2017). What is linear in a step then is the strain ε of an energy ½ k
 ε², here the elongation: with S + D ġ instead a cantilever took one correction more, a chain five, for after a
-large rotation all links are stretched for a moment, and D with them. Dampers have the stress M ġ, ġ = 2 r·dv;
-of it the derivative by the displacement, 2 M ġ I + 4 M r (dv − ġ r/g)ᵀ, is unsymmetric.
+large rotation all links are stretched for a moment, and D with them. Dampers have the stress M ġ, ġ = 2 r·dv.
 
 A link of another natural length than d₀ is long, g₀ = d₀·d₀ + δg₀ (`lumped.natural`), has δg − δg₀ in place
 of δg and √g₀ as its length at rest.
@@ -24,10 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.springs.laws import Vector, dot, elongation, less, mean_elongation, times
+from lumped.springs.laws import Vector, dot, elongation, mean_elongation, times
 from sheetbench.numerics.typed import inner, njit
-
-HALF = 0.5
 
 
 class LinkArrays(NamedTuple):
@@ -77,7 +74,7 @@ def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
     energy = 0.0
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        stored, stress, _, _ = elongation(HALF, change, square, length, links.constants[m])
+        stored, stress, _, _ = elongation(change, square, length, links.constants[m])
         energy += stored
         pull(links.nodes, m, stress + stress, r, force)
     return energy
@@ -98,7 +95,7 @@ def add_remembering_forces(
     energy = 0.0
     for m in range(len(links.nodes)):
         d, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        stored, s, _, _ = elongation(HALF, d, square, length, links.constants[m])
+        stored, s, _, _ = elongation(d, square, length, links.constants[m])
         stress[m, 0], change[m, 0] = s, d
         energy += stored
         pull(links.nodes, m, 2.0 * (own * s + constant[m, 0]), r, force)
@@ -143,7 +140,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: boo
     out = np.empty(len(links.nodes))
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        _, stress, material, rest = elongation(HALF, change, square, length, links.constants[m])
+        _, stress, material, rest = elongation(change, square, length, links.constants[m])
         along = 2.0 * dot(r, difference(step, links.nodes, m))
         if strain:
             out[m] = (stress + material * along) * np.sqrt(square)
@@ -172,46 +169,30 @@ def add_tangent(
     stress: np.ndarray,
     extrapolated: bool,
     share: float,
-    lower: bool,
     blocks: np.ndarray,
 ) -> None:
     """Add the tangent of every link with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks; with what is `extrapolated` D − M is that of it. lower: to
-    those on and below the diagonal alone."""
+    and with M + share (D − M), to the 3×3 blocks on and below the diagonal; with what is `extrapolated` D − M
+    is that of it."""
     flat = blocks.reshape(-1, 9)
     own = len(stress) == 0
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        _, at_u, material, rest = elongation(HALF, change, square, length, links.constants[m])
+        _, at_u, material, rest = elongation(change, square, length, links.constants[m])
         s, curved = share * at_u if own else stress[m], share * rest
         if extrapolated:
             s /= np.sqrt(square)
             curved = -0.5 * s / square
-        _add_blocks(flat, links.slots, m, 2.0 * s, times(4.0 * (material + curved), r), r, lower)
-
-
-@njit(cache=True, error_model="numpy")
-def add_damping_tangent(u: np.ndarray, v: np.ndarray, links: LinkArrays, blocks: np.ndarray) -> None:
-    """Add the derivative of the damping force by the displacement to the 3×3 blocks, unsymmetric."""
-    flat = blocks.reshape(-1, 9)
-    for m in range(len(links.nodes)):
-        _, square, _, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        moving = difference(v, links.nodes, m)
-        resisting = links.constants[m] / square
-        along = dot(r, moving)
-        turned = less(moving, times(2.0 * along / square, r))
-        _add_blocks(flat, links.slots, m, resisting * along, times(resisting, r), turned, False)
+        _add_blocks(flat, links.slots, m, 2.0 * s, times(4.0 * (material + curved), r), r)
 
 
 @inner(error_model="numpy")
-def _add_blocks(
-    flat: np.ndarray, slots: np.ndarray, m: int, across: float, a: Vector, b: Vector, lower: bool
-) -> None:
-    """Add ± (across I + a bᵀ) to the blocks of link m, or to those on and below the diagonal."""
+def _add_blocks(flat: np.ndarray, slots: np.ndarray, m: int, across: float, a: Vector, b: Vector) -> None:
+    """Add ± (across I + a bᵀ) to the blocks of link m on and below the diagonal."""
     xx, xy, xz = a[0] * b[0] + across, a[0] * b[1], a[0] * b[2]
     yx, yy, yz = a[1] * b[0], a[1] * b[1] + across, a[1] * b[2]
     zx, zy, zz = a[2] * b[0], a[2] * b[1], a[2] * b[2] + across
-    above = 4 if not lower else 1 if slots[m, 1] < slots[m, 2] else 2
+    above = 1 if slots[m, 1] < slots[m, 2] else 2
     for e in range(4):
         if e == above:
             continue

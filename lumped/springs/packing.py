@@ -18,21 +18,19 @@ import numpy as np
 from lumped.lattice import Lattice
 from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
-from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
+from lumped.springs.families import Family, Links, SpringCells
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes.objects.grid import Grid
 
-LINKS, DIRECTIONAL, CELLS, RUBBER_CELLS, FACES = range(5)
+LINKS, CELLS, RUBBER_CELLS, FACES = range(4)
 BLOCK = int(LANES)
 CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
 BRIDGED = 4  # places at most from one spring of a run to the next
-ROWS = {LINKS: LINK_DATA, DIRECTIONAL: LINK_DATA}
 OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER, FACES: FACE}
-ROWS |= {kind: CELL_DATA[law.tag] for kind, law in OF_LAWS.items()}
+ROWS = {LINKS: LINK_DATA} | {kind: CELL_DATA[law.tag] for kind, law in OF_LAWS.items()}
 ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
-    DIRECTIONAL: (1.0, 0.0, 0.0, 1.0),
     **dict.fromkeys(OF_LAWS, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0)),
 }
 ODD = 2 * np.random.default_rng(0).integers(2**63, size=STRIDE, dtype=np.uint64) + np.uint64(1)  # of a hash
@@ -72,9 +70,8 @@ class Scratch(NamedTuple):
 
 def scratch(packing: Packing) -> Scratch:
     """Room for whoever asks for forces."""
-    kind, size = packing.rest.dtype, 3 * int(packing.size)
-    tile = np.zeros(packing.length, kind)
-    return Scratch(np.zeros(size, kind), np.zeros(size, kind), np.zeros(size, kind), tile)
+    u, v, force = np.zeros((3, 3 * int(packing.size)))
+    return Scratch(u, v, force, np.zeros(packing.length))
 
 
 class Topology(NamedTuple):
@@ -157,7 +154,7 @@ def _kind(family: Family) -> int:
     """What the springs of a family are."""
     if isinstance(family, SpringCells):
         return next(kind for kind, law in OF_LAWS.items() if law is family.law)
-    return DIRECTIONAL if isinstance(family, DirectionalLinks) else LINKS
+    return LINKS
 
 
 def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) -> None:
@@ -165,7 +162,7 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
     numbers (m,)."""
     if isinstance(family, Links):
         rest = (*family.offset.T, family.rest_length)
-        constants = np.atleast_2d(family.stiffness.T)
+        constants = family.stiffness[None]
         first = 4 if damped else 5
     else:
         assert isinstance(family, SpringCells)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.springs import cells, links
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.typed import njit
 
 
 class Survey(NamedTuple):
@@ -21,12 +21,12 @@ class Survey(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def survey(
-    u: np.ndarray, springs: Any, areas: tuple[Any, ...], kind: np.ndarray, kinds: int, layers: int
+    u: np.ndarray, springs: Any, kind: np.ndarray, kinds: int, layers: int
 ) -> tuple[np.ndarray, float, float]:
-    """Return the energies of the links by kind (m,) and of both kinds of springs on cells, (kinds + 6,) [J],
-    and the rest of a `Survey`; springs: `SpringArrays`; areas: the three tags of area springs alone."""
+    """Return the energies of the links by kind (m,) and of the cells of the layers, of the mid-surface and of
+    upright faces, (kinds + 3,) [J], and the rest of a `Survey`; springs: `SpringArrays`."""
     along, elongation = springs.links, links.elongations(u, springs.links)
-    energies, stretch, summed, met = np.zeros(kinds + 6), 0.0, 0.0, 0
+    energies, stretch, summed, met = np.zeros(kinds + 3), 0.0, 0.0, 0
     for m in range(len(elongation)):
         half, e = 0.5 * along.constants[m], elongation[m]
         energies[kind[m]] += half * (e * e)
@@ -35,15 +35,7 @@ def survey(
             summed, met = summed + e, met + 1
             if met % layers == 0:
                 stretch, summed = stretch + half * (summed * summed) / layers, 0.0
-    add_sums(cells.energies(u, springs.layers, areas[0]), energies[kinds:])
-    add_sums(cells.energies(u, springs.middle, areas[1]), energies[kinds + 2 :])
-    add_sums(cells.energies(u, springs.faces, areas[2]), energies[kinds + 4 :])
+    energies[kinds] = np.sum(cells.energies(u, springs.layers))
+    energies[kinds + 1] = np.sum(cells.energies(u, springs.middle))
+    energies[kinds + 2] = np.sum(cells.energies(u, springs.faces))
     return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
-
-
-@inner()
-def add_sums(each: np.ndarray, out: np.ndarray) -> None:
-    """Add (c, 2) over all c."""
-    for c in range(len(each)):
-        out[0] += each[c, 0]
-        out[1] += each[c, 1]

@@ -12,9 +12,8 @@ Vectors are flat, component by component: x, y and z of every mass in turn. Indi
 signed one might count from the end, which a vector cannot.
 
 Links. With r = d0 + du, the relative position, n = r/|r| and L the rest length, a link pulls with
-k (|r| − L) n, and its damper with c (n·dv) n. Rows of rest data: d0, L, c, k; of the per-direction law three
-k. Kept of every link: n; the pull is a row of the tile. A place without a link has no stiffness, and TINY
-keeps it finite.
+k (|r| − L) n, and its damper with c (n·dv) n. Rows of rest data: d0, L, c, k. Kept of every link: n; the pull
+is a row of the tile. A place without a link has no stiffness, and TINY keeps it finite.
 
 Cells. Rows of a tile: changes of the mean sides a and b, or their velocities (0 to 5), and the forces on a
 and b (6 to 11), of a law of s those on q (15 to 17). Rows of rest data: a, b (0 to 5), a·a, b·b, a·b (6 to
@@ -34,7 +33,7 @@ import numpy as np
 from lumped.springs.cell_laws import LAWS, Tag, constants, measures, respond
 from lumped.springs.laws import times_six
 from sheetbench.numerics.memory import load, load_each, store, store_each
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.typed import inner, njit
 
 WIDTH = 128
 LANES = np.uint64(8)  # springs of a run come in blocks of so many, as wide as the widest vectors
@@ -50,13 +49,12 @@ OPTIONS: dict[str, Any] = {
     "error_model": "numpy",
     "fastmath": {"contract", "reassoc", "arcp", "nsz"},
 }
-R0, R1, R2, R3, R4, R5, R6, R7, R8, R9, R10, R11 = ROWS[:12]
+R0, R3, R4, R5, R6, R9, R10, R11 = (ROWS[row] for row in (0, 3, 4, 5, 6, 9, 10, 11))
 LAW = 17  # row of rest data from which on the constants of a cell's law are
-LINK_DATA, LINK_SHAPE = 8, 3  # rows of rest data, and of what is kept
+LINK_DATA, LINK_SHAPE = 6, 3  # rows of rest data, and of what is kept
 CELL_DATA, CELL_SHAPE = {law.tag: LAW + law.count for law in LAWS}, 9
 USED = 18  # rows of a tile
 TINY = 1e-36  # m²
-HALF = 0.5
 Places = tuple[int, int, int, int]
 
 
@@ -75,8 +73,7 @@ def stretch_links(
 ) -> float:
     """Keep the directions at displacement u, and put this share of the springs' pulls in the first row; the
     energy."""
-    energy = rest.dtype.type(0.0)
-    one, tiny, part = rest.dtype.type(1.0), rest.dtype.type(TINY), rest.dtype.type(share)
+    energy = 0.0
     for i in range(blocks * LANES):
         ox, oy, oz = load_each(GIVEN, rest, t + i, STRIDE, 3)
         from_, to = load_each(GIVEN, u, a + i, size, 3), load_each(GIVEN, u, b + i, size, 3)
@@ -84,11 +81,11 @@ def stretch_links(
         rx, ry, rz = ox + dx, oy + dy, oz + dz
         along = ox * dx + oy * dy + oz * dz
         gained = along + along + (dx * dx + dy * dy + dz * dz)  # r² − L², no digits lost
-        length = math.sqrt(rx * rx + ry * ry + rz * rz + tiny)
+        length = math.sqrt(rx * rx + ry * ry + rz * rz + TINY)
         both = length + load(GIVEN, rest, t + R3 + i)
-        inverse = one / (both * length)
+        inverse = 1.0 / (both * length)
         turn, elongation = both * inverse, gained * (length * inverse)
-        pull = part * load(GIVEN, rest, t + R5 + i) * elongation
+        pull = share * load(GIVEN, rest, t + R5 + i) * elongation
         energy += pull * elongation
         store(ROW, tile, R0 + i, pull)
         store_each(KEPT, tile, at + i, STRIDE, (rx * turn, ry * turn, rz * turn))
@@ -100,7 +97,7 @@ def resist_links(
     v: np.ndarray, rest: np.ndarray, t: int, a: int, b: int, size: int, blocks: int, tile: np.ndarray, at: int
 ) -> float:
     """Add the pulls of the dampers at velocity v to the first row; the power taken."""
-    power = rest.dtype.type(0.0)
+    power = 0.0
     for i in range(blocks * LANES):
         n = load_each(KEPT, tile, at + i, STRIDE, 3)
         from_, to = load_each(GIVEN, v, a + i, size, 3), load_each(GIVEN, v, b + i, size, 3)
@@ -108,27 +105,15 @@ def resist_links(
         resisting = load(GIVEN, rest, t + R4 + i) * rate
         power += resisting * rate
         store(ROW, tile, R0 + i, load(ROW, tile, R0 + i) + resisting)
-    return 1.0 * power
+    return power
 
 
-@njit(**OPTIONS)
-def stretch_directional(
-    u: np.ndarray, rest: np.ndarray, t: int, a: int, b: int, size: int, blocks: int, tile: np.ndarray, at: int
-) -> None:
-    """The per-direction law, which has no energy: its force where others keep n, to be pulled with 1."""
-    one, tiny = rest.dtype.type(1.0), rest.dtype.type(TINY)
-    for i in range(blocks * LANES):
-        ox, oy, oz = load_each(GIVEN, rest, t + i, STRIDE, 3)
-        from_, to = load_each(GIVEN, u, a + i, size, 3), load_each(GIVEN, u, b + i, size, 3)
-        dx, dy, dz = to[0] - from_[0], to[1] - from_[1], to[2] - from_[2]
-        along = ox * dx + oy * dy + oz * dz
-        gained = along + along + (dx * dx + dy * dy + dz * dz)
-        dx, dy, dz = dx + ox, dy + oy, dz + oz
-        length = math.sqrt(dx * dx + dy * dy + dz * dz + tiny)
-        strain = gained / ((length + load(GIVEN, rest, t + R3 + i)) * length)
-        k = load_each(GIVEN, rest, t + R5 + i, STRIDE, 3)
-        store(ROW, tile, R0 + i, one)
-        store_each(KEPT, tile, at + i, STRIDE, (k[0] * strain * dx, k[1] * strain * dy, k[2] * strain * dz))
+@inner(**OPTIONS)
+def push(force: np.ndarray, place: int, size: int, x: float, y: float, z: float) -> None:
+    """Add to the force at a place."""
+    store(FORCE_X, force, place, load(FORCE_X, force, place) + x)
+    store(FORCE_Y, force, place + size, load(FORCE_Y, force, place + size) + y)
+    store(FORCE_Z, force, place + size + size, load(FORCE_Z, force, place + size + size) + z)
 
 
 @njit(**OPTIONS)
@@ -136,12 +121,9 @@ def pull_ends(
     sign: float, end: int, size: int, blocks: int, tile: np.ndarray, at: int, force: np.ndarray
 ) -> None:
     """Add the pulls, times 1 or −1, to the forces on one end of the links."""
-    y, z, way = end + size, end + size + size, tile.dtype.type(sign)
     for i in range(blocks * LANES):
-        pull = way * load(ROW, tile, R0 + i)
-        store(FORCE_X, force, end + i, load(FORCE_X, force, end + i) + pull * load(KEPT, tile, at + i))
-        store(FORCE_Y, force, y + i, load(FORCE_Y, force, y + i) + pull * load(KEPT, tile, at + R1 + i))
-        store(FORCE_Z, force, z + i, load(FORCE_Z, force, z + i) + pull * load(KEPT, tile, at + R2 + i))
+        pull, n = sign * load(ROW, tile, R0 + i), load_each(KEPT, tile, at + i, STRIDE, 3)
+        push(force, end + i, size, pull * n[0], pull * n[1], pull * n[2])
 
 
 @njit(**OPTIONS)
@@ -149,14 +131,13 @@ def gather_sides(
     x: np.ndarray, c0: int, c1: int, c2: int, c3: int, size: int, blocks: int, tile: np.ndarray
 ) -> None:
     """a and b from the corners' x, into the first rows."""
-    half = x.dtype.type(HALF)
     for i in range(blocks * LANES):
         k, m = load_each(GIVEN, x, c0 + i, size, 3), load_each(GIVEN, x, c1 + i, size, 3)
         n, o = load_each(GIVEN, x, c2 + i, size, 3), load_each(GIVEN, x, c3 + i, size, 3)
         fx, fy, fz = n[0] - k[0], n[1] - k[1], n[2] - k[2]
         sx, sy, sz = o[0] - m[0], o[1] - m[1], o[2] - m[2]
-        store_each(ROW, tile, R0 + i, STRIDE, (half * (fx - sx), half * (fy - sy), half * (fz - sz)))
-        store_each(ROW, tile, R3 + i, STRIDE, (half * (fx + sx), half * (fy + sy), half * (fz + sz)))
+        store_each(ROW, tile, R0 + i, STRIDE, (0.5 * (fx - sx), 0.5 * (fy - sy), 0.5 * (fz - sz)))
+        store_each(ROW, tile, R3 + i, STRIDE, (0.5 * (fx + sx), 0.5 * (fy + sy), 0.5 * (fz + sz)))
 
 
 @njit(**OPTIONS)
@@ -164,15 +145,10 @@ def push_corner(
     on_a: float, on_b: float, corner: int, size: int, blocks: int, tile: np.ndarray, force: np.ndarray
 ) -> None:
     """Add on_a and on_b (±½) of the forces on the sides to those on one corner."""
-    y, z = corner + size, corner + size + size
-    p, q = tile.dtype.type(on_a), tile.dtype.type(on_b)
     for i in range(blocks * LANES):
-        x_ = p * load(ROW, tile, R6 + i) + q * load(ROW, tile, R9 + i)
-        y_ = p * load(ROW, tile, R7 + i) + q * load(ROW, tile, R10 + i)
-        z_ = p * load(ROW, tile, R8 + i) + q * load(ROW, tile, R11 + i)
-        store(FORCE_X, force, corner + i, load(FORCE_X, force, corner + i) + x_)
-        store(FORCE_Y, force, y + i, load(FORCE_Y, force, y + i) + y_)
-        store(FORCE_Z, force, z + i, load(FORCE_Z, force, z + i) + z_)
+        a, b = load_each(ROW, tile, R6 + i, STRIDE, 3), load_each(ROW, tile, R9 + i, STRIDE, 3)
+        x, y, z = on_a * a[0] + on_b * b[0], on_a * a[1] + on_b * b[1], on_a * a[2] + on_b * b[2]
+        push(force, corner + i, size, x, y, z)
 
 
 @njit(**OPTIONS)
@@ -182,9 +158,7 @@ def stretch_cells(
 ) -> float:  # fmt: skip
     """Keep the shapes, and put this share of the springs' forces in the rows of forces; the energy. The
     changes of the sides are in the tile; x and the corners' places give q of a law that has s."""
-    rest = law.constants
-    kind = rest.dtype.type
-    energy, half, part = kind(0.0), kind(HALF), kind(share)
+    rest, energy = law.constants, 0.0
     for i in range(blocks * LANES):
         a0, b0 = load_each(GIVEN, rest, t + i, STRIDE, 3), load_each(GIVEN, rest, t + R3 + i, STRIDE, 3)
         g = load_each(GIVEN, rest, t + R6 + i, STRIDE, 3)
@@ -193,24 +167,24 @@ def stretch_cells(
         d1 = (a0[0] + a[0]) * u[0] + (a0[1] + a[1]) * u[1] + (a0[2] + a[2]) * u[2]
         d2 = (b0[0] + b[0]) * w[0] + (b0[1] + b[1]) * w[1] + (b0[2] + b[2]) * w[2]
         d3 = u[0] * b0[0] + u[1] * b0[1] + u[2] * b0[2] + (a[0] * w[0] + a[1] * w[1] + a[2] * w[2])
-        d4 = kind(0.0)
+        d4 = 0.0
         if measures(law) == 4:
             q = warp(x, corners, size, i)
             d4 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2]
         k, area = constants(law, t + ROWS[LAW] + i, STRIDE), load(GIVEN, rest, t + R9 + i)
-        stored, _, s = respond(law, half, (d1, d2, d3, d4), g, area, k)
+        stored, _, s = respond(law, (d1, d2, d3, d4), g, area, k)
         energy += stored
         n1, n2, n3 = g[1] + d2, g[0] + d1, g[2] + d3
-        turn = kind(1.0) / math.sqrt(n1 * n2 - n3 * n3)
+        turn = 1.0 / math.sqrt(n1 * n2 - n3 * n3)
         store_each(KEPT, tile, at + i, STRIDE, a)
         store_each(KEPT, tile, at + R3 + i, STRIDE, b)
-        store_each(KEPT, tile, at + R6 + i, STRIDE, (kind(turn * n1), kind(turn * n2), kind(turn * n3)))
-        s1, s2, s3 = part * (s[0] + s[0]), part * (s[1] + s[1]), part * s[2]
+        store_each(KEPT, tile, at + R6 + i, STRIDE, (turn * n1, turn * n2, turn * n3))
+        s1, s2, s3 = share * (s[0] + s[0]), share * (s[1] + s[1]), share * s[2]
         for e in range(3):
-            store(ROW, tile, ROWS[6 + e] + i, kind(s1 * a[e] + s3 * b[e]))
-            store(ROW, tile, ROWS[9 + e] + i, kind(s2 * b[e] + s3 * a[e]))
+            store(ROW, tile, ROWS[6 + e] + i, s1 * a[e] + s3 * b[e])
+            store(ROW, tile, ROWS[9 + e] + i, s2 * b[e] + s3 * a[e])
             if measures(law) == 4:
-                store(ROW, tile, ROWS[15 + e] + i, kind(part * (s[3] + s[3]) * q[e]))
+                store(ROW, tile, ROWS[15 + e] + i, share * (s[3] + s[3]) * q[e])
     return share * energy
 
 
@@ -232,21 +206,18 @@ def push_warp(law: Tag, corners: Places, size: int, blocks: int, tile: np.ndarra
     """Add the forces on q, of a law that has s, to those on the corners."""
     if measures(law) < 4:
         return
-    sign = tile.dtype.type(1.0)
+    sign = 1.0
     for corner in corners:
-        y, z = corner + size, corner + size + size
         for i in range(blocks * LANES):
-            fx, fy, fz = load_each(ROW, tile, ROWS[15] + i, STRIDE, 3)
-            store(FORCE_X, force, corner + i, load(FORCE_X, force, corner + i) + sign * fx)
-            store(FORCE_Y, force, y + i, load(FORCE_Y, force, y + i) + sign * fy)
-            store(FORCE_Z, force, z + i, load(FORCE_Z, force, z + i) + sign * fz)
+            x, y, z = load_each(ROW, tile, ROWS[15] + i, STRIDE, 3)
+            push(force, corner + i, size, sign * x, sign * y, sign * z)
         sign = -sign
 
 
 @njit(**OPTIONS)
 def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: int) -> float:
     """Add the forces of the dampers to the rows of forces; the power taken."""
-    power = rest.dtype.type(0.0)
+    power = 0.0
     for i in range(blocks * LANES):
         a, b = load_each(KEPT, tile, at + i, STRIDE, 3), load_each(KEPT, tile, at + R3 + i, STRIDE, 3)
         n1, n2, n3 = load_each(KEPT, tile, at + R6 + i, STRIDE, 3)
@@ -266,4 +237,4 @@ def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: in
             on_a, on_b = s1 * a[e] + s3 * b[e], s2 * b[e] + s3 * a[e]
             store(ROW, tile, ROWS[6 + e] + i, load(ROW, tile, ROWS[6 + e] + i) + on_a)
             store(ROW, tile, ROWS[9 + e] + i, load(ROW, tile, ROWS[9 + e] + i) + on_b)
-    return 1.0 * power
+    return power

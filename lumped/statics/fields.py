@@ -59,7 +59,7 @@ def field_mesh(
     cell_energy = np.zeros(quads)
     for family in assembly.springs:
         if isinstance(family, SpringCells):
-            energy = family.energies(small).sum(axis=1) / part**2
+            energy = family.energies(small) / part**2
             if family.upright:
                 energy = _links_by_cell(lattice, family.nodes[:, ::2, 0], energy)  # from corner to corner
             layers = quads // len(energy)

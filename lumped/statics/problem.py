@@ -201,7 +201,7 @@ class Problem:
         after, length, internal, stresses, residual = advance(
             u, step, moved, *external, load_factor, self._unknowns, springs.springs
         )
-        if self._others or not springs.alone:
+        if self._others or not springs.conservative:
             internal = springs.beside(after, internal)
             self._add_others(after, drive, internal)
             residual = self._residual(internal, after, load_factor)
@@ -215,7 +215,7 @@ class Problem:
         not all is compiled."""
         u, band = state.u, self.system.band
         springs = self.assembly.at(load_factor).all_families
-        if self._others or not springs.alone or band is None:
+        if self._others or not springs.conservative or band is None:
             return None
         count()
         blocks, factors, definite, step, (after, length, _, stresses, residual) = correct(

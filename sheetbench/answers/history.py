@@ -82,11 +82,9 @@ class History(Answer):
         return {**self.energies, "numerical": self.numerical} if self.energies else {}
 
     def heading(self) -> tuple[str, str, str]:
-        """What was run, by which integrator."""
         return f"History of {self.label}, {self.integrator}", f"{self.status}", f"{self.steps} steps"
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench simulate`: seconds, metres, joules, newtons."""
         own = {one.name: getattr(self, one.name) for one in fields(History) if one.name != "extra"}
         return {**own, "energy": self.balance, "status": str(self.status), "energies": self.accounts}
 
@@ -101,7 +99,6 @@ class History(Answer):
         return (Table.listed(caption, ("probe", *moved), rows, "probes"),)
 
     def figures(self) -> tuple[Picture, ...]:
-        """Probes and energies over time."""
         return (Picture("history", "sheetbench.answers.history_figure:compose", (self, self.label)),)
 
     def files(self) -> dict[str, Write]:
@@ -143,11 +140,9 @@ class History(Answer):
         return f"energy balance held to {held} of the largest energy"
 
     def choices(self) -> dict[str, Any]:
-        """Integrator and settings."""
         return {"integrator": self.integrator, **self.settings}
 
     def complaints(self) -> list[str]:
-        """Why the run did not reach its end."""
         return [] if self.succeeded else [f"{self.status}: {self.message}"]
 
     @property

@@ -25,8 +25,8 @@ def compose(solution: Solution, style: FigureStyle = PLAIN) -> Figure:
     axis = figure.add_subplot()
     drawn_as: dict[str, Any] = {"cmap": "viridis", "shading": "gouraud", "rasterized": True}
     quads = [cell[:, :4] for kind, cell in solution.mesh.cells if kind.startswith("quad")]
-    if quads and _holes(points, faces := np.vstack(quads)):
-        x, y = 1e3 * points[:, :2].T
+    if quads:
+        (x, y), faces = 1e3 * points[:, :2].T, np.vstack(quads)
         triangles = np.vstack([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
         drawn: Any = axis.tripcolor(Triangulation(x, y, triangles), heights, **drawn_as)
     else:
@@ -42,12 +42,3 @@ def compose(solution: Solution, style: FigureStyle = PLAIN) -> Figure:
     if style.titled:
         axis.set_title(f"{solution.label}: {solution.status}", fontsize=8)
     return figure
-
-
-def _holes(points: np.ndarray, quads: np.ndarray) -> bool:
-    """Whether the cells, of a layer, leave a part of the rectangle around them open."""
-    a, b, c, d = np.moveaxis(points[quads][:, :, :2], 1, 0)
-    (ax, ay), (bx, by) = (c - a).T, (d - b).T
-    area = 0.5 * np.abs(ax * by - ay * bx)
-    levels = len(np.unique(np.round(points[quads[:, 0], 2], 12)))
-    return bool(area.sum() / levels < (1.0 - 1e-6) * np.prod(np.ptp(points[:, :2], axis=0)))

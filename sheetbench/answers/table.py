@@ -85,20 +85,14 @@ class Column:
         """Whether the values are numbers, to be set flush right."""
         return bool(self.form)
 
+    def heading(self, shown: bool) -> tuple[str, str]:
+        """Return the name and its unit in brackets, "" without one; shown: those that people read."""
+        name, unit = (self.shown_name or self.name, self.shown_unit) if shown else (self.name, self.unit)
+        return name, f"[{unit}]" if unit else ""
+
     def header(self, shown: bool) -> str:
-        """Return the name with its unit in brackets."""
-        unit = self.bracketed_unit if shown else f"[{self.unit}]" * bool(self.unit)
-        return f"{self.title if shown else self.name} {unit}".rstrip()
-
-    @property
-    def title(self) -> str:
-        """The name that is shown."""
-        return self.shown_name or self.name
-
-    @property
-    def bracketed_unit(self) -> str:
-        """The unit that is shown, in brackets; nothing of a number without one."""
-        return f"[{self.shown_unit}]" * bool(self.shown_unit)
+        """Return both in a line."""
+        return " ".join(self.heading(shown)).rstrip()
 
     def show(self, value: Any, scale: float = 1.0) -> str:
         """Return a value as people read it; a dash where there is none.

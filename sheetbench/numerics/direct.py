@@ -195,21 +195,19 @@ class DirectSolver:
             raise SingularMatrixError("an entry of the matrix is not finite")
         columns = _columns(matrix, self.symmetric)
         try:
-            return self._analysed(matrix, columns, more)
+            if self._analysis is None and self.symmetric and pardiso.library() is not None:
+                self._analysis = pardiso.Analysis(columns)
+            elif self._analysis is None and rslab is not None:
+                self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
+            if self._analysis is not None:
+                factors = self._analysis.factor(columns)
+                _, negative, zero = factors.inertia if self.symmetric else (0, None, 0)
+                return Factor(matrix, factors.solve, negative, zero, more=more)
+            if self.symmetric:
+                return _superlu(matrix, columns)
+            return Factor(matrix, splu(columns).solve, more=more)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
-
-    def _analysed(self, matrix: Matrix, columns: sp.csc_array, more: Count) -> Factor:
-        if self._analysis is None:
-            if self.symmetric and pardiso.library() is not None:
-                self._analysis = pardiso.Analysis(columns)
-            elif rslab is not None:
-                self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
-        if self._analysis is not None:
-            factors = self._analysis.factor(columns)
-            _, negative, zero = factors.inertia if self.symmetric else (0, None, 0)
-            return Factor(matrix, factors.solve, negative, zero, more=more)
-        return _superlu(matrix, columns) if self.symmetric else Factor(matrix, splu(columns).solve, more=more)
 
 
 def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | None:

@@ -2,8 +2,7 @@
 
 from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of
-from sheetbench.scenes.meaning.composition import require_plain, require_uniform
-from sheetbench.scenes.meaning.region import require_rectangle
+from sheetbench.scenes.meaning.composition import require_plain, require_rectangle, require_uniform
 from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions, require_static
 from sheetbench.scenes.meaning.strains import outside_model, weight_strain
 from sheetbench.scenes.objects.actuators import Chain, CurvatureTable, EdgeMotion

@@ -19,12 +19,8 @@ def test_each_promise_is_kept_by_its_own_rule_and_complained_of_where_it_is_not(
     def one(promise, promised, actual):
         return Promise(promise, "8", "a", "", promised, actual)
 
-    kept = [
-        one("bar", 2.0, 1.0),
-        one("bar", 0.0, 0.0),
-        one("advice", 0.01, 0.01),
-        one("expected error", 1.0, 1.9),
-    ]
+    kept = [one("bar", 2.0, 1.0), one("bar", 0.0, 0.0), one("advice", 0.01, 0.01)]
+    kept.append(one("expected error", 1.0, 1.9))
     broken = [one("bar", 0.0, 1e-9), one("advice", 0.01, np.inf), one("expected error", 1.0, 0.4)]
     assert all(row.kept for row in kept) and not any(row.kept for row in broken)
     assert share([one("expected error", None, 1.0), kept[3]]).cases == 1

@@ -40,8 +40,7 @@ class Verlet(Integrator):
     def __init__(self, system: System, step: float):
         super().__init__(system, step)
         _require_no_chains(system)
-        one_by_one = system.maxwell is not None or system.natural is not None or bool(system.items)
-        one_by_one = one_by_one or system.damping.drag.coefficient > 0.0
+        one_by_one = not system.packed or system.items or system.damping.drag.coefficient > 0.0
         self._flat = None if one_by_one or system.shared_mass else FlatSystem(system)
         if self._flat is not None:
             self._flat.compile()
@@ -54,7 +53,7 @@ class Verlet(Integrator):
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
         """Return steps in one compiled call; one at a time where there are branches, a natural state,
-        air or bodies with moments of inertia. Raises StepFailed."""
+        springs without an energy, air or bodies with moments of inertia. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)
@@ -68,7 +67,7 @@ class Verlet(Integrator):
         if motion.moving:
             u = u + motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
             half = half + motion.rate(time) - motion.rate(state.time)
-        force = system.external(u, time) - system.elastic(u, time)[1]
+        force = system.external(u, time) - system.internal(u, u, time, damped=False)[2]
         predicted = system.damping_force(u, state.v + h * state.a, time)[1] if system.resists else 0.0
         acceleration = system.accelerate(force - predicted)
         if not np.isfinite(acceleration).all():

@@ -8,12 +8,13 @@ outside patches with a thickness of their own. A plain sheet is the same all ove
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from sheetbench.errors import Impossible
-from sheetbench.scenes.meaning.region import area_in, require_rectangle
+from sheetbench.scenes.meaning.region import area_in
 from sheetbench.scenes.objects.cells import NUMBERS, Constants
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.layers import plies
@@ -200,27 +201,20 @@ def sides_of(scene: SceneFields) -> tuple[np.ndarray, np.ndarray]:
     return places[0], places[1]
 
 
-def require_uniform(scene: SceneFields, who: str, instead: str = "") -> None:
-    """Raise Impossible for a sheet that is not the same all over, which `who` does not know: a model or a
-    file; instead: what does."""
-    if not scene.uniform:
-        raise Impossible(
-            f"scene '{scene.name}': {scene.varied_by}: {who} is for isotropic sheets that are the same all "
-            f"over{instead and '; '}{instead}"
-        )
+def _require(by: str, known: str, scene: SceneFields, who: str, instead: str = "") -> None:
+    if words := getattr(scene, by):
+        more = f"; {instead}" if instead else ""
+        raise Impossible(f"scene '{scene.name}': {words}: {who} is for {known}{more}")
 
 
-def require_flat_at_rest(scene: SceneFields, who: str) -> None:
-    """Raise Impossible for a sheet that is not flat and free of stress at rest, which `who` does not know."""
-    if scene.natural_by:
-        raise Impossible(
-            f"scene '{scene.name}': {scene.natural_by}: {who} is for sheets that are flat at rest"
-        )
+# each raises Impossible for a scene whose sheet is another than `who`, a verb, a model or a file, knows;
+# instead: what knows it
+require_uniform = partial(_require, "varied_by", "isotropic sheets that are the same all over")
+require_rectangle = partial(_require, "shaped_by", "whole rectangles held at their edges")
+require_flat_at_rest = partial(_require, "natural_by", "sheets that are flat at rest")
 
 
 def require_plain(scene: SceneFields, who: str) -> None:
-    """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which a verb or a file does not
-    know."""
-    require_uniform(scene, who)
-    require_rectangle(scene, who)
-    require_flat_at_rest(scene, who)
+    """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which `who` does not know."""
+    for require in (require_uniform, require_rectangle, require_flat_at_rest):
+        require(scene, who)

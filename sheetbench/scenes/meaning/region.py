@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.errors import Impossible
 from sheetbench.scenes.objects.cutouts import NECK, common
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.grading import Places
@@ -165,13 +164,3 @@ def _disconnected(scene: SceneFields) -> str:
         if (met := others[shapely.intersects(held[i], held[others])]).size:
             return f"{names[i]} and {names[met[0]]} move the same part of the sheet differently"
     return ""
-
-
-def require_rectangle(scene: SceneFields, who: str, instead: str = "") -> None:
-    """Raise Impossible for a sheet that is no whole rectangle, held and loaded at edges, points and all over,
-    if `who` knows no other: a verb, a model or a file; instead: what does."""
-    if words := scene.shaped_by:
-        raise Impossible(
-            f"scene '{scene.name}': {words}: {who} is for whole rectangles held at their edges"
-            f"{instead and '; '}{instead}"
-        )

@@ -18,8 +18,16 @@ NUMBERS = ("thickness", "young", "poisson", "density")
 
 @dataclass(frozen=True, eq=False)
 class Constants:
-    """thickness [m], young [Pa], poisson [-], density [kg/m³]: numbers, or arrays of one shape. plies: of an
-    orthotropic sheet, from its lower face up, in place of young and poisson."""
+    """thickness [m], young [Pa], poisson [-], density [kg/m³]: numbers, or arrays of one shape: of plan cells
+    (rows, columns) from y0 to y1, each row from x0 to x1. plies: of an orthotropic sheet, from its lower face
+    up, in place of young and poisson.
+
+    >>> import numpy as np
+    >>> from sheetbench.scenes import Cells, load
+    >>> scene = load("two-edges-clamped")
+    >>> Cells.of(scene.sheet, scene.material).replace(thickness=np.array([[0.003, 0.001]])).per_area
+    array([[5.034, 1.678]])
+    """
 
     thickness: Any
     young: Any
@@ -77,17 +85,6 @@ class Constants:
             return sum(p.density * (p.high**3 - p.low**3) / 3.0 for p in self.plies) * self.thickness**3
         return self.per_area * self.thickness**2 / 12.0
 
-
-class Cells(Constants):
-    """Of the plan cells of a grid: arrays are (rows, columns) from y0 to y1, each row from x0 to x1.
-
-    >>> import numpy as np
-    >>> from sheetbench.scenes import Cells, load
-    >>> scene = load("two-edges-clamped")
-    >>> Cells.of(scene.sheet, scene.material).replace(thickness=np.array([[0.003, 0.001]])).per_area
-    array([[5.034, 1.678]])
-    """
-
     def require_grid(self, grid: Grid) -> None:
         """Raise BadInput for a table that is not one of the grid's cells."""
         rows, columns = grid[1] - 1, grid[0] - 1
@@ -98,3 +95,6 @@ class Cells(Constants):
                     f"cells.{name}: {' × '.join(map(str, shape))} values; {grid[0]}x{grid[1]} masses "
                     f"have {rows} rows of {columns} cells"
                 )
+
+
+Cells = Constants  # arrays of the plan cells of a grid

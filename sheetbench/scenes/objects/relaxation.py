@@ -124,11 +124,6 @@ class Branches(NamedTuple):
         work = float(mean @ (after[0, 1] - before[0, 1]))
         return work - self.stored(after) + self.stored(before)
 
-    def modulus(self, time: np.ndarray) -> np.ndarray:
-        """E(t)/E∞ at times [s] after a strain is imposed and held."""
-        fading = np.exp(-np.asarray(time, dtype=float)[..., None] / np.array(self.times))
-        return np.asarray(1.0 + fading @ np.array(self.stiffness))
-
 
 @cache
 def constant_loss(loss_factor: float, low: float, high: float) -> Branches:

@@ -1,24 +1,19 @@
 """Quantities with units where a person types them: options; and -V, help VERB."""
 
-import json
-
 import pytest
-from commands import run
+from commands import json_of, run
 
 import sheetbench as sb
 from comparisons.models.quantities import sides
 
 
 def test_options_take_units(capsys):
-    common = ("calibrate", "--poisson", "0.45", "--grid", "3", "--json")
-    options = ("--young", "0.6 MPa", "--thickness", "2mm", "--side", "12cmx40 mm", "--density", "1.1 g/cm3")
-    assert run(*common, *options) == 0
-    typed = json.loads(capsys.readouterr().out)
-    assert (
-        run(*common, "--young", "6e5", "--thickness", "0.002", "--side", "0.12x0.04", "--density", "1100")
-        == 0
+    common = ("calibrate", "--poisson", "0.45", "--grid", "3")
+    units, plain = (
+        ("--young", "0.6 MPa", "--thickness", "2mm", "--side", "12cmx40 mm", "--density", "1.1 g/cm3"),
+        ("--young", "6e5", "--thickness", "0.002", "--side", "0.12x0.04", "--density", "1100"),
     )
-    assert json.loads(capsys.readouterr().out)["springs"] == typed["springs"]
+    assert json_of(capsys, *common, *units)["springs"] == json_of(capsys, *common, *plain)["springs"]
 
 
 @pytest.mark.parametrize(
@@ -48,13 +43,7 @@ def test_the_version_and_the_help_of_a_verb_have_short_ways(capsys):
 
 
 WRONG = {
-    "calibrate": {
-        "loss_factor": "a lot",
-        "thickness": [1.0],
-        "prony": 3,
-        "lattice": {"grid": 9},
-        "cell": {},
-    },
+    "calibrate": {"loss_factor": "a lot", "thickness": [1.0], "prony": 3, "lattice": {"grid": 9}, "cell": {}},
     "check": {"scene": 7.5, "out": True, "progress": "yes"},
     "compare": {"elements": {}, "reference": b"shell", "k": "soft"},
     "report": {"folder": 5},

@@ -24,13 +24,10 @@ def test_1():
 
 def test_the_scenes_have_the_published_inputs():
     given = published_inputs()
+    size = (given["side"], given["side"], given["thickness"])
     for test, sense in ((1, 1), (2, 1), (2, -1)):
         case = scene(test, sense)
-        assert (*case.sheet.lengths, case.sheet.thickness) == (
-            given["side"],
-            given["side"],
-            given["thickness"],
-        )
+        assert (*case.sheet.lengths, case.sheet.thickness) == size
         for name in ("young", "poisson", "density"):
             assert getattr(case.material, name) == pytest.approx(given[name], rel=1e-12)
         assert case.gravity is not None and case.gravity.acceleration == (0.0, 0.0, -given["gravity"])

@@ -6,6 +6,7 @@ import sqlite3
 import subprocess
 import sys
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 from threading import Thread
 
@@ -64,14 +65,13 @@ def test_other_code_in_the_worker_is_a_failure_and_not_an_answer():
 
 def test_a_run_that_fails_is_a_row_and_a_fault_not_filed_as_the_users_mistake(store):
     found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store, pool=Here)
-    assert [outcome.status for outcome in found] == ["refused", "failed", "done"]
-    assert found[0].message == "x = −1: must be positive"
-    assert found[1].message == "ZeroDivisionError: by nothing"
+    refusal, fault = "x = −1: must be positive", "ZeroDivisionError: by nothing"
+    ends = [("refused", refusal), ("failed", fault), ("done", found[2].message)]
+    assert [(outcome.status, outcome.message) for outcome in found] == ends
     assert found[2].row == {"value": None}
     found = carry_out([task("stumble", over=over) for over in ("value", "type", "matrix")], store, pool=Here)
     for outcome, kind in zip(found, ("ValueError", "TypeError", "LinAlgError"), strict=True):
-        assert outcome.status == "failed"
-        assert outcome.message.startswith(f"{kind}: ")
+        assert outcome.status == "failed" and outcome.message.startswith(f"{kind}: ")
         assert "in stumble" in outcome.row["traceback"]
 
 
@@ -92,12 +92,8 @@ def test_what_failed_is_done_again_only_when_asked(store, tmp_path):
 
 
 def test_a_run_that_takes_its_process_down_is_the_only_one_lost(store):
-    runs = [
-        task("square", x=1.0, seconds=0.5),
-        task("die"),
-        *(task("square", x=x, seconds=0.2) for x in (2.0, 3.0)),
-    ]
-    found = carry_out(runs, store, workers=2)
+    first, *others = (task("square", x=x, seconds=0.6 / x) for x in (1.0, 2.0, 3.0))
+    found = carry_out([first, task("die"), *others], store, workers=2)
     assert [outcome.status for outcome in found] == ["done", "lost", "done", "done"]
     assert "died" in found[1].message
 
@@ -114,19 +110,20 @@ def test_timed_runs_go_alone_and_on_one_thread(store, tmp_path):
     assert dict(os.environ) == environment
 
 
+GATED = """
+import sys; sys.path.insert(0, {here!r})
+from pathlib import Path
+from comparisons.sweep.campaign import Run, campaign, carry_out
+if __name__ == '__main__':
+    runs = [Run('campaign_tasks:gated', {{'x': x, 'folder': {folder!r}}}) for x in range(8)]
+    with campaign(Path({folder!r})) as store:
+        carry_out(runs, store, workers=2)
+"""
+
+
 def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path):
-    script = (
-        f"import sys; sys.path.insert(0, {str(HERE)!r})\n"
-        "from pathlib import Path\n"
-        "from comparisons.sweep.campaign import Run, campaign, carry_out\n"
-        "if __name__ == '__main__':\n"
-        f"    folder = {str(tmp_path)!r}\n"
-        "    runs = [Run('campaign_tasks:gated', {'x': x, 'folder': folder}) for x in range(8)]\n"
-        "    with campaign(Path(folder)) as store:\n"
-        "        carry_out(runs, store, workers=2)\n"
-    )
     file = tmp_path / "study.py"
-    file.write_text(script, encoding="utf-8")
+    file.write_text(GATED.format(here=str(HERE), folder=str(tmp_path)), encoding="utf-8")
 
     def started():
         lines = (tmp_path / "started").read_text(encoding="utf-8").splitlines()
@@ -145,22 +142,13 @@ def test_kill_9_loses_nothing_that_had_finished_and_leaves_no_worker(tmp_path):
     (tmp_path / "gate").touch()
     subprocess.run(command, check=True)
     after = rows_in(tmp_path / FILE)
-    assert len(after) == 8
-    assert {key: after[key] for key in kept} == kept  # time stamps and all
+    assert len(after) == 8 and {key: after[key] for key in kept} == kept  # time stamps and all
     assert sorted(x for x, _ in started()) == [0, 1, 2, 3, 4, 4, 5, 5, 6, 7]
 
 
-def replaced(path, column, value):
-    with sqlite3.connect(path) as database:
-        database.execute(f"update runs set {column} = ?", (value,))
-    database.close()
-
-
-def foreign(path):
-    path.unlink()
-    with sqlite3.connect(path) as database:
-        database.execute("create table runs (key text, something text)")
-    database.close()
+def changed(path, statement, *values):
+    with closing(sqlite3.connect(path)) as database, database:
+        database.execute(statement, values)
 
 
 def overwritten(path, first):
@@ -169,23 +157,21 @@ def overwritten(path, first):
     path.write_bytes(content)
 
 
+ROW, CANNOT = "the row of a run of .* is damaged", "cannot be written"
 DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
-    "text": (
-        lambda path: path.write_text("not a database, but long enough to look at" * 10),
-        "not a database",
-    ),
+    "text": (lambda path: path.write_text("not a database, but long enough" * 10), "not a database"),
     "half": (lambda path: path.write_bytes(path.read_bytes()[:6000]), "malformed|damaged"),
     "head": (lambda path: overwritten(path, 0), "not a database"),
     "middle": (lambda path: overwritten(path, 9000), "malformed|damaged"),
-    "folder": (lambda path: (path.unlink(), path.mkdir()), "cannot be written"),
-    "link": (
-        lambda path: (path.rename(path.with_name("other")), path.symlink_to("other")),
-        "cannot be written",
+    "folder": (lambda path: (path.unlink(), path.mkdir()), CANNOT),
+    "link": (lambda path: (path.rename(path.with_name("other")), path.symlink_to("other")), CANNOT),
+    "schema": (
+        lambda path: (path.unlink(), changed(path, "create table runs (key text, something text)")),
+        "is of another program or version",
     ),
-    "schema": (foreign, "is of another program or version"),
-    "broken row": (lambda path: replaced(path, "row", '{"square": '), "the row of a run of .* is damaged"),
-    "empty row": (lambda path: replaced(path, "row", "{}"), "the row of a run of .* is damaged"),
-    "status": (lambda path: replaced(path, "status", "converged"), "the row of a run of .* is damaged"),
+    "broken row": (lambda path: changed(path, "update runs set row = ?", '{"square": '), ROW),
+    "empty row": (lambda path: changed(path, "update runs set row = ?", "{}"), ROW),
+    "status": (lambda path: changed(path, "update runs set status = ?", "converged"), ROW),
 }
 
 
@@ -219,20 +205,18 @@ def test_a_file_that_another_program_uses_is_refused(tmp_path, monkeypatch):
     other.close()
 
 
-def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(tmp_path):
+def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(store):
     """A limit on file sizes stands for the disk."""
     runs = [task("ballast", x=x, size=20_000) for x in range(4)]
-    refused = pytest.raises(BadInput, match=f"{tmp_path / FILE}: .*.* with room on the disk")
-    with campaign(tmp_path) as store:
-        carry_out(runs[:1], store, pool=Here)
-        with at_most(50_000), refused:
-            carry_out(runs, store, pool=Here)
-    kept = rows_in(tmp_path / FILE)
+    carry_out(runs[:1], store, pool=Here)
+    refused = pytest.raises(BadInput, match=f"{store.path}: .*.* with room on the disk")
+    with at_most(50_000), refused:
+        carry_out(runs, store, pool=Here)
+    kept = rows_in(store.path)
     assert 1 <= len(kept) < 4
-    with campaign(tmp_path) as store:
-        found = carry_out(runs, store, pool=Here)
+    found = carry_out(runs, store, pool=Here)
     assert [outcome.row["x"] for outcome in found] == [0, 1, 2, 3]
-    after = rows_in(tmp_path / FILE)
+    after = rows_in(store.path)
     assert {key: after[key] for key in kept} == kept
 
 

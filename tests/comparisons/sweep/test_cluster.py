@@ -24,19 +24,18 @@ def hurried(monkeypatch):
 
 
 def test_no_scheduler_is_said_in_a_line():
-    with (
-        pytest.raises(BadInput, match=r"--scheduler = 'tcp://127\.0\.0\.1:9': no scheduler there"),
-        pool_of("tcp://127.0.0.1:9"),
-    ):
+    refused = pytest.raises(BadInput, match=r"--scheduler = 'tcp://127\.0\.0\.1:9': no scheduler there")
+    with refused, pool_of("tcp://127.0.0.1:9"):
         pass
 
 
+def cluster(workers):
+    return LocalCluster(n_workers=workers, processes=False, dashboard_address=None, protocol="tcp")
+
+
 def test_a_cluster_without_workers_is_said_in_a_line():
-    with (
-        LocalCluster(n_workers=0, processes=False, dashboard_address=None, protocol="tcp") as local,
-        pytest.raises(BadInput, match="no scheduler there with a worker"),
-        pool_of(local.scheduler_address),
-    ):
+    refused = pytest.raises(BadInput, match="no scheduler there with a worker")
+    with cluster(0) as local, refused, pool_of(local.scheduler_address):
         pass
 
 
@@ -44,12 +43,9 @@ def test_a_campaign_on_a_cluster_obeys_ctrl_c(store):
     begun: list[object] = []
     interrupting = Thread(target=interrupt_when, args=(lambda: bool(begun),))
     interrupting.start()
-    with (
-        LocalCluster(n_workers=1, processes=False, dashboard_address=None, protocol="tcp") as local,
-        pool_of(local.scheduler_address) as pool,
-        pytest.raises(KeyboardInterrupt),
-    ):
-        carry_out([task("square", x=2.0, seconds=1.0)], store, pool=pool, progress=begun.append)
+    runs = [task("square", x=2.0, seconds=1.0)]
+    with cluster(1) as local, pool_of(local.scheduler_address) as pool, pytest.raises(KeyboardInterrupt):
+        carry_out(runs, store, pool=pool, progress=begun.append)
     interrupting.join()
 
 

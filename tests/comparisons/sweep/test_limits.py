@@ -13,19 +13,13 @@ SEED = load("two-edges-clamped")
 
 def standing(name, limit, error, meshes=(4, 6, 8)):
     """A model whose every displacement is limit + error h² [m], its cells of size h = 1/n of a side."""
-    rows = [
-        Solved(
-            Ask(SEED, Lattice(n + 1)),
-            "converged",
-            row={
-                "load_factor": 1.0,
-                "settings": {"grid": [n + 1, n + 1, 2]},
-                "probes": dict.fromkeys(SEED.probes, np.full(3, limit + error / n**2)),
-            },
-        )
-        for n in meshes
-    ]
-    return Limit.of(name, rows)
+
+    def row(n):
+        probes = dict.fromkeys(SEED.probes, np.full(3, limit + error / n**2))
+        known = {"load_factor": 1.0, "settings": {"grid": [n + 1, n + 1, 2]}, "probes": probes}
+        return Solved(Ask(SEED, Lattice(n + 1)), "converged", row=known)
+
+    return Limit.of(name, [row(n) for n in meshes])
 
 
 @pytest.mark.parametrize(

@@ -45,20 +45,13 @@ def test_a_column_is_a_function_of_scene_and_answer(store, monkeypatch):
     assert row.row["columns"]["strain energy"] == row.document["energies"]
 
 
-def test_tags_and_labels_make_no_other_row(store, monkeypatch):
+def test_tags_and_labels_make_no_other_row():
     """A model, its settings, a column, times and a program's version do."""
-    ask = Ask(SEED, Lattice(3))
     same = Ask(SEED, Lattice(3), tags={"factor": 2.0}, label="other")
-    others = [
-        Ask(SEED, Lattice(4)),
-        Ask(SEED, Lattice(3), repeats=1),
-        Ask(SEED, Lattice(3), columns=("model_error",)),
-        Ask(SEED, Lattice(3), version="2"),
-        Ask(SEED, Lattice(3), duration=1.0, every=0.1),
-    ]
-    keys = [one.task.key for one in (ask, *others)]
-    assert same.task.key == keys[0] and len(set(keys)) == len(keys)
-    assert [one.task.timed for one in (ask, *others)] == [False, False, True, False, False, False]
+    more = ({}, {"repeats": 1}, {"columns": ("bar",)}, {"version": "2"}, {"duration": 1.0, "every": 0.1})
+    tasks = [Ask(SEED, Lattice(3), **one).task for one in more] + [Ask(SEED, Lattice(4)).task]
+    assert same.task.key == tasks[0].key and len({one.key for one in tasks}) == len(tasks)
+    assert [one.timed for one in tasks] == [False, True, False, False, False, False]
 
 
 def test_a_motion_is_a_row_with_a_history(store):

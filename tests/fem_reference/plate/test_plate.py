@@ -67,7 +67,6 @@ def test_zero_modes_of_the_free_plate(mesh, thickness):
 
 
 def test_strip_with_edge_moment_and_forces():
-    """A cantilever strip with ν = 0 is a Timoshenko beam: closed form at the tip."""
     length, width, thickness, young = 2.0, 0.5, 0.05, 1.0e6
     moment, (fx, fy, fz) = 0.02, (3.0, 0.0, 0.01)
     load = {"kind": "edge", "edge": "x1", "force_per_length": (fx, fy, fz), "moment_per_length": moment}

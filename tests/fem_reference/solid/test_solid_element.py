@@ -41,7 +41,6 @@ def warped(rng):
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("part", ["distortion", "volume"])
 def test_laws_are_triads(law, part, rng):
-    """Stress is the slope of energy, tangent the slope of stress."""
     function, strain, step = getattr(LAWS[law], part), 0.1 * rng.normal(size=(4, 6)), 1e-6
     if part == "distortion":
         function = partial(function, material(law))
@@ -161,7 +160,6 @@ def test_rigid_motion_costs_nothing(law, rng):
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.4999])
 @pytest.mark.parametrize("mesh", ["one", "distorted"])
 def test_six_zero_modes(thickness, layers, poisson, mesh):
-    """The free solid has six rigid motions and no spurious mode."""
     plan = distorted() if mesh == "distorted" else rectangle(block().sheet, 1)
     sheet = DiscreteSolid(plan, block(thickness, poisson), layers)
     rest = np.zeros(sheet.size)

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 from dynamic_cases import ROD, make_scene
-from lattice_cases import ALL, assembly_of
+from lattice_cases import ALL, assembly_of, dense
 from lattice_cases import state as lattice_state
 
 import lumped
 from lumped import System, build_problem
+from lumped.springs.all_families import AllFamilies
 from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from sheetbench import scenes
@@ -61,9 +62,7 @@ def test_forces_energy_and_power_are_the_families(scene, options):
     packing = packed(system)
     room = scratch(packing)
     energy, elastic = system.assembly.force(u)
-    by_velocity = np.zeros((system.assembly.pattern.blocks, 3, 3))
-    for dampers in system.damping.dampers:
-        dampers.add_velocity_tangent(u, 1.0, by_velocity)
+    by_velocity = AllFamilies(system.damping.dampers, system.assembly.pattern).tangent(u, share=0.0)
     damping = system.problem.system.apply(by_velocity, v)  # the force is linear in v
     power = float(np.sum(damping * v))
     for with_elastic, with_damping in ((True, True), (True, False), (False, True)):
@@ -76,16 +75,22 @@ def test_forces_energy_and_power_are_the_families(scene, options):
         assert taken == pytest.approx(with_damping * power, rel=1e-12)
 
 
-def test_the_seeds_per_direction_law():
+def test_dampers_of_the_seeds_per_direction_law_are_of_its_mean_stiffness():
     assembly = assembly_of((4, 5, 2), **{**ALL, "axial": PerDirection(x=90.0, y=70.0, z=50.0)})
-    u, v = lattice_state(assembly), np.zeros((assembly.lattice.mass_count, 3))
-    packing = pack(assembly.lattice, assembly.springs, [family.damped(0.1) for family in assembly.springs])
-    stored, wanted = assembly.force(u)
-    force = np.zeros_like(u)
-    energy, _ = add_forces(u, v, True, True, packing, scratch(packing), force)
+    u, v = lattice_state(assembly), lattice_state(assembly, seed=1)
+    dampers, force = assembly.all_families.damped(0.1), np.zeros_like(u)
+    packing = pack(assembly.lattice, (), dampers)
+    _, power = add_forces(u, v, False, True, packing, scratch(packing), force)
+    by_velocity = AllFamilies(dampers, assembly.pattern).tangent(u, share=0.0)
+    wanted = (dense(assembly, by_velocity) @ v.ravel()).reshape(-1, 3)
     assert not assembly.conservative
+    of_links = sum(
+        family.stiffness.reshape(len(family), -1).mean(axis=1).sum()
+        for family in assembly.all_families.all_links
+    )
+    assert dampers[0].stiffness.sum() == pytest.approx(0.1 * of_links, rel=1e-12)
     assert np.abs(force - wanted).max() < 200 * E * np.abs(wanted).max()
-    assert energy == pytest.approx(stored, rel=1e-12)
+    assert power == pytest.approx(np.sum(force * v), rel=1e-12)
 
 
 def test_small_displacements_lose_no_digits():

@@ -46,7 +46,7 @@ def test_energies_by_name_add_up_to_the_energy():
     assembly = assembly_of(**ALL)
     u = state(assembly)
     energies = assembly.survey(u).energies
-    assert energies.keys() >= {"axial", "cross", "diagonal", "area"}
+    assert energies.keys() >= {"axial", "cross", "diagonal", "cells"}
     assert sum(energies.values()) == pytest.approx(assembly.force(u)[0], rel=1e-12)
 
 

@@ -29,7 +29,6 @@ def test_bad_scene_is_refused_in_one_line_naming_file_key_and_value(tmp_path, fa
 
 
 def test_what_is_no_file_is_no_scene(tmp_path):
-    """A name that is none lists the catalogue."""
     with pytest.raises(scenes.SceneError, match="cannot be read"):
         scenes.load(tmp_path)
     with pytest.raises(scenes.SceneError, match=r"no-such-scene: no such file.*two-edges-clamped"):

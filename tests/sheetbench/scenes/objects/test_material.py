@@ -8,7 +8,7 @@ from scene_files import GOOD, written
 import lumped
 import sheetbench as sb
 from sheetbench import scenes
-from sheetbench.scenes import Material, Relaxation, Scene, SceneError, Sheet, load
+from sheetbench.scenes import Material, Relaxation, Scene, SceneError, Sheet
 from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.words import in_words
 
@@ -41,14 +41,6 @@ def test_young_and_poisson_are_those_of_the_energy_at_small_strains(law):
     # a central difference: h² of the fourth derivatives, here up to 30 times the second ones
     assert lame / (2.0 * (lame + shear)) == pytest.approx(0.4, rel=1e-4)
     assert 2.0 * shear * 1.4 == pytest.approx(material.young, rel=1e-4)
-
-
-@pytest.mark.parametrize("law", LAWS)
-def test_a_rubber_comes_back_from_its_file(law, tmp_path):
-    scene = sb.load("two-edges-clamped").replace(material=rubber(law))
-    scene.save(tmp_path / "scene.toml")
-    assert sb.load(tmp_path / "scene.toml") == scene
-    assert law in dict(in_words(scene))["material"]
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -151,12 +143,6 @@ def test_other_constants_scale_with_young(tmp_path):
     twice = material.replace(young=2.0 * material.young)
     assert (twice.young_1, twice.shear_12, twice.poisson_12) == (1e8, 6e6, 0.3)
     assert material.replace(young_1=2e8).young == pytest.approx(2.0 * material.young)
-
-
-def test_a_file_says_what_an_object_does(tmp_path):
-    scene = scene_of({"shape": ROOT, "angle": 0.5}, angle=0.1, shear_23=1e6)
-    scene.save(tmp_path / "fibres.toml")
-    assert load(tmp_path / "fibres.toml") == scene and not scene.uniform
 
 
 def series(*branches):

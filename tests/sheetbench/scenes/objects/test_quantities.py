@@ -161,7 +161,6 @@ def test_a_scene_shows_itself_on_a_few_lines():
 
 @pytest.mark.parametrize("module", ["__main__", "studies.mine", "lumped"])
 def test_an_implausible_scene_made_in_python_is_warned_of_by_the_verb_that_reads_it(module):
-    """Whatever the module is called that makes it."""
     mine = {"__name__": module, "sb": sb, "sheet": sb.Sheet(120, 40, 2), "material": MATERIAL}
     with warnings.catch_warnings():
         warnings.simplefilter("error")

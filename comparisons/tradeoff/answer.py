@@ -138,8 +138,8 @@ class Tradeoff(Priced):
         left_out = "" if left is None else f", its model error {percent(left)}"
         explained = (
             f"errors against {truth.label} ({truth.known.get('unknowns')} unknowns), whose own "
-            f"uncertainty is {self.known}: the grid convergence index of n, ¾ n and ½ n elements"
-            f"{left_out}. error: at the probes. One thread; times on warm code; memory: growth of the process."
+            f"uncertainty is {self.known} (grid convergence index of n, ¾ n and ½ n elements){left_out}. "
+            "error: at the probes. One thread; times on warm code; memory: growth of the process."
         )
         return [*self.reasons, *self.cheapest(), explained, *self.warnings]
 

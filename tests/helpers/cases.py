@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_bvp
+from skfem import MeshQuad
 
 import fem_reference
 import lumped
+from fem_reference.surface.mesh import rectangle
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 from sheetbench.scenes.objects.grid import grid_of
@@ -83,6 +85,15 @@ def with_constants(calibration: lumped.Calibration, **constants: float) -> lumpe
 def relative(u: np.ndarray, reference: np.ndarray) -> float:
     """The design's error: largest difference over the largest component."""
     return float(np.abs(u - reference).max() / np.abs(reference).max())
+
+
+def distorted(sheet: Sheet = SHEET, elements: int = 3, by: float = 0.2) -> MeshQuad:
+    """The sheet's mesh with its inner vertices moved by up to `by` of an element."""
+    mesh = rectangle(sheet, elements)
+    places, inner = mesh.p.copy(), mesh.interior_nodes()
+    drawn = np.random.default_rng(0).uniform(-1.0, 1.0, (2, len(inner)))
+    places[:, inner] += by * sheet.length_x / elements * drawn
+    return MeshQuad(places, mesh.t).with_boundaries(mesh.boundaries)
 
 
 def calibrated(scene: Scene, grid: Any = 3, grading: Any = 0.0, **settings: Any) -> lumped.Calibration:

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from sheetbench import scenes
 
 GOOD = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
@@ -35,3 +37,13 @@ def written(folder: Path, text: str) -> Path:
     path = folder / "scene.toml"
     path.write_text(text, encoding="utf-8")
     return path
+
+
+def refusal(folder: Path, text: str) -> str:
+    """The one line with which the text is refused, without the file's name."""
+    path = written(folder, text)
+    with pytest.raises(scenes.SceneError) as caught:
+        scenes.load(path)
+    said = str(caught.value)
+    assert "\n" not in said and said.startswith(f"{path}: ")
+    return said.removeprefix(f"{path}: ")

@@ -76,10 +76,3 @@ def test_the_tilt_of_one_of_two_clamps_that_share_a_corner_is_refused():
     scene = scene_of("two-edges-clamped")
     with pytest.raises(ValueError, match=r"tilt_x0.*corner"):
         lumped.sensitivity(scene, calibrated(scene, GRID), ["tilt_x0"])
-
-
-@pytest.mark.parametrize("name", ["magic", "axial_x", "curvature_y1", "tilt_y1", "shear"])
-def test_unknown_and_absent_parameters_are_refused(name):
-    scene = scene_of("one-edge-clamped", supports=(Clamped(edge="x0"),))
-    with pytest.raises(ValueError, match=name):
-        lumped.sensitivity(scene, calibrated(scene, GRID), [name])

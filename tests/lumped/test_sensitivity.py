@@ -7,7 +7,7 @@ from cases import calibrated, with_material
 import lumped
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, EdgeLoad
-from sheetbench.scenes.meaning.parameters import put
+from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.patches import Patch
 
 GRID = (7, 7)
@@ -54,7 +54,7 @@ def held(tilt):
 def test_parameters_of_a_scene(base, changes, name, h):
     scene = scene_of(base, **changes)
     found = lumped.sensitivity(scene, calibrated(scene, GRID), [name])
-    value = found.values[name]
+    value = parameter(scene, name).value
 
     def solve(value):
         changed = put(scene, name, value)

@@ -51,7 +51,7 @@ def modes(
     """The `count` lowest natural modes of the scene's sheet on a lattice.
 
     calibration: as of `lumped.solve`. distribution: how the masses are shared out (`lumped.masses`);
-    higher-order unless given, of cells that differ Gregory's. about: the flat,
+    higher-order unless given, or those that springs fitted to frequencies go with. about: the flat,
     stress-free sheet, without actuators, loads not mattering; or "deformed", its equilibrium under the
     scene's loads (no actuators, no follower loads), with the tangent there.
 
@@ -110,6 +110,8 @@ def modes(
 
 def usual_masses(calibration: Calibration) -> Inertia:
     """The distribution that springs vibrate with unless another is requested."""
+    if calibration.masses != "tributary":
+        return calibration.masses
     return "higher-order" if calibration.cells is None else "gregory"
 
 

@@ -146,5 +146,5 @@ def to_toml(springs: Calibration) -> str:
     """Return the [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
     found = springs.document()
     grading = as_settings(springs.grading) if springs.grading else {}
-    keys = {"grid": found["grid"], **grading, **found["springs"]}
+    keys = {"grid": found["grid"], "masses": found["masses"], **grading, **found["springs"]}
     return dumps({"springs": {**keys, "layer_distance": found["layer_distance"]}})

@@ -132,7 +132,7 @@ def given(
         )
     cells = sections_of(scene, requested, table.graded)
     each = each_cell(scene.sheet, scene.material, requested, table.graded, cells if springs.varies else None)
-    return replace(report("scene", each, springs), cells=cells)
+    return replace(report("scene", each, springs), masses=table.masses, cells=cells)
 
 
 def default(scene: Scene) -> Calibration:

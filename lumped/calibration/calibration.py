@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import tables
 from lumped.sections import CellSection
+from lumped.spring_constants import Springs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
 from sheetbench.scenes import Sheet, SpringSet
@@ -62,6 +64,15 @@ class Calibration(Answer):
         """Grid, method and grading in a few words."""
         grid = "×".join(map(str, self.grid))
         return f"{grid} {self.method}{remark(self.grading)}"
+
+    @cached_property
+    def constants(self) -> Springs:
+        """The springs as arrays."""
+        return Springs.read(self.springs)
+
+    def with_constant(self, name: str, value: float) -> Calibration:
+        """The same with one spring constant changed, by its name (`lumped.spring_constants`)."""
+        return replace(self, springs=self.constants.changed(name, value).table())
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""

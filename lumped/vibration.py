@@ -17,6 +17,7 @@ from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
+from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About

@@ -97,9 +97,10 @@ def test_other_verbs_tell_too(tmp_path):
 
 def test_a_fit_tells_what_it_is_trained_on():
     reports: list[Work] = []
-    spec = Lattice(4, "fit-modal")
+    seed, spec = sb.load("two-edges-clamped"), Lattice(4, "fit-modal")
+    scene = training_scenes(seed.sheet, seed.material)[0]
     with running(progress=reports.append):
-        calibrate(training_scenes(*parts())[0], spec, named=False)
+        calibrate(scene, spec, named=False)
     assert [one.doing.split()[0] for one in reports] == ["training", "training", "fitting"]
 
 

@@ -72,7 +72,7 @@ class DiscreteShell(DiscreteElements):
         self.any_strain = self.element.stands_any_strain
         n = self.nodes
 
-        bound = self.rods_of(scene)
+        bound = self.bound_rods()
         self.supports = supports = rod.hold_bases(self.supports_of(plan.mesh), bound.rods)
         free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
         free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held

@@ -96,7 +96,6 @@ PLANS = {
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", PLANS)
 def test_lattice_and_shell_agree_on_stiff_parts_outlines_and_cutouts(name):
-    """With 17 masses on the shorter side."""
     scene, off = PLANS[name]
     found, shell = face.solve(scene, grid=17), face.solve(scene, "shell", elements=16)
     assert found.status is shell.status is Status.CONVERGED and found.balance.holds

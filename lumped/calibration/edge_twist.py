@@ -93,7 +93,7 @@ class Strips(NamedTuple):
         strip whose edges are both free and whose cells are finer towards one it is that of the strip and its
         mirror image together."""
         factor, step = np.ones(len(count)), -1 if far else 1
-        for cells in np.unique(count):
+        for cells in set(count.tolist()):
             of = count == cells
             at = place[of], cell[of]
             strips = [part[at][:, None] for part in self[:4]]

@@ -62,12 +62,11 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
         corner = ~np.logical_and(*_beside(rows, False))
         strips = Strips._make((*parts, corner, None if drawn else lines, each.cells is not None))
         usable = _aligned(share, oblique_near) & ~(oblique_near & corner) if drawn else rows
-        ends = np.diff(np.pad(rows.astype(int), ((0, 0), (1, 1))), axis=1)
-        (places, start), (_, stop) = np.nonzero(ends == 1), np.nonzero(ends == -1)
+        (places, first), (_, last) = (np.nonzero(rows & ~other.T) for other in _beside(rows.T, False))
         for far in (False, True)[: 1 + unlike]:
-            cells, outer = (stop - 1, rows.shape[1] - 1) if far else (start, 0)
+            cells, outer = (last, rows.shape[1] - 1) if far else (first, 0)
             chosen = usable[places, cells]
-            place, cell, count = places[chosen], cells[chosen], (stop - start)[chosen]
+            place, cell, count = places[chosen], cells[chosen], (last - first)[chosen] + 1
             two, known = strips.taken(place, cell, count, far, True, unknown)
             of = count == rows.shape[1]
             one = two.copy()
@@ -76,8 +75,9 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
                 edge = "a rim" if drawn else f"{'xy'[axis]}{int(far)}"
                 notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")
             inside, stretch = cell != outer, strips.stretch[place, cell]
-            strain = along_edge(axis, stretch[inside])
-            on_rims[place[inside], cell[inside]] += rank_one(two[inside] / square, *strain)
+            if drawn:
+                strain = along_edge(axis, stretch[inside])
+                on_rims[place[inside], cell[inside]] += rank_one(two[inside] / square, *strain)
             kinds = ("edge_shear", one / square), ("strip_shear", two / square), ("edge_coupling", stretch)
             for name, values in kinds:
                 along = np.zeros(len(rows))
@@ -91,8 +91,8 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
 
 def _beside(rows: np.ndarray, beyond: float) -> tuple[np.ndarray, np.ndarray]:
     """What is before and after each along the first axis, `beyond` past the ends."""
-    around = np.pad(rows, ((1, 1), (0, 0)), constant_values=beyond)
-    return around[:-2], around[2:]
+    end = np.full_like(rows[:1], beyond)
+    return np.concatenate([end, rows[:-1]]), np.concatenate([rows[1:], end])
 
 
 def _aligned(share: np.ndarray, near_oblique: np.ndarray) -> np.ndarray:

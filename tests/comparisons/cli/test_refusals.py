@@ -139,7 +139,7 @@ ROWS = {
     "weigh": "No such command 'weigh'; see sheetbench --help",
     "compare frame.toml --lumped 3x2": "3×2×2|every mass",
     "modes frame.toml --lumped 2x2": "2×2×2|every mass",
-    "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "no scheduler there",
+    "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "--scheduler = |no scheduler",
 }
 
 

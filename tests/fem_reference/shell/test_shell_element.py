@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import RUBBER, SHEET
+from cases import RUBBER, SHEET, distorted
 from scipy.spatial.transform import Rotation
 from skfem import Basis, ElementQuad2, MeshQuad
 
@@ -19,15 +19,6 @@ from sheetbench import scenes
 from sheetbench.scenes import Clamped, EdgeLoad, Pressure, Scene
 
 pytestmark = pytest.mark.smoke
-
-
-def distorted(elements=3, by=0.2, seed=0):
-    """The sheet's mesh with its inner vertices moved by up to `by` of an element."""
-    mesh = rectangle(SHEET, elements)
-    p = mesh.p.copy()
-    inner, rng = mesh.interior_nodes(), np.random.default_rng(seed)
-    p[:, inner] += by * SHEET.length_x / elements * rng.uniform(-1, 1, (2, len(inner)))
-    return MeshQuad(p, mesh.t).with_boundaries(mesh.boundaries)
 
 
 def build(mesh, thickness=SHEET.thickness, material=RUBBER):
@@ -86,10 +77,10 @@ def test_rigid_motions_cost_nothing():
     assert np.abs(element.strain(vectors - element.reference)).max() < 1e-15
 
 
-@pytest.mark.parametrize("mesh", [distorted(1, 0), distorted(2), distorted(3)], ids=["one", "four", "nine"])
+@pytest.mark.parametrize("elements", [1, 2, 3])
 @pytest.mark.parametrize("thickness", [0.003, 0.03])
-def test_the_free_sheet_has_exactly_six_zero_modes(mesh, thickness):
-    sheet = DiscreteShell(mesh, make_scene().replace(thickness=thickness))
+def test_the_free_sheet_has_exactly_six_zero_modes(elements, thickness):
+    sheet = DiscreteShell(distorted(elements=elements), make_scene().replace(thickness=thickness))
     matrix = at_rest(sheet)
     # a rotation counts as a thickness
     scale = np.where(np.arange(sheet.unknowns) % 5 < 3, 1.0, 1.0 / thickness)
@@ -100,7 +91,7 @@ def test_the_free_sheet_has_exactly_six_zero_modes(mesh, thickness):
 
 def test_patch_of_constant_strain_on_a_distorted_mesh():
     """Linear displacement: constant membrane strain. Constant shear of the director: constant γ. Exactly."""
-    element, _, _ = build(distorted(3, 0.3))
+    element, _, _ = build(distorted(by=0.3))
     stretch = np.array([[2e-3, 1e-3, 0.0], [-3e-3, 1.5e-3, 0.0], [0.0, 0.0, 0.0]])
     vectors = element.reference.copy()
     vectors[:, :9] += element.reference[:, :9] @ stretch.T

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from cases import calibrated
 from scipy.sparse.linalg import spsolve
 
 import lumped
@@ -128,11 +129,6 @@ def test_a_moment_along_the_rim_bends_the_strip_as_it_bends_the_sheet():
 
 SHAPES = ("octagon", "parallelogram", "round-hole", "hole-on-lines")
 SHEETS = [scene for scene in drawn() if scene.name in SHAPES]
-
-
-def calibrated(scene, masses):
-    grid = grid_of(scene.sheet, masses)
-    return lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
 
 
 @pytest.mark.parametrize("scene", SHEETS, ids=lambda scene: scene.name)

@@ -166,11 +166,6 @@ def test_per_direction_stiffness_is_the_seeds_law_and_said():
 # ---- ends that are not a plain stable equilibrium --------------------------------------------------
 
 
-def test_strain_outside_the_model_is_said():
-    scene = softer(SEED["one-edge-clamped"], 1e4)
-    assert solve(scene).status is Status.STRAIN_OUTSIDE_MODEL
-
-
 def test_no_stiffness_against_twisting_is_singular_not_a_crash():
     scene = with_springs(
         SEED["one-edge-clamped"], axial=0.0, diagonal=0.0, cross=0.0, cross_diagonal=0.0, area=0.0

@@ -26,7 +26,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -100,7 +99,7 @@ def modes(
         if model != "shell" or scene.actuators:
             raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
     scene = scene.replace(actuators=())
-    options = with_defaults(scene, signature(SHEETS[model]).parameters, options)
+    options = with_defaults(scene, model, options)
     along_x, along_y = divisions(scene.sheet, elements)
     with one_blas_thread():
         sheet = SHEETS[model](scene, (along_x, along_y), **options, reach=REACH)

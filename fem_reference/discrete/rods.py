@@ -41,7 +41,7 @@ BENT = {"normal": (NORMAL,), "inplane": (INPLANE,), "spatial": (NORMAL, INPLANE)
 class Rods:
     """The rods of a scene's chains among the coordinates (N,) of a sheet.
 
-    bound: to the sheet's vectors; size: N; commands: the curvatures' factors; places: of φ, d and m (9,) in Q;
+    bound: to the sheet's vectors; size: N; commands: the curvatures' factors; places: of φ, d, m (9,) in Q;
     linear: strains are those about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q.
     """
 

@@ -102,7 +102,7 @@ class CentredPlan(NamedTuple):
             return self.centre + np.where(on, np.sign(found) * half, found)
 
         upright = np.linalg.det(self.turn) > 0.0
-        return _mesh(moved(mesh.p.T), mesh.t.T if upright else mesh.t.T[:, ::-1]), moved(places)
+        return mesh_of_cells(moved(mesh.p.T), mesh.t.T if upright else mesh.t.T[:, ::-1]), moved(places)
 
 
 def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
@@ -156,5 +156,6 @@ def _rounded(part: BaseGeometry) -> BaseGeometry:
     return shapely.normalize(shapely.transform(part, lambda at: np.round(at, DIGITS) + 0.0))
 
 
-def _mesh(at: np.ndarray, elements: np.ndarray) -> MeshQuad:
+def mesh_of_cells(at: np.ndarray, elements: np.ndarray) -> MeshQuad:
+    """Return the mesh of vertices (n, 2) and elements (m, 4)."""
     return MeshQuad(np.ascontiguousarray(at.T), np.ascontiguousarray(elements.T))

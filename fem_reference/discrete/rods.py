@@ -54,7 +54,8 @@ class Rods:
         places: np.ndarray | None = None,
         linear: bool = False,
     ):
-        self.bound, self._linear, self._size, self._commands = bound, linear, size, commands
+        self.bound, self._linear, self._size = bound, linear, size
+        self._commands = commands if bound.rods else ()
         places = np.arange(9) if places is None else places
         self._directors = places[3:6]
         k, a = bound.sites.shape

@@ -176,10 +176,6 @@ class Discrete(ABC):
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         """Z (N, unknowns)."""
 
-    @abstractmethod
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        """The parts that are held of vectors (N, k) of the flat sheet, (h, k)."""
-
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         """q after a step Z x (N,), on the constraints."""
         return q + step

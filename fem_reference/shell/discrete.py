@@ -168,11 +168,6 @@ class DiscreteShell(DiscreteElements):
         free = np.concatenate([np.zeros((self.nodes, 3)), to_unit(self.directors(shape.q))])
         return np.where(self._held, self._target(shape.at) - shape.q.reshape(-1, 3), free).ravel()
 
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        on = self._held.copy()
-        on[self.nodes : 2 * self.nodes, :2] |= self.supports.tilt
-        return vectors[on.ravel()]
-
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         return self.of_unit_directors((q + step).reshape(-1, 3))
 

@@ -141,11 +141,6 @@ class DiscreteSolid(DiscreteElements):
         step = applied(bases, np.where(self.free, 0.0, gap))
         return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
 
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        inverse = np.linalg.inv(self.frame(vectors, at))
-        own = [applied(inverse, self._on_columns(vector))[~self.free] for vector in vectors.T]
-        return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
-
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         bases = self.frame(q, at)
         return self._constant_basis if bases is self._turned_fully else self._basis(bases)

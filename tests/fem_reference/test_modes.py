@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fem_reference.vibration import SHEETS, modes, rigid_motions
+from fem_reference.vibration import SHEETS, modes
 from sheetbench import scenes
 from sheetbench.scenes import Clamped, Hinged, Material, Scene, Sheet
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.surface.borders import straight_parts
 from fem_reference.surface.mesh_points import NEAR
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
 
     centre = np.mean(np.reshape(region.bounds, (2, 2)), axis=0)
     rims, lines = (
-        _sides(shapely.transform(part, lambda at: np.round(at - centre, DIGITS)))
+        straight_parts(shapely.transform(part, lambda at: np.round(at - centre, DIGITS)))
         for part in (region.boundary, inner)
     )
     keys = [[_ordered(part, turn).ravel().tolist() for part in (rims, lines)] for turn in TURNS]
@@ -134,14 +135,6 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
 def reflection(normal: np.ndarray) -> np.ndarray:
     """Return the map to the mirror image across x, y or a diagonal, to the last digit."""
     return np.asarray(np.round(np.eye(2) - 2.0 * np.outer(normal, normal)) + 0.0)
-
-
-def _sides(lines: BaseGeometry) -> np.ndarray:
-    """Straight parts (k, 2, 2) of lines."""
-    import shapely
-
-    parts = [shapely.get_coordinates(part) for part in shapely.get_parts(lines)]
-    return np.concatenate([np.zeros((0, 2, 2)), *(np.stack([at[:-1], at[1:]], axis=1) for at in parts)])
 
 
 def _ordered(sides: np.ndarray, turn: np.ndarray) -> np.ndarray:

@@ -180,12 +180,22 @@ def shell(scene, elements=4):
     return fem_reference.solve(scene, "shell", elements=elements)
 
 
-# parts of a square of side 1 that are their own image across a diagonal or more lines
+def by_turns(part, n):
+    """Points of a square of side 1 about its middle, and more numbers, of n sectors."""
+    turned = [(complex(x, y) * 1j ** (4 * k // n), more) for k in range(n) for x, y, *more in part]
+    return [(0.5 + at.real, 0.5 + at.imag, *more) for at, more in turned]
+
+
+# parts of a square of side 1 that are their own image across a diagonal or more lines, or by a turn alone
 OWN_IMAGES = {
     "triangle": {"outline": [(0, 0), (1, 0), (0, 1)]},
     "cut corner": {"outline": [(0, 0), (1, 0), (1, 0.6), (0.6, 1), (0, 1)]},
     "two holes": {"holes": [(0.3, 0.7, 0.1), (0.7, 0.3, 0.1)]},
     "hole in the middle": {"holes": [(0.5, 0.5, 0.2)]},
+    "parallelogram": {"outline": by_turns([(-0.5, -0.5), (0.5, -0.2)], 2)},
+    "pinwheel of holes": {"holes": by_turns([(-0.2, -0.1, 0.1)], 4)},
+    "pinwheel about a hole": {"holes": [*by_turns([(-0.25, -0.15, 0.08)], 4), (0.5, 0.5, 0.12)]},
+    "four holes in a row": {"holes": by_turns([(-0.3, -0.2, 0.1), (-0.1, -0.15, 0.07)], 2)},
 }
 
 

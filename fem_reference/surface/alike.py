@@ -2,7 +2,8 @@
 
 Of the eight ways to lay a plan along the axes the last is taken, its sides in order compared number by number
 after rounding. A plan that is its own mirror image across x, y or a diagonal is meshed on one side of that
-line alone: its mesh is its own image too. Lengths are in sizes of the largest triangles.
+line alone: its mesh is its own image too. Of one that is its own image only when turned, the borders and
+points of one sector are turned into the others. Lengths are in sizes of the largest triangles.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 DIGITS = 9  # of rounding, of `mesh_points.GRID`
 FLIPS = [np.diag([x, y]) for x in (1.0, -1.0) for y in (1.0, -1.0)]
 TURNS = [flip @ swap for swap in (np.eye(2), np.eye(2)[::-1]) for flip in FLIPS]
+FIRST = np.array([np.cos(1.0), np.sin(1.0)])  # an angle at random
 DIAGONALS = np.sqrt(0.5) * np.array([[1.0, -1.0], [1.0, 1.0]])  # normals of mirrors, towards what is meshed
 
 
@@ -38,13 +40,15 @@ class PlanCells(NamedTuple):
 
 class CentredPlan(NamedTuple):
     """A plan about the origin, and what leads back from there: x = p turn + centre; mirrors: normals of lines
-    through the origin across which it is its own image, in the order of unfolding."""
+    through the origin across which it is its own image, in the order of unfolding; turns (n, 2, 2): where
+    there are none, those that lead it to itself, the identity first."""
 
     region: BaseGeometry
     inner: BaseGeometry
     centre: np.ndarray
     turn: np.ndarray
     mirrors: tuple[np.ndarray, ...]
+    turns: np.ndarray
 
     @property
     def part(self) -> tuple[BaseGeometry, BaseGeometry]:
@@ -57,6 +61,34 @@ class CentredPlan(NamedTuple):
             side = shapely.Polygon(beyond * np.array([along, normal, -along]))
             region, inner = (shapely.intersection(part, side) for part in (region, inner))
         return _rounded(region), _rounded(inner)
+
+    def images(self, at: np.ndarray) -> np.ndarray:
+        """Points (k, 2) by all turns (k, n, 2)."""
+        return np.asarray((self.turns @ at[:, None, :, None])[..., 0])
+
+    def along(self, at: np.ndarray) -> np.ndarray:
+        """How far along FIRST the images of points (k, 2) lie (k, n), the farthest in the first sector."""
+        return np.asarray(self.images(at) @ FIRST)
+
+    def first(self, at: np.ndarray) -> np.ndarray:
+        """Which of points (k, 2) lie in the first sector."""
+        return np.asarray(self.along(at).argmax(axis=1) == 0)
+
+    def orbits(self, at: np.ndarray) -> np.ndarray:
+        """Those of points (k, 2) in the first sector, by all turns (m, n, 2)."""
+        return self.images(at[self.first(at)])
+
+    def turned(self, borders: Sequence[LineString]) -> list[LineString]:
+        """The borders in the first sector, and an nth part of each around the centre, by all turns."""
+        import shapely
+        from shapely.ops import substring
+
+        middle = shapely.get_coordinates(shapely.centroid(borders))
+        shares = np.where(np.hypot(*middle.T) < NEAR, 1.0 / len(self.turns), self.first(middle))
+        pairs = zip(borders, shares.tolist(), strict=True)
+        own = [substring(line, 0.0, share, normalized=True) for line, share in pairs if share]
+        at = [self.images(shapely.get_coordinates(line)).swapaxes(0, 1) for line in own]
+        return [shapely.LineString(image) for images in at for image in images]
 
     def cut(self, borders: Sequence[LineString]) -> tuple[np.ndarray, np.ndarray]:
         """Which borders of the part are none of the plan, but lie where a mirror cuts it, and the mirror's
@@ -129,7 +161,7 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
 
     borders = shapely.multilinestrings(_ordered(lines, turn))
     region = shapely.normalize(shapely.transform(region, there))
-    return CentredPlan(region, borders, centre, turn, cuts)
+    return CentredPlan(region, borders, centre, turn, cuts, np.array(own[:1] if cuts else own))
 
 
 def reflection(normal: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ Lengths are in sizes of the largest triangles, two elements.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -162,9 +162,10 @@ def filling(
     sides: Sides,
     size: SizeField,
     diagonal: np.ndarray,
+    orbits: Callable[[np.ndarray], np.ndarray],
 ) -> np.ndarray:
     """Inner points (n, 2): a row along borders, beside a diagonal those of squares across it, then corners of
-    a quadtree's cells."""
+    a quadtree's cells; orbits: what gives of points (k, 2) those (m, n, 2) to be kept together."""
     import shapely
 
     closed = np.array([border.is_closed for border in borders])
@@ -183,14 +184,15 @@ def filling(
     shapely.prepare(region)
     points = points[shapely.contains_xy(region, points)]
     away = shapely.distance(shapely.points(points), shapely.multilinestrings(borders))
-    points = points[away > CLEARANCE * size.at(points)]
-    clear, kept = CLEARANCE * size.at(points), np.ones(len(points), bool)
+    together = orbits(points[away > CLEARANCE * size.at(points)])
+    points, many = together.reshape(-1, 2), together.shape[1]
+    clear, kept = CLEARANCE * size.at(points), np.ones(len(together), bool)
     from scipy.spatial import KDTree  # plain rectangles need not wait for it
 
     for first, second in sorted(KDTree(points).query_pairs(clear.max(initial=0.0))):
-        if kept[first] and NEAR < np.linalg.norm(points[first] - points[second]) < clear[second]:
-            kept[second] = False
-    return np.unique(np.round(points[kept], 9), axis=0)
+        if kept[first // many] and NEAR < np.linalg.norm(points[first] - points[second]) < clear[second]:
+            kept[second // many] = False
+    return np.unique(np.round(together[kept].reshape(-1, 2), 9), axis=0)
 
 
 def _quadtree(bounds: tuple[float, float, float, float], size: SizeField) -> np.ndarray:

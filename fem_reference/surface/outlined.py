@@ -42,7 +42,6 @@ SKEW = np.pi / 4.0  # by which corners of two triangles that are joined may diff
 SKEWEST = np.pi / 3.0  # likewise, where rows along the rim do not make it worse
 FLAT = 1e-6  # of a triangle's longest side squared: area of one between points of a straight border
 SWIRL = 1e-7 * np.array([[1.0, np.sqrt(2.0)], [-np.sqrt(2.0), 1.0]])  # so that no four points lie on a circle
-ASIDE = np.array([np.cos(1.0), np.sin(1.0)])  # an angle at random: which of two like pairs is joined first
 LAYERS = (0.12, 0.4)  # of the row along the rim, where it is cut
 HALVINGS = 2  # of these, where elements beside it would be too skew
 TIP = 0.5  # of a rim's vertex: least 2 (1 − cos of the angle)
@@ -67,12 +66,13 @@ def quadrilaterals(
     unit = 2.0 * np.array(spacing)
     plan = placed(*(affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner)))
     region, inner = plan.part
-    borders = borders_between_corners(region, inner)
+    borders = plan.turned(borders_between_corners(region, inner))
     across = np.min(np.ptp(np.reshape(plan.region.bounds, (2, 2)), axis=0))
     size = SizeField.of(region, borders, min(1.0, USUAL / across))
+    size = SizeField(plan.images(size.places).reshape(-1, 2), np.repeat(size.sizes, len(plan.turns)))
     cut, mirror = plan.cut(borders)
     points, sides = divided(borders, size, mirror >= 0)
-    inside = filling(region, borders, sides, size, mirror >= 0)
+    inside = filling(region, borders, sides, size, mirror >= 0, plan.orbits)
     points, triangles, sides = _triangles(region, borders, sides, points, inside)
     own = ~cut[sides.border]
     quarters = [
@@ -160,7 +160,7 @@ def _joined(
         kites = across == number
         corners[kites, 1] = corners[kites, 1] @ reflection(normal)
     skew = np.abs(_angles(corners) - 0.5 * np.pi).max(axis=1)
-    place = points[quads].mean(axis=1) @ ASIDE
+    place = plan.along(points[quads].mean(axis=1)).max(axis=1)
     free, chosen = np.ones(len(triangles), bool), []
     for pair in np.lexsort([np.round(place, DIGITS), np.round(skew, DIGITS)]):
         a, b = one[pair] // 3, two[pair] // 3

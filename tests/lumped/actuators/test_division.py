@@ -14,14 +14,6 @@ LENGTH, WIDTH, THICK, YOUNG, CURVATURE, RIGIDITY = 0.2, 0.016, 2e-3, 2e7, 9.0, 3
 PER_LENGTH = 1200.0 * WIDTH * THICK + 2 * 0.03  # [kg/m]
 
 
-def make_scene(young, segments):
-    """The catalogue's actuated edge without weight, of a material and with so many segments."""
-    base = load("actuated-edge")
-    chain = base.actuators[0].replace(segments=segments)
-    material = base.material.replace(young=young)
-    return base.replace(material=material, actuators=(chain,), gravity=None)
-
-
 @pytest.mark.sweep
 @pytest.mark.parametrize("segments", [6, 24])
 @pytest.mark.parametrize(
@@ -48,8 +40,8 @@ def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
 def test_parts_keep_curvatures_and_forces_of_the_segments(base, segments):
     """A curvature a joint, held against the same pieces written out for a chain of as many segments as parts;
     forces and moments of segments, against those of the parts about the segment's middle."""
-    scene = make_scene(54.5e6, segments)
-    chain = scene.actuators[0].replace(base=base)
+    scene = load("actuated-edge").replace(gravity=None)
+    chain = scene.actuators[0].replace(base=base, segments=segments)
     chain = chain.replace(curvature=tuple(1.0 + np.arange(chain.joints)))
     whole = lattice_answer(scene, chain)
     parts = -(-8 // segments)

@@ -27,12 +27,6 @@ SHEETS = {
 }
 
 
-def springs_of(name):
-    document, grid, grading, method = SHEETS[name]
-    scene = Scene.model_validate(document)
-    return calibrated(scene, grid, grading, method=method)
-
-
 @pytest.mark.parametrize("gradients", [False, True])
 def test_a_cells_springs_are_those_of_a_sheet_of_such_cells(gradients):
     """Whatever cells are beside it: no cell's fixed point, fibres or bounds reach another's."""
@@ -53,7 +47,8 @@ def test_a_cells_springs_are_those_of_a_sheet_of_such_cells(gradients):
 
 @pytest.mark.parametrize("name", SHEETS)
 def test_a_table_is_read_as_it_was_written(name):
-    found = springs_of(name)
+    document, *grids, method = SHEETS[name]
+    found = calibrated(Scene.model_validate(document), *grids, method=method)
     table = SpringSet.model_validate(found.springs.model_dump())
     assert table == found.springs == Springs.read(table).table()
     require_cells(table, found.grid, "")

@@ -21,14 +21,6 @@ def largest(values):
     return float(np.abs(values).max())
 
 
-def tip_force(history, force=(0.0, 0.02, 0.1)):
-    return {"kind": "point", "at": TIP, "force": force, "history": history}
-
-
-def pull_on_a_cantilever(history, **material):
-    return make_scene("one-edge-clamped", gravity=False, loads=[tip_force(history)], **material)
-
-
 @pytest.mark.parametrize(
     "history, said",
     [
@@ -97,7 +89,8 @@ def test_loads_without_a_history_are_one_constant_array():
 @pytest.fixture(scope="module")
 def reference():
     """The tip of a 3 × 3 × 2 cantilever under a ramped force, M ü + f_int(u) = f(t) by hand."""
-    scene = pull_on_a_cantilever(RAMP)
+    pull = {"kind": "point", "at": TIP, "force": (0.0, 0.02, 0.1), "history": RAMP}
+    scene = make_scene("one-edge-clamped", gravity=False, loads=[pull])
     equations, _ = system(scene, 3)
     lattice, mass = equations.assembly.lattice, equations.lattice_mass
     free = np.flatnonzero(lattice.positions[:, 0] > 0.0)

@@ -6,7 +6,7 @@ from cases import calibrated, with_material
 
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, EdgeLoad
+from sheetbench.scenes import Clamped, EdgeLoad, Mass
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.patches import Patch
 
@@ -19,6 +19,7 @@ DRAWN = {
     ),
 }
 OF_PATCHES = ("patch1.young", "patch1.density", "patch2.thickness", "patch2.poisson")
+BODY = Mass(at=(0.188, 0.094), mass=5e-3)
 MOMENT = EdgeLoad(edge="x1", moment_per_length=0.2)  # follows the sheet
 
 
@@ -64,6 +65,7 @@ def held(tilt):
             for tilt in (0.0, 0.1, -0.7)
         ),
         ("one-edge-clamped", {"gravity": None, "loads": (MOMENT,)}, "young", None),
+        *(("one-edge-clamped", {"masses": (BODY,)}, name, None) for name in ("mass1", "young")),
         *(("one-edge-clamped", DRAWN, name, None) for name in (*OF_PATCHES, "thickness")),
     ],
 )

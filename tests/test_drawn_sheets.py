@@ -138,7 +138,7 @@ def test_springs_alike_in_all_cells_are_shared_out_where_a_sheet_is_cut(tmp_path
 
 
 def test_cells_of_a_lattice_know_their_share_of_the_sheet():
-    scene = load("one-edge-clamped").replace(cutouts=[{"shape": CUT[1]["shape"]}])
+    scene = load("one-edge-clamped").replace(cutouts=[{"shape": DISC}])
     mesh = solve(resolve(scene, Lattice(6))).mesh
     share = mesh.cell_data["share"][1]
     assert share.sum() * (0.188 / 5) ** 2 == pytest.approx(2.0 * scene.region.area) and share.min() < 0.9

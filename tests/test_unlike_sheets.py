@@ -35,7 +35,7 @@ def folder(tmp_path, monkeypatch):
     ("verb", "options", "who"),
     [
         ("calibrate", ["--calibration", "uniform"], "calibration 'uniform'"),
-        ("compare", ["--calibration", "central"], "calibration 'central'"),
+        ("compare", ["--calibration", "fit-static"], "calibration 'fit-static'"),
         ("compare", ["--law", "biot"], "the shell's law 'biot'"),
     ],
 )

@@ -70,7 +70,7 @@ def test_energies_and_link_fields_agree():
     assert per_cell.sum() == pytest.approx(sum(solution.energies.values()), rel=1e-12)
     top_row = per_cell.reshape(2, 8, 8)[0]  # (layer, along y, along x): most is stored beside the clamp
     assert top_row[:, 0].sum() > 10.0 * top_row[:, -1].sum()
-    assert set(solution.energies) >= {"axial", "diagonal", "cross", "cross_diagonal", "vertical", "area"}
+    assert set(solution.energies) >= {"axial", "diagonal", "cross", "cross_diagonal", "vertical", "cells"}
     assert np.abs(solution.mesh.cell_data["tension"][0]).max() > 0.1
 
 

@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.explicit.follower_loads import Followers
-from lumped.dynamics.explicit.steps import ExplicitArrays, MarchWorkspace, march
+from lumped.dynamics.explicit.steps import ExplicitArrays, march
 from lumped.dynamics.system import State, System
-from lumped.springs.packing import scratch
 from sheetbench.numerics.time.method import Advance, StepFailed
 
 CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
@@ -61,9 +60,7 @@ class FlatSystem:
             u, v, a = (self.flat(vector) for vector in (state.u, state.v, state.a))
             times = np.cumsum(np.append(state.time, np.full(count, step)))  # as they add up one by one
             tables = self._factors(times), *self._placed(times)
-            whole, taken, dissipated, work = march(
-                count, step, self.arrays, *tables, u, v, a, self._workspace(u)
-            )
+            whole, taken, dissipated, work = march(count, step, self.arrays, *tables, u, v, a)
             if whole:
                 after = State(float(times[taken]), self.by_mass(u), self.by_mass(v), self.by_mass(a))
                 return Advance(after, dissipated, work, taken)
@@ -75,7 +72,7 @@ class FlatSystem:
         """Compile the steps, or load what was compiled, before there is anything to do."""
         still, at_once = np.zeros(self.size), np.zeros(1)
         tables = self._factors(at_once), *self._placed(at_once)
-        march(0, 1.0, self.arrays, *tables, still, still.copy(), still.copy(), self._workspace(still))
+        march(0, 1.0, self.arrays, *tables, still, still.copy(), still.copy())
 
     def flat(self, vector: np.ndarray) -> np.ndarray:
         """A vector (n, 3) at the places, (3 s,)."""
@@ -88,12 +85,6 @@ class FlatSystem:
         out = np.empty(self._shape)
         out[self._order] = flat.reshape(3, self._stride)[:, : self._count].T
         return out
-
-    def _workspace(self, u: np.ndarray) -> MarchWorkspace:
-        """Where steps of the displacement u (3 s,) are computed."""
-        w, d, force, damping, load, before, moved = (np.zeros(len(u)) for _ in range(7))
-        tile = scratch(self.arrays.packing).tile
-        return MarchWorkspace(w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
 
     def _factors(self, times: np.ndarray) -> np.ndarray:
         """Factors of the loads' histories at times (k,) [s], (k, parts)."""

@@ -11,10 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.drag import LatticeDrag, add_drag
+from lumped.dynamics.damping import Forces, add_forces
 from lumped.dynamics.system import System
-from lumped.springs.all_forces import add_forces, power_again
-from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, csr_arrays
@@ -24,13 +22,10 @@ CONVERGED, STALE, LOST = range(3)
 
 
 class Arrays(NamedTuple):
-    """The equations of motion: springs and dampers, mass-proportional damping (n,) [kg/s], the air's drag, M,
-    T with its columns in the band's order, how many they are, and the band's width."""
+    """The equations of motion: forces, M, T with its columns in the band's order, how many they are, and the
+    band's width."""
 
-    packing: Packing
-    scratch: Scratch
-    rate: np.ndarray
-    drag: LatticeDrag
+    forces: Forces
     mass: Rows
     free: Rows
     unknowns: int
@@ -66,10 +61,7 @@ class CompiledNewton:
         assert band is not None
         self._system, self._band = system, band
         arrays = Arrays(
-            system.packing,
-            system.scratch,
-            system.damping.rate,
-            system.damping.drag,
+            system.forces,
             system.mass_rows,
             csr_arrays(system.transform[:, band.order]),
             len(band.order),
@@ -100,27 +92,6 @@ class CompiledNewton:
         if definite:
             self.factors = factors
         return bool(definite)
-
-
-@njit(cache=True)
-def add_forces_and_dampers(
-    arrays: Arrays, u: np.ndarray, v: np.ndarray, elastic: bool, force: np.ndarray
-) -> float:
-    """Add the forces (n, 3) [N] of the masses' own damping and of the air at a displacement and velocity
-    (n, 3), and of springs and dampers if `elastic`; return the power [W] that all dampers take, those along
-    springs unless `elastic` at the displacement of the last such call."""
-    power = add_drag(arrays.drag, u, v, force)
-    for i in range(len(arrays.rate)):
-        for q in range(3):
-            resisted = arrays.rate[i] * v[i, q]
-            force[i, q] += resisted
-            power += resisted * v[i, q]
-    damped = arrays.packing.damped
-    if elastic:
-        power += add_forces(u, v, NUMBA_TRUE, damped, arrays.packing, arrays.scratch, force)[1]
-    elif damped:
-        power += power_again(v, arrays.packing, arrays.scratch)
-    return power
 
 
 @njit(cache=True)
@@ -175,7 +146,7 @@ def correct(
         for e in range(mass.pointers[row], mass.pointers[row + 1]):
             inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
         pull[row] = mass_coefficient * inertia - acting[row]
-    add_forces_and_dampers(arrays, u, velocity, NUMBA_TRUE, force)
+    add_forces(arrays.forces, u, velocity, NUMBA_TRUE, NUMBA_TRUE, force)
     right[:] = 0.0
     for row in range(len(moved)):
         for e in range(free.pointers[row], free.pointers[row + 1]):

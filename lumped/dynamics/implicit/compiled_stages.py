@@ -13,15 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from lumped.dynamics.damping import add_resistance
 from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
     Arrays,
     NewtonLimits,
     NewtonWorkspace,
-    add_forces_and_dampers,
     iterate,
 )
-from lumped.springs.tiles import NUMBA_FALSE
+from lumped.springs.all_forces import power_again
 from sheetbench.numerics.typed import njit
 
 
@@ -87,9 +87,13 @@ def solve_stages(
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.damping_coefficient * change
             a[row] = step.mass_coefficient * change
-        stages.power[i, 0] = add_forces_and_dampers(
-            arrays, stages.u[i], stages.v[i], NUMBA_FALSE, workspace.force
+        forces, power = (
+            arrays.forces,
+            add_resistance(arrays.forces, stages.u[i], stages.v[i], workspace.force),
         )
+        if forces.packing.damped:
+            power += power_again(stages.v[i], forces.packing, forces.scratch)
+        stages.power[i, 0] = power
     return CONVERGED, len(stages.u), 0, made
 
 

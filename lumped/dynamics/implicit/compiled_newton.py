@@ -53,45 +53,25 @@ class NewtonLimits(NamedTuple):
     corrections: int
 
 
-class CompiledNewton:
-    """The iteration for a system that `serves`. arrays, workspace, factors: what it takes."""
+class Compiled(NamedTuple):
+    """What the compiled iteration takes beside factors in a band."""
 
-    def __init__(self, system: System):
-        band = system.problem.system.band
-        assert band is not None
-        self._system, self._band = system, band
-        arrays = Arrays(
-            system.forces,
-            system.mass_rows,
-            csr_arrays(system.transform[:, band.order]),
-            len(band.order),
-            band.width,
-        )
-        self.arrays = typed(arrays)
-        size = system.assembly.pattern.size
-        force, velocity, base_u, base_v = np.zeros((4, size, 3))
-        right = banded.padded_vector(len(band.order), band.width)
-        self.workspace = NewtonWorkspace(force, velocity, base_u, base_v, right)
-        self.factors = np.empty((0, 0))
+    arrays: Arrays
+    workspace: NewtonWorkspace
+    band: banded.Band
 
-    @staticmethod
-    def serves(system: System) -> bool:
-        """Whether forces are all compiled, and factors lie in a band."""
-        plain = system.coupling is None and system.packed
-        still = system.problem.conservative and not system.problem.loads.follow
-        return plain and still and not system.items and system.problem.system.band is not None
 
-    def factorise(
-        self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float
-    ) -> bool:
-        """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""
-        band = self._band
-        blocks = self._system.matrix(u, v, time, mass_coefficient, damping_coefficient, 1.0)
-        factors = banded.stored(blocks, band)
-        definite = banded.factor(factors, len(band.order), band.width)
-        if definite:
-            self.factors = factors
-        return bool(definite)
+def compiled_of(system: System) -> Compiled | None:
+    """Return the iteration of a system whose forces are all compiled, with its factors in a band."""
+    problem, band = system.problem, system.problem.system.band
+    plain = system.coupling is None and system.packed and not system.items
+    if band is None or not plain or not problem.conservative or problem.loads.follow:
+        return None
+    free = csr_arrays(system.transform[:, band.order])
+    arrays = Arrays(system.forces, system.mass_rows, free, len(band.order), band.width)
+    force, velocity, base_u, base_v = np.zeros((4, system.assembly.pattern.size, 3))
+    right = banded.padded_vector(len(band.order), band.width)
+    return Compiled(typed(arrays), NewtonWorkspace(force, velocity, base_u, base_v, right), band)
 
 
 @njit(cache=True)

@@ -27,14 +27,11 @@ class Damping:
     """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg].
 
     dampers: those of the lattice; time [s]: coefficient over stiffness, where every spring has one of the
-    same (else 0); rate: of the masses (n,) [kg/s]; drag: of the air; in_chains: whether chains have some,
-    present: whether anything has;
+    same (else 0); rate: of the masses (n,) [kg/s]; drag: of the air; present: whether there are any;
     proportional: to the stiffness and the masses, in the flat sheet.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
-        self._coupling, self._pattern = assembly.coupling, assembly.pattern
-        self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self.drag, self._own = drag.of_scene(scene, assembly), assembly.pattern.diagonal[: len(mass)]
         self.rate = scene.material.damping_rate * mass
         self.time = 0.0
@@ -44,20 +41,20 @@ class Damping:
             time = scene.material.dashpot_time
             self.dampers = assembly.all_families.damped(time) if time else []
             self.time = time if assembly.conservative else 0.0
-        self.in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
+        apart = self.dampers and not self.time
+        self._together = AllFamilies(self.dampers, assembly.pattern) if apart else None
+        in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         others = scene.dampers or scene.actuators or self.drag.coefficient
         self.proportional = not others and assembly.conservative
-        self.present = bool(self.dampers or self.rate.any() or self.in_chains or self.drag.coefficient)
+        self.present = bool(self.dampers or self.rate.any() or in_chains or self.drag.coefficient)
 
     def add_velocity_tangent(self, u: np.ndarray, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks, but for the dampers in
         proportion to the springs (`time`) and to the masses (`rate`)."""
-        if self.dampers and not self.time:
-            blocks += AllFamilies(self.dampers, self._pattern).tangent(u, share=0.0, scale=scale)
+        if self._together is not None:
+            blocks += self._together.tangent(u, share=0.0, scale=scale)
         if self.drag.coefficient:
             blocks[self._own] += scale * drag.velocity_tangent(self.drag, u, v)
-        if self.in_chains and self._coupling is not None:
-            self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
 
 
 class Forces(NamedTuple):

@@ -218,10 +218,9 @@ class System:
         if self.shared_mass:
             blocks[self._bodies[0]] += mass * self._bodies[1]
         if self.coupling is not None:
-            slots, of_chains = self.assembly.coupling_slots, np.zeros_like(blocks)
-            self.coupling.add_tangent(u, self.drive(time), slots, of_chains)
+            slots = self.assembly.coupling_slots
+            self.coupling.add_tangent(u, self.drive(time), slots, blocks, stiffness, damping)
             np.add.at(blocks, slots, mass * self._chain_mass)
-            blocks += stiffness * of_chains
         self.damping.add_velocity_tangent(u, v, damping, blocks)
         for item in self.items:
             if ends is None:

@@ -23,19 +23,14 @@ CONVERGED, STALE, LOST = range(3)
 
 class Arrays(NamedTuple):
     """The equations of motion: forces, M, T with its columns in the band's order, how many they are, and the
-    band's width."""
+    band's width; and what the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right
+    side in the band's order, padded."""
 
     forces: Forces
     mass: Rows
     free: Rows
     unknowns: int
     width: int
-
-
-class NewtonWorkspace(NamedTuple):
-    """What the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right side in the band's
-    order, padded."""
-
     force: np.ndarray
     velocity: np.ndarray
     base_u: np.ndarray
@@ -54,10 +49,11 @@ class NewtonLimits(NamedTuple):
 
 
 class Compiled(NamedTuple):
-    """What the compiled iteration takes beside factors in a band."""
+    """What the compiled iteration takes beside factors in a band; of that, û and v̂ (n, 3)."""
 
     arrays: Arrays
-    workspace: NewtonWorkspace
+    base_u: np.ndarray
+    base_v: np.ndarray
     band: banded.Band
 
 
@@ -68,10 +64,11 @@ def compiled_of(system: System) -> Compiled | None:
     if band is None or not plain or not problem.conservative or problem.loads.follow:
         return None
     free = csr_arrays(system.transform[:, band.order])
-    arrays = Arrays(system.forces, system.mass_rows, free, len(band.order), band.width)
     force, velocity, base_u, base_v = np.zeros((4, system.assembly.pattern.size, 3))
     right = banded.padded_vector(len(band.order), band.width)
-    return Compiled(typed(arrays), NewtonWorkspace(force, velocity, base_u, base_v, right), band)
+    equation = system.forces, system.mass_rows, free, len(band.order), band.width
+    arrays = Arrays(*equation, force, velocity, base_u, base_v, right)
+    return Compiled(typed(arrays), arrays.base_u, arrays.base_v, band)
 
 
 @njit(cache=True)
@@ -85,13 +82,12 @@ def iterate(
     limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> tuple[int, int]:
     """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has corrections
     `left`: how that ended, and what corrections it has left then."""
     last = np.inf
     while left > 0:
-        length = correct(u, base_u, base_v, by, external, arrays, factors, workspace)
+        length = correct(u, base_u, base_v, by, external, arrays, factors)
         left -= 1
         if length < limits.tolerance:
             return CONVERGED, left
@@ -112,11 +108,10 @@ def correct(
     external: np.ndarray,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> float:
     """Correct u (n, 3) in place; return the largest component of that [m], NaN if it is not finite."""
     mass_coefficient, damping_coefficient = by
-    force, velocity, right = workspace.force, workspace.velocity, workspace.right
+    force, velocity, right = arrays.force, arrays.velocity, arrays.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
     pull, speed, acting = force.reshape(-1), velocity.reshape(-1), external.reshape(-1)
@@ -152,15 +147,14 @@ def excess(
     external: np.ndarray,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> float:
     """Return half the work [J] of what a state (n, 3) leaves of the equation along the correction of that."""
-    corrected, base_u, base_v, work = u.copy(), workspace.base_u, workspace.base_v, 0.0
+    corrected, base_u, base_v, work = u.copy(), arrays.base_u, arrays.base_v, 0.0
     for i in range(len(u)):
         for q in range(3):
             base_u[i, q], base_v[i, q] = u[i, q] - a[i, q] / by[0], v[i, q] - a[i, q] / by[1]
-    correct(corrected, base_u, base_v, by, external, arrays, factors, workspace)
+    correct(corrected, base_u, base_v, by, external, arrays, factors)
     for i in range(len(u)):
         for q in range(3):
-            work += 0.5 * workspace.force[i, q] * (u[i, q] - corrected[i, q])
+            work += 0.5 * arrays.force[i, q] * (u[i, q] - corrected[i, q])
     return work

@@ -18,7 +18,6 @@ from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
     Arrays,
     NewtonLimits,
-    NewtonWorkspace,
     iterate,
 )
 from lumped.springs.all_forces import power_again
@@ -62,12 +61,11 @@ def solve_stages(
     limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> tuple[int, int, int, int]:
     """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
     the stage where it did, what corrections that one has left, and how many were made in all."""
     made, by = 0, (step.mass_coefficient, step.damping_coefficient)
-    bases_u, bases_v = workspace.base_u, workspace.base_v
+    bases_u, bases_v = arrays.base_u, arrays.base_v
     base_u, base_v = bases_u.reshape(-1), bases_v.reshape(-1)
     for i in range(first, len(stages.u)):
         u, v, a = stages.u[i].reshape(-1), stages.v[i].reshape(-1), stages.a[i].reshape(-1)
@@ -78,7 +76,7 @@ def solve_stages(
         at = min(i, len(step.loads) - 1)
         given = left
         status, left = iterate(
-            given, stages.u[i], bases_u, bases_v, by, step.loads[at], limits, arrays, factors, workspace
+            given, stages.u[i], bases_u, bases_v, by, step.loads[at], limits, arrays, factors
         )
         made += given - left
         if status != CONVERGED:
@@ -89,7 +87,7 @@ def solve_stages(
             a[row] = step.mass_coefficient * change
         forces, power = (
             arrays.forces,
-            add_resistance(arrays.forces, stages.u[i], stages.v[i], workspace.force),
+            add_resistance(arrays.forces, stages.u[i], stages.v[i], arrays.force),
         )
         if forces.packing.damped:
             power += power_again(stages.v[i], forces.packing, forces.scratch)

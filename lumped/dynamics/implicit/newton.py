@@ -125,8 +125,8 @@ class Newton:
         branches there, along stiff directions most: half the work of what it leaves along the correction of
         that; infinite where no factors kept serve."""
         if (compiled := self._compiled) is not None and self.near(by[0]):
-            given = compiled.arrays, self._factors, compiled.workspace
-            return excess(state.u, state.v, state.a, by, system.loads([state.time])[0], *given)
+            given = system.loads([state.time])[0], compiled.arrays, self._factors
+            return excess(state.u, state.v, state.a, by, *given)
         unbalanced = system.momentum(state.a) - system.unbalanced(state.u, state.v, state.time)
         left = system.problem.reduce(unbalanced)
         factor = self._factor if self._key == by else None
@@ -147,7 +147,7 @@ class Newton:
             return False
         while True:
             status, first, left, made = solve_stages(
-                first, left, step, stages, limits, compiled.arrays, self._factors, compiled.workspace
+                first, left, step, stages, limits, compiled.arrays, self._factors
             )
             self.made += made
             if status == CONVERGED:
@@ -156,8 +156,8 @@ class Newton:
             if status != compiled_newton.STALE or left == 0:
                 raise StepFailed(UNSOLVED)
             by = step.mass_coefficient, step.damping_coefficient
-            base_u, base_v = compiled.workspace.base_u, compiled.workspace.base_v
-            equation = StepEquation(self._system, float(stages.time[first]), base_u, base_v, *by)
+            base = compiled.base_u, compiled.base_v
+            equation = StepEquation(self._system, float(stages.time[first]), *base, *by)
             if not self._factorise(equation, stages.u[first]):
                 return False
 
@@ -202,7 +202,7 @@ class Newton:
         by = equation.mass_coefficient, equation.damping_coefficient
         given = by, self._system.loads([equation.time])[0], self._limits(small), compiled.arrays
         while self.near(by[0]) or self._factorise(equation, u):
-            status, left = iterate(left, u, *base, *given, self._factors, compiled.workspace)
+            status, left = iterate(left, u, *base, *given, self._factors)
             if status == CONVERGED:
                 return u
             self._factored = None

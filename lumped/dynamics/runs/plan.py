@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -19,15 +18,6 @@ MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour o
 MOST_STEPS = 10**10  # that any run takes: weeks
 
 
-@dataclass(frozen=True)
-class StepPlan(Schedule):
-    """A schedule with so many steps between two samples, of which the first one's is only the first tried
-    where the integrator `adapts` them."""
-
-    steps: int
-    adapts: bool
-
-
 def plan_run(
     system: System,
     calibration: Calibration,
@@ -36,9 +26,9 @@ def plan_run(
     step: float | None,
     integrator: str,
     every: float | None,
-) -> StepPlan:
-    """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults. limit: of
-    stability, of an explicit integrator.
+) -> tuple[Schedule, float]:
+    """Return how a run is sampled, and the length of its steps [s], or of the first to be tried where the
+    integrator adapts them; see `lumped.simulate` for the defaults. limit: of stability, of an explicit one.
 
     Raises BadInput for a step above the limit of an explicit one, too many of them, or too many samples.
     """
@@ -69,4 +59,4 @@ def plan_run(
             f"step = {wanted:g} s: {duration / wanted:.1e} steps to {duration:g} s; {MOST_STEPS:.0e} at most"
         )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    return StepPlan(samples, spacing, steps, kind.adaptive and step is None)
+    return Schedule(samples, spacing), spacing / steps

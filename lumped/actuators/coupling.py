@@ -61,9 +61,6 @@ class Coupling:
             first = body.rows - -(-body.multipliers // 3)
             self.algebraic[place][first:] = body.free[first:]
 
-    def __len__(self) -> int:
-        return len(self._all)
-
     @property
     def bodies(self) -> tuple[BoundChain, ...]:
         """The actuators with rows of their own, in the order of these."""

@@ -29,12 +29,12 @@ class FlatSystem:
         self._order, self._count, self._stride = packing.order, count, int(packing.size)
         self._place = np.empty(count, dtype=int)
         self._place[packing.order] = np.arange(count)
-        mass = self.flat(self._of_masses(system.lattice_mass))
+        mass = self.flat(np.repeat(system.lattice_mass[:, None], 3, axis=1))
         free, columns = _freedom(system)
         inverse = np.zeros_like(mass)
         moving = self.flat(np.where(free, 1.0, 0.0)) > 0.0
         inverse[moving] = 1.0 / mass[moving]
-        rate = self.flat(self._of_masses(system.damping.rate))
+        rate = self.flat(np.repeat(system.damping.rate[:, None], 3, axis=1))
         self._driven = np.argwhere(system.prescribed.components)
         springs = sum(map(len, assembly.springs))
         self.at_once = max(LEAST, round(CALL / (springs * PER_SPRING)))
@@ -107,9 +107,6 @@ class FlatSystem:
                 rate[at] += system.coupling.driven_velocity(time)
         # in rows, as they are where nothing is driven, or steps are compiled a second time
         return np.ascontiguousarray(place[:, rows, axes]), np.ascontiguousarray(rate[:, rows, axes])
-
-    def _of_masses(self, values: np.ndarray) -> np.ndarray:
-        return np.repeat(values[:, None], 3, axis=1)
 
     def places(self, masses: np.ndarray, axes: np.ndarray) -> np.ndarray:
         """Flat places of components of masses."""

@@ -1,7 +1,8 @@
-"""How samples divide a run, and steps the time between samples."""
+"""How samples divide a run, and steps the time between samples; the times of a motion before it runs."""
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cache
 
 import numpy as np
@@ -10,9 +11,11 @@ from lumped.calibration import Calibration
 from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.integrators import INTEGRATORS
 from lumped.dynamics.system import System
+from lumped.statics.solver import build_problem
 from lumped.vibration import modes
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, sample_count
+from sheetbench.scenes import Scene, SceneError
 
 MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
 MOST_STEPS = 10**10  # that any run takes: weeks
@@ -60,3 +63,20 @@ def plan_run(
         )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
     return Schedule(samples, spacing), spacing / steps
+
+
+def shortest_period(scene: Scene, springs: Calibration) -> float:
+    """Return the lowest mode's period [s] about the flat sheet or about its equilibrium, the shorter."""
+    found = [modes(scene, springs, 1, "tributary")]
+    with suppress(NoEquilibrium, SceneError):  # where there is none, the flat sheet's it is
+        found.append(modes(scene, springs, 1, "tributary", "deformed"))
+    return 1.0 / max(float(one.frequencies[0]) for one in found)
+
+
+def explicit_limit(integrator: str, scene: Scene, springs: Calibration) -> float:
+    """Return the stability limit [s] of an explicit integrator about the flat sheet."""
+    problem = build_problem(scene, springs)
+    flat = np.zeros_like(problem.loads.dead)
+    limit = INTEGRATORS[integrator].limit(System(scene, problem), flat)
+    assert limit is not None
+    return limit.step

@@ -206,7 +206,7 @@ def _inputs(
         probe = list(scene.probes)[number // 3]
         columns.append((f"{probe} f{'xyz'[number % 3]}", row, nothing, nothing))
     for edge in _bent(scene):
-        _, force, moved = rates(scene, calibration, problem, u, f"curvature_{edge}")
+        force, moved = rates(scene, calibration, problem, u, f"curvature_{edge}")
         columns.append((f"{edge} curvature", force.ravel(), -drag @ moved.ravel(), moved.ravel()))
     for name, support in named(scene.supports).items():
         rows, axes = problem.constraints.holders[name]
@@ -218,7 +218,7 @@ def _inputs(
             columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
     bent = [of for of in scene.natural_states if of != "temperature"]
     for name in (f"{of}.{key}" for of in bent for key in ("kxx", "kyy", "kxy")):
-        _, pull, _ = rates(scene, calibration, problem, u, name)
+        pull, _ = rates(scene, calibration, problem, u, name)
         columns.append((name, pull.ravel(), nothing, nothing))
     names, *values = zip(*columns, strict=True)
     force, rate, place = (np.stack(value, axis=1) for value in values)

@@ -38,12 +38,11 @@ PATCH = "patch"  # with which names of a patch's constants begin
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """displacement: (n, 3) [m] at the points; derivatives: parameter → (n, 3) [m per unit of the parameter];
-    values: parameter → its value (SI)."""
+    """displacement: (n, 3) [m] at the points; derivatives: parameter → (n, 3) [m per unit of the
+    parameter]."""
 
     displacement: np.ndarray
     derivatives: dict[str, np.ndarray]
-    values: dict[str, float]
 
 
 Calibrate = Callable[[Scene], Calibration]
@@ -68,12 +67,12 @@ def sensitivity(
         state = stable_equilibrium(scene, problem)
         factor = problem.system.factor(problem.tangent(state.u, 1.0))  # that of the path's end may be older
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
-        derivatives, values = {}, {}
+        derivatives = {}
         for name in parameters:
-            values[name], rate, moved = rates(scene, calibration, problem, state.u, name, calibrate)
+            rate, moved = rates(scene, calibration, problem, state.u, name, calibrate)
             step = problem.expand(factor.solve(problem.reduce(rate))) + moved
             derivatives[name] = at.of(step)
-        return Sensitivity(at.of(state.u), derivatives, values)
+        return Sensitivity(at.of(state.u), derivatives)
 
 
 def rates(
@@ -83,9 +82,9 @@ def rates(
     u: np.ndarray,
     name: str,
     calibrate: Calibrate | None = None,
-) -> tuple[float, np.ndarray, np.ndarray]:
-    """Value of a parameter, the derivative of the unbalanced force by it at free unknowns that stay as at u
-    (n, 3), supports' movement included, and dg/dθ (n, 3)."""
+) -> tuple[np.ndarray, np.ndarray]:
+    """The derivative of the unbalanced force by a parameter at free unknowns that stay as at u (n, 3),
+    supports' movement included, and dg/dθ (n, 3)."""
     found = parameter(scene, name)
     value = found.value
     own = name.partition(".")[2] if name.startswith(PATCH) else name
@@ -100,7 +99,7 @@ def rates(
         sides.append((changed.residual(u + moved, 1.0).force, moved))
     interval = float(ends[0] - ends[1])
     rate = (sides[0][0] - sides[1][0]) / interval
-    return value, rate, (sides[0][1] - sides[1][1]) / interval
+    return rate, (sides[0][1] - sides[1][1]) / interval
 
 
 def _changed(

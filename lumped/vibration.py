@@ -16,7 +16,6 @@ from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix
 from lumped.mid_surface import MidSurface
-from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
@@ -69,11 +68,18 @@ def modes(
     scene = scene_of(scene)
     calibration = calibration or default(scene)
     if about == "deformed":
-        problem, at = _equilibrium(scene, calibration)
+        require_static(scene)
     else:
         scene = scene.replace(actuators=(), obstacles=())
-        problem = build_problem(scene, calibration)
-        at = np.zeros_like(problem.loads.dead)
+    problem = build_problem(scene, calibration)
+    at = np.zeros_like(problem.loads.dead)
+    if about == "deformed":
+        if scene.actuators or problem.loads.follow or not problem.conservative:
+            raise BadInput(
+                "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs "
+                "of a per-direction law have none"
+            )
+        at = stable_equilibrium(scene, problem).u
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))
     unknowns = problem.system.unknowns
@@ -105,18 +111,6 @@ def modes(
 def usual_masses(calibration: Calibration) -> Inertia:
     """The distribution that springs vibrate with unless another is requested."""
     return "higher-order" if calibration.cells is None else "gregory"
-
-
-def _equilibrium(scene: Scene, calibration: Calibration) -> tuple[Problem, np.ndarray]:
-    """The problem of a scene, and its displacement (n, 3) [m] under the full load."""
-    require_static(scene)
-    problem = build_problem(scene, calibration)
-    if scene.actuators or problem.loads.follow or not problem.conservative:
-        raise BadInput(
-            "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs of a "
-            "per-direction law have none"
-        )
-    return problem, stable_equilibrium(scene, problem).u
 
 
 def _shift(scene: Scene) -> float:

@@ -76,7 +76,7 @@ REFERENCES = {
 STRAIN_LAW = "st-venant-kirchhoff"
 STRAIN_LAWS = {
     "st-venant-kirchhoff": "linear in Green's strain",
-    "biot": "linear in the elongation, as the lattice's springs are",
+    "biot": "of the shell: linear in the elongation, as the lattice's springs are",
     "neo-hookean": "compressible, for rubbers and silicones",
 }
 FUNCTIONS = (  # the verbs that are functions too

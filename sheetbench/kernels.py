@@ -25,10 +25,8 @@ import logging
 import os
 import platform
 import re
-import shutil
 import stat
 import sys
-import time
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
@@ -91,12 +89,11 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
         return stamp(_resolved(self._py_file))
 
     def ensure_cache_path(self) -> None:
-        """Once a folder, not once a kernel; what nobody compiled for a month of the same file goes."""
+        """Once a folder, not once a kernel."""
         if self.get_cache_path() not in _writable:
             _make(Path(self.get_cache_path()))
             super().ensure_cache_path()
             _writable.add(self.get_cache_path())
-            _remove_old(Path(self.get_cache_path()))
 
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> Locator | None:
@@ -140,14 +137,6 @@ def require_own(folder: Path) -> None:
 
 
 _writable: set[str] = set()
-MONTH = 30 * 86400.0  # s
-
-
-def _remove_old(folder: Path) -> None:
-    """Remove the folders of a file's former kernels that nothing was compiled into for a month."""
-    for other in folder.parent.glob(f"{folder.name.rpartition('-')[0]}-*"):
-        if other != folder and time.time() - other.stat().st_mtime > MONTH:
-            shutil.rmtree(other, ignore_errors=True)
 
 
 @cache

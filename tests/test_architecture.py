@@ -181,7 +181,6 @@ ROOMS_OF_SCENES = {"language": 0, "objects": 1, "meaning": 2}  # what is in no r
 
 
 def test_rooms_of_the_scenes_import_from_lower_floors_and_in_no_circle():
-    """What is imported for types alone counts too."""
     scenes = ROOT / "sheetbench/scenes"
     files = {module_of(path): path for path in scenes.rglob("*.py") if path.name != "__init__.py"}
     graph: dict[str, set[str]] = {}

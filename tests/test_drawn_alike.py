@@ -173,7 +173,7 @@ HALVES = {"lattice": (4, 18), "shell": (4, 39)}
 
 
 def lattice(scene, grid=7):
-    return lumped.solve(scene, resolve(scene, Lattice(grid=grid)).calibrated())
+    return lumped.solve(scene, resolve(scene, Lattice(grid=grid)).springs)
 
 
 def shell(scene, elements=4):

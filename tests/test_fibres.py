@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import relative
+from cases import calibrated, relative
 
 import fem_reference
 import lumped
@@ -48,16 +48,11 @@ def test_two_derivations_of_the_section_agree():
         assert mine == pytest.approx(theirs, rel=1e-12, abs=1e-12 * np.abs(theirs).max())
 
 
-def lattice(scene, masses):
-    cells = lumped.sections_of(scene, (masses, masses, 2))
-    return lumped.calibrate(scene.sheet, scene.material, (masses, masses), cells=cells)
-
-
 @pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 2])
 def test_the_energy_of_even_strains_in_the_plane_is_the_sheets(angle):
     """Of all springs together, the thickness free to change: ½ ε·A ε of the area, for any strain."""
     scene = with_fibres(**FIBRES, angle=angle)
-    problem = lumped.build_problem(scene, lattice(scene, 5))
+    problem = lumped.build_problem(scene, calibrated(scene, 5))
     x = problem.assembly.lattice.positions
     area = scene.sheet.length_x * scene.sheet.length_y
     membrane = lumped.sections_of(scene, (5, 5, 2)).membrane[0, 0]
@@ -92,9 +87,8 @@ SHEETS = {
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", SHEETS)
 def test_lattice_and_shell_agree(name):
-    """Within 2 % of the largest displacement with 17 masses on a side, and no modulus missed."""
     scene = SHEETS[name]
-    springs = lattice(scene, 17)
+    springs = calibrated(scene, 17)
     assert all(abs(row["miss"]) < 1e-9 for row in springs.moduli)
     found, shell = lumped.solve(scene, springs), fem_reference.solve(scene, "shell", elements=12)
     points = scene.probe_points()

@@ -209,7 +209,6 @@ def test_held_flat_a_sheet_pulls_at_its_supports_with_its_pretension():
 
 
 def test_the_energy_of_a_share_of_the_natural_state_is_the_work_of_its_forces():
-    """Forces are the gradient at any share; rest data are set in place."""
     disc = {"circle": {"centre": (0.1, 0.05), "radius": 0.04}}
     band = Patch(shape=disc, natural=Natural((0.02, 0.01, 0.03), (3.0, -2.0, 4.0)))
     of = scene(0.2, 0.1, 0.002, natural=Natural((0.0, 0.04, 0.0)), patches=(band,))

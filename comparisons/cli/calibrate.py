@@ -99,14 +99,9 @@ def command(
     if for_ is not None:
         require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *exchange.CODES])))
     if for_ is not None and for_ in WRITERS:
-        springs_only = {name: value for name, value in wanted.settings.items() if name != "grid"}
-        require_effect(
-            f"with --for {for_}",
-            {
-                **{f"--{name.replace('_', '-')}": value for name, value in springs_only.items()},
-                "--toml": toml,
-            },
-        )
+        of_springs = {**wanted.but(grid=None).settings, "toml": toml}
+        options = {f"--{name.replace('_', '-')}": value for name, value in of_springs.items()}
+        require_effect(f"with --for {for_}", options)
         require_damper(for_, of.material, {"--loss-factor": loss_factor, "--prony": prony})
         found = setup(of, for_, squares_of(wanted.grid), named=named)
         with output.open(about=about, variant={"--for": for_}) as out:

@@ -28,12 +28,13 @@ def command(
 
     from comparisons.models.catalogue import Catalogue, Schema
     from comparisons.models.check import check
+    from sheetbench.answers.files import to_json
     from sheetbench.scenes import scene_of
 
     if schema:
         with output.open(variant={"--schema": True}) as out:
             found = Schema()
-            return out.show(found, instead=None if output.out else found.text)
+            return out.show(found, instead=None if output.out else to_json(found.document()))
     if scene is None:
         with output.open() as out:
             return out.show(Catalogue())

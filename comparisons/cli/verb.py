@@ -77,7 +77,8 @@ class _Declared:
             name: value
             for name, value in values.items()
             if name in usual
-            and not (value is None or value == [] or value == () or _same(value, usual[name]))
+            and not (value is None or value in ([], ()))
+            and not (type(value) is type(usual[name]) and value == usual[name])
         }
 
     def require(self, values: Mapping[str, Any], shown: Callable[[str], str]) -> None:
@@ -120,10 +121,6 @@ class _Declared:
         settings |= {} if kind.unit is None else {"parser": _quantity_in(kind.unit)}
         info = typer.Option(*_names(one), hidden=hidden, min=kind.least, **settings)
         return one.replace(annotation=Annotated[plain, info])
-
-
-def _same(value: Any, usual: Any) -> bool:
-    return type(value) is type(usual) and bool(value == usual)
 
 
 def _flag(name: str) -> str:

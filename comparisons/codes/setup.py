@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,7 @@ from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice, require_effect
 from sheetbench.scenes import (
+    EDGES,
     AnyScene,
     Material,
     Scene,
@@ -49,6 +51,7 @@ from sheetbench.scenes.meaning.words import sheet_in_words
 
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
+PEAK = 2.0  # shear next to corners, over the mean along held edges
 NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 
 
@@ -106,6 +109,8 @@ class CodeSetup(CellInScene):
         notes = list[str]()
         if why := self._refused():
             notes.append(f"No files: {why}.")
+        elif coarse := self._too_coarse():
+            notes.append(coarse)
         if left := undamped(self.code, self.scene.material):
             notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Coefficients of hinges and springs {chosen}.")
@@ -131,6 +136,24 @@ class CodeSetup(CellInScene):
         if self.scene.obstacles and self.code.name not in OBSTACLES:
             return f"obstacle: {self.code.title} is not given it, {' and '.join(OBSTACLES)} are"
         return refusal(self.scene)
+
+    def _too_coarse(self) -> str:
+        """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
+
+        A spring from layer to layer rises by the height H over a side l of a square. Where it rises by s
+        still its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts
+        instead.
+        """
+        if self.code.mesh != LAYERED or len(self.scene.supports) < 2:
+            return ""
+        mesh, sides, layers = self.problem.mesh, self.scene.sheet.lengths, self.coefficients["layers"]
+        borne = self.coefficients["k"] * (layers * self.squares / min(sides)) ** 3 / 27.0**0.5
+        free = (mesh.masses[:, None] * mesh.gravity + mesh.forces)[~mesh.held].sum(axis=0)
+        held = sum(sides[1 - EDGES[support.edge].normal_axis] for support in self.scene.supports)
+        load = float(np.linalg.norm(free)) / held
+        enough = 1 + ceil(self.squares * (PEAK * load / borne) ** (1.0 / 3.0))
+        turned = f"its load of {load:.2g} N/m of held edge turns springs between the layers over"
+        return f"The mesh is too coarse: {turned}; take --grid {enough}." if enough > self.squares + 1 else ""
 
     def document(self) -> dict[str, Any]:
         return {

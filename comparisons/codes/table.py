@@ -153,8 +153,7 @@ PYBULLET = Code(
     "tetrahedra",
     "a cloth of one layer has no bending stiffness while it is flat, whatever springBendingStiffness "
     "is: take two layers of nodes in tetrahedra; one k for all links gives about ν = 1/3, and for "
-    "another ν only one of the sheet's stiffnesses is matched; in a thin sheet springs between the layers of "
-    "a coarse mesh turn over under the load, and it hangs too low: compare a finer --grid",
+    "another ν only one of the sheet's stiffnesses is matched",
     "bulletphysics/bullet3, src/BulletSoftBody/btDeformableMassSpringForce.h: addScaledElasticForce "
     "(«scaled_stiffness * (dir - dir_normalized * r)»); springBendingStiffness is of links between "
     "nodes two links apart (btSoftBody.cpp, generateBendingConstraints)",

@@ -102,7 +102,7 @@ def _page(
         figure.text(0.02, 1.0 - 0.04 / height, title, va="top")
         figure.text(0.02, 1.0 - (top - 0.15) / height, caption, va="top", fontsize=6.5)
         bar = figure.add_axes((0.25, 0.28 / height, 0.5, 0.07 / height))
-        colour_bar(figure, bar, HEIGHTS, limits, "$u_z$  [mm]")
+        colour_bar(figure, HEIGHTS, limits, "$u_z$  [mm]", cax=bar)
         canvas = FigureCanvasAgg(figure)
         canvas.draw()
     return Image.fromarray(np.asarray(canvas.buffer_rgba())[:, :, :3].copy())

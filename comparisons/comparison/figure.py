@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -72,9 +71,11 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     probes = scene.probe_points()
     shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]
 
+    rows, columns = style.panels(3)
     aspect = shots[0][0].shape[0] / shots[0][0].shape[1]
-    head = 0.2 if style.titled or scale != 1.0 else 0.0
-    figure, axes, bars = (_stacked if style.narrow else _in_a_row)(style.width, aspect, head)
+    height = rows * (style.width / columns * aspect + 0.85) + 0.2 * style.titled
+    figure = Figure(figsize=(style.width, height), layout="constrained")
+    axes = figure.subplots(rows, columns).ravel()
     titles = [
         MODEL_NAMES.get(lattice.model.removesuffix("-advised"), lattice.model),
         MODEL_NAMES.get(reference.model, reference.model),
@@ -82,18 +83,25 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     ]
     error = comparison.error(lattice)
     caption = "" if error is None else f"error at the probes {100 * error:.2f} %"
-    for panel, (image, pixels), title, subtitle in zip(
+    for panel, (image, _), title, subtitle in zip(
         axes, shots, titles, (lattice.label, reference.label, caption), strict=True
     ):
-        _panel(panel, image, title, subtitle)
-        place_labels(panel, pixels, list(scene.probes))
-    colour_bar(figure, bars[0], HEIGHTS, height_limits, f"$u_{'xyz'[axis]}$  [mm]")
-    colour_bar(figure, bars[1], DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]")
+        panel.imshow(image, interpolation="lanczos")
+        panel.set_axis_off()
+        panel.set_title(title, fontsize=8.5, fontweight="bold", pad=12)
+        below: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "ha": "center"}
+        panel.annotate(subtitle, (0.5, 1.0), (0.0, 2.5), fontsize=6.5, color=GREY, va="bottom", **below)
+    below_both: dict[str, Any] = {"ax": axes[1:2] if style.narrow else axes[:2], "shrink": 0.5, "aspect": 40}
+    colour_bar(figure, HEIGHTS, height_limits, f"$u_{'xyz'[axis]}$  [mm]", **below_both)
+    below_last: dict[str, Any] = {"ax": axes[2], "shrink": 0.7, "aspect": 28}
+    colour_bar(figure, DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]", **below_last)
     drawn = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
-    if head:
+    if style.titled or scale != 1.0:
         title = plain(f"{scene.title or scene.name}  ({drawn})" if style.titled else drawn, longest=2 * LINE)
-        size = 8.0 * min(1.0, LINE / len(title))
-        figure.text(0.5, 0.975, title, ha="center", va="top", fontsize=max(size, 5.0))
+        figure.suptitle(title, fontsize=max(8.0 * min(1.0, LINE / len(title)), 5.0))
+    figure.draw_without_rendering()
+    for panel, (_, pixels) in zip(axes, shots, strict=True):
+        place_labels(panel, pixels, list(scene.probes))
     return figure
 
 
@@ -119,47 +127,10 @@ def _elements(solution: Solution) -> int:
     return min(np.min(solution.settings.get("elements", 16)), 16)
 
 
-def _in_a_row(width: float, aspect: float, head: float) -> tuple[Figure, list[Axes], list[Axes]]:
-    """Three panels of height / width `aspect`, a colour bar below the first two and one below the third."""
-    panel = width / 3
-    top, bottom = 0.36 + head, 0.46
-    height = panel * aspect + top + bottom
-    figure = Figure(figsize=(width, height))
-    axes = [figure.add_axes((i / 3, bottom / height, 1 / 3, panel * aspect / height)) for i in range(3)]
-    bars = [
-        figure.add_axes((x, 0.3 / height, width, 0.07 / height)) for x, width in ((0.17, 1 / 3), (0.72, 0.23))
-    ]
-    return figure, axes, bars
-
-
-def _stacked(width: float, aspect: float, head: float) -> tuple[Figure, list[Axes], list[Axes]]:
-    """Return the first two panels above, the third below beside both colour bars."""
-    panel = 0.5 * width * aspect
-    row = max(panel + 0.36, 1.1)
-    figure = Figure(figsize=(width, 2 * row + head))
-    height = figure.get_figheight()
-    corners = ((0.0, row), (0.5, row), (0.0, 0.0))
-    axes = [figure.add_axes((x, y / height, 0.5, panel / height)) for x, y in corners]
-    bars = [figure.add_axes((0.57, y / height, 0.37, 0.07 / height)) for y in (0.86, 0.34)]
-    return figure, axes, bars
-
-
-def _panel(axis: Axes, image: np.ndarray, title: str, subtitle: str) -> None:
-    axis.imshow(image, interpolation="lanczos")
-    axis.set_axis_off()
-    axis.set_title(title, fontsize=8.5, fontweight="bold", pad=12)
-    below: dict[str, Any] = {
-        "xycoords": "axes fraction",
-        "textcoords": "offset points",
-        "ha": "center",
-        "va": "bottom",
-    }
-    axis.annotate(subtitle, (0.5, 1.0), (0.0, 2.5), fontsize=6.5, color=GREY, **below)
-
-
-def colour_bar(figure: Figure, axis: Axes, colours: str, limits: tuple[float, float], label: str) -> None:
-    """A horizontal colour bar in `axis`."""
-    bar = figure.colorbar(ScalarMappable(Normalize(*limits), colours), cax=axis, orientation="horizontal")
+def colour_bar(figure: Figure, colours: str, limits: tuple[float, float], label: str, **place: Any) -> None:
+    """A horizontal colour bar; place: as `Figure.colorbar` takes it."""
+    mapped = ScalarMappable(Normalize(*limits), colours)
+    bar = figure.colorbar(mapped, orientation="horizontal", **place)
     bar.outline.set_visible(False)
     bar.set_label(label, labelpad=1.5)
     bar.ax.tick_params(length=2, width=0.5, pad=1.5, labelsize=6.5)

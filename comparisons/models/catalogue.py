@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.files import to_json, write_text
+from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene, catalogue, load
@@ -52,11 +52,6 @@ class Schema(Answer):
     """The JSON Schema of a scene, for editors that complete and check TOML files, and a page of every key."""
 
     file_name = "schema"
-
-    @property
-    def text(self) -> str:
-        """The schema as it is printed."""
-        return to_json(self.document())
 
     def heading(self) -> tuple[str, str, str]:
         return "Scenes as a JSON Schema", "", ""

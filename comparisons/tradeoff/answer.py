@@ -9,16 +9,13 @@ from typing import Any
 
 from comparisons.sweep import load
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
-from comparisons.sweep.model_error import share_of_tolerance
 from comparisons.tradeoff.row import MOVED, TRADED, MotionRow, TradeoffRow
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.solution import Status, comparable
-from sheetbench.answers.table import NUMBER, Column, Table
+from sheetbench.answers.table import NUMBER, Column, Table, percent
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
-
-STATED = 0.01  # the tolerance whose parts are said
 
 
 class Priced(Answer):
@@ -137,14 +134,14 @@ class Tradeoff(Priced):
         )
 
     def notes(self) -> list[str]:
-        truth = self.reference
+        truth, left = self.reference, self.reference.model_error
+        left_out = "" if left is None else f", its model error {percent(left)}"
         explained = (
             f"errors against {truth.label} ({truth.known.get('unknowns')} unknowns), whose own "
-            f"uncertainty is {self.known}: the grid convergence index of n, ¾ n and ½ n elements. error: at "
-            "the probes. One thread; times on warm code; memory: growth of the process."
+            f"uncertainty is {self.known} (grid convergence index of n, ¾ n and ½ n elements){left_out}. "
+            "error: at the probes. One thread; times on warm code; memory: growth of the process."
         )
-        taken = share_of_tolerance(STATED, truth.model_error, self.uncertainty, truth.ask.spec.model)
-        return [*self.reasons, *self.cheapest(), *filter(None, [taken]), explained, *self.warnings]
+        return [*self.reasons, *self.cheapest(), explained, *self.warnings]
 
     def complaints(self) -> list[str]:
         failed = [row for row in self.rows if row.status != Status.CONVERGED]

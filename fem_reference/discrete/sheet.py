@@ -29,7 +29,7 @@ from fem_reference.discrete.items import Dead, Drag, Following, SheetItem
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads, rod
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted, on_edges
+from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Elements, Plan, divisions
@@ -51,7 +51,7 @@ class Discrete(ABC):
     loads act on the flat sheet. any_strain: whether the law of strain is meant for
     large strains. lever: the flat sheet's longer side [m]; scale: 1 of positions (N,), of directors the
     lever. own: whether the mesh has an outline of its own, in place of the scene's sheet. bodies: the rods,
-    if there are any.
+    if there are any; commanded: the scene whose chains have the curvatures that commands are times of.
     """
 
     model: ClassVar[str]
@@ -71,6 +71,7 @@ class Discrete(ABC):
 
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
+        self.commanded, self._commands = commands_of(scene, moving)
         material = scene.material
         self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
@@ -87,16 +88,15 @@ class Discrete(ABC):
         self.settings = {"elements": list(counts), **own}
         return self
 
-    def rods_of(self, scene: Scene) -> BoundRods:
-        """The rods of a scene on the sheet."""
-        rods, n = rod.of_scene(scene, self.plan), self.nodes
+    def bound_rods(self) -> BoundRods:
+        """The rods on the sheet."""
+        rods, n = rod.of_scene(self.commanded, self.plan), self.nodes
         return rod.bound(rods, 9, 2 * n, lambda one: (one.elements, np.hstack([one.nodes, n + one.nodes])))
 
     def bind(self, bound: BoundRods, places: np.ndarray | None = None) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
         scene, moving = self.scene, self.moving
-        commands = commands_of(scene, moving) if bound.rods else ()
-        self.rods = rods = Rods(scene, bound, self.rods_of, self.size, commands, places, self.linear)
+        self.rods = rods = Rods(scene, bound, self.size, self._commands, places, self.linear)
         self.bodies = [rods] if rods else []
         for alone, factor in loads_of(scene, moving):
             nodal, followers = loads.of_scene(alone, self.plan)
@@ -175,10 +175,6 @@ class Discrete(ABC):
     @abstractmethod
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         """Z (N, unknowns)."""
-
-    @abstractmethod
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        """The parts that are held of vectors (N, k) of the flat sheet, (h, k)."""
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         """q after a step Z x (N,), on the constraints."""
@@ -297,8 +293,15 @@ class Discrete(ABC):
 
     def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
         """What the rods exert, which pull at their sides' vectors (k, a, 3)."""
-        surface = self.surface(q)
-        return on_edges(self.rods.bound, pull, surface.position, surface.director)
+        found, body = list[OnEdge](), self.rods
+        for one, on in zip(body.bound.rods, body.bound.by_rod(np.arange(len(pull))), strict=True):
+            own = np.zeros_like(pull)
+            own[on] = -pull[on]
+            nodal, position = self.exerted(q, body.scatter(own))
+            director = np.zeros((len(one.line), 3))
+            director[one.places] = body.directors(q)[on]
+            found.append(OnEdge(one, nodal[one.line], position[one.line], director))
+        return found
 
     @abstractmethod
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -43,7 +43,7 @@ from fem_reference.solid.mesh import columns_of
 from fem_reference.solid.rods import DIRECTORS, on_columns
 from fem_reference.solid.supports import applied, of_scene
 from fem_reference.surface import rod
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge
+from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
 from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
@@ -74,14 +74,14 @@ class DiscreteSolid(DiscreteElements):
         super().__init__(scene, moving)
         columns, material = columns_of(mesh, scene, layers, law)
         self.columns, self.plan = columns, columns.plan
-        self.any_strain = LAWS[law].stands_any_strain
+        self.any_strain = not LAWS[law].quadratic
         stacks = columns.positions.reshape(-1, 3)[columns.stacks]
         positions = np.concatenate([stacks[:, place] for place in columns.places])
         self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
         self._products = plain.products
         self.per_vector = np.ones(27)
 
-        bound = self.rods_of(scene)
+        bound = self.bound_rods()
         self.column_supports = of_scene(scene, columns, clamp, bound.rods)
         self.supports = self.column_supports.line
         self.free = ~self.column_supports.held
@@ -99,8 +99,8 @@ class DiscreteSolid(DiscreteElements):
         places = np.concatenate([levels * np.arange(3) + columns.layers, 3 * levels + np.arange(6)])
         self.bind(bound, places)
 
-    def rods_of(self, scene: Scene) -> BoundRods:
-        return on_columns(rod.of_scene(scene, self.plan), self.columns)
+    def bound_rods(self) -> BoundRods:
+        return on_columns(rod.of_scene(self.commanded, self.plan), self.columns)
 
     @cached_property
     def _inertia(self) -> np.ndarray:
@@ -140,11 +140,6 @@ class DiscreteSolid(DiscreteElements):
         gap = applied(np.linalg.inv(bases), target - self._on_columns(q))
         step = applied(bases, np.where(self.free, 0.0, gap))
         return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
-
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        inverse = np.linalg.inv(self.frame(vectors, at))
-        own = [applied(inverse, self._on_columns(vector))[~self.free] for vector in vectors.T]
-        return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         bases = self.frame(q, at)
@@ -277,19 +272,6 @@ class DiscreteSolid(DiscreteElements):
         columns, displacement = self.columns, self._on_columns(q)
         middle = (columns.positions + displacement)[:, columns.layers]
         return HoldingForces(columns.about_middle(displacement, self._on_columns(exerted)), middle)
-
-    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
-        columns, bound, displacement = self.columns, self.rods.bound, self._on_columns(q)
-        middle = (columns.positions + displacement)[:, columns.layers]
-        own, found, first = q[self._cut :].reshape(-1, 3) + bound.own, list[OnEdge](), 0
-        for one, at in zip(bound.rods, bound.by_rod(pull), strict=True):
-            nodal, count = np.zeros_like(displacement), len(one.line)
-            np.subtract.at(nodal, one.nodes, at[:, :-DIRECTORS].reshape(*one.nodes.shape, -1, 3))
-            about = columns.about_middle(displacement, nodal)
-            director = own[first : first + count]
-            found.append(OnEdge(one, about[one.line], middle[one.line], director))
-            first += 3 * count
-        return found
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         turned = self.frame(q, at).swapaxes(1, 2)

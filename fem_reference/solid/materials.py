@@ -6,7 +6,6 @@
 
     St Venant–Kirchhoff   W₀ = μ E : E                        ϑ = tr E,         Λ = λ
     of fibres             W₀ = ½ E : (C − Λ 1 ⊗ 1) : E        ϑ = tr E          (`_green_bulk`)
-    Biot                  W₀ = μ (U − 1) : (U − 1)            ϑ = tr (U − 1),   Λ = λ,   U² = C
     rubbers               W₀ = f(x) + c₀₁ (I₂ − 3) − m ln J   ϑ = ln J,   C = 2E + 1,   J² = det C
 
 with x = I₁ − 3 = 2 tr E, I₂ − 3 = 2 x + ½ x² − 2 E : E and m = 2 f′(0) + 4 c₀₁; f, c₀₁ and Λ are those of
@@ -14,9 +13,7 @@ with x = I₁ − 3 = 2 tr E, I₂ − 3 = 2 x + ½ x² − 2 E : E and m = 2 f�
 
 Green–Lagrange strain E and second Piola–Kirchhoff stress in Voigt order (xx, yy, zz, 2xy, 2yz, 2xz), stresses
 without the 2. Every law is a triad: density → stress → tangent, of W₀ and of ϑ. All have the
-same small-strain limit. Biot's is linear in the elongation, as springs are; of the eigenvalues ε_a and axes
-n_a of E, λ_a = √(1 + 2 ε_a): tr U = Σ λ_a, ∂ tr U/∂E = Σ n_a n_aᵀ/λ_a, and the second derivative
-−2 Σ_ab Q_ab ⊗ Q_ab/(λ_a λ_b (λ_a + λ_b)) with Q_ab the symmetric part of n_a n_bᵀ, two of them equal or not.
+same small-strain limit.
 Source: Bonet & Wood, Nonlinear Continuum Mechanics (2008), ch. 6. [Pa]
 """
 
@@ -49,13 +46,12 @@ class Triad(NamedTuple):
 @dataclass(frozen=True)
 class SolidLaw:
     """distortion: material and E → triad of W₀ [Pa]; volume: E → triad of ϑ; bulk: Λ [Pa] of a material;
-    quadratic: whether W is quadratic in E; stands_any_strain: whether the law is meant for large strains."""
+    quadratic: whether W is quadratic in E, which only laws for small strains are."""
 
     distortion: Callable[[Any, np.ndarray], Triad]
     volume: Callable[[np.ndarray], Triad]
     bulk: Callable[[Any], float]
     quadratic: bool = False
-    stands_any_strain: bool = False
 
 
 def lame(material: Material | Constants) -> tuple[float, float]:
@@ -93,47 +89,11 @@ def _green_volume(strain: np.ndarray) -> Triad:
     return Triad(strain @ _TRACE, _everywhere(_TRACE, strain), _everywhere(np.zeros((6, 6)), strain))
 
 
-def _stretch_volume(strain: np.ndarray) -> Triad:
-    """tr (U − 1)."""
-    excess, axes = _principal(strain)
-    stretch = 1.0 + excess
-    pairs = stretch[..., :, None] * stretch[..., None, :] * (stretch[..., :, None] + stretch[..., None, :])
-    first = np.einsum("...a,...aai->...i", 1.0 / stretch, axes)
-    second = np.einsum("...ab,...abi,...abj->...ij", -2.0 / pairs, axes, axes, optimize=True)
-    return Triad(np.sum(excess, axis=-1), first, second)
-
-
-def _stretch_distortion(material: Material, strain: np.ndarray) -> Triad:
-    """μ (U − 1) : (U − 1) = μ (tr C − 2 tr U + 3)."""
-    (excess, axes), shear = _principal(strain), lame(material)[1]
-    first = np.einsum("...a,...aai->...i", 2.0 * excess / (1.0 + excess), axes)
-    second = -2.0 * shear * _stretch_volume(strain).second
-    return Triad(shear * np.sum(excess**2, axis=-1), shear * first, second)
-
-
-def _principal(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """λ_a − 1 (…, 3) and Q_ab (…, 3, 3, 6), as stresses are."""
-    finite = np.isfinite(strain).all(axis=-1)
-    matrix = np.where(finite[..., None, None], _matrix(strain, 0.5), 0.0)
-    with np.errstate(invalid="ignore"):  # inside out: not a number, which ends the step
-        values, axes = np.linalg.eigh(matrix)
-        values = np.where(finite[..., None], values, np.nan)
-        excess = 2.0 * values / (1.0 + np.sqrt(1.0 + 2.0 * values))
-    both = np.einsum("...ia,...jb->...abij", axes, axes)
-    both = 0.5 * (both + both.swapaxes(-1, -2))
-    return excess, np.stack([both[..., i, j] for i, j in PAIRS], axis=-1)
-
-
-def _matrix(strain: np.ndarray, shear: float) -> np.ndarray:
-    """(…, 3, 3) of Voigt components (…, 6), those of shear by a factor."""
-    out = np.zeros((*strain.shape[:-1], 3, 3))
-    for place, (i, j) in enumerate(PAIRS):
-        out[..., i, j] = out[..., j, i] = strain[..., place] * (1.0 if i == j else shear)
-    return out
-
-
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
-    c = np.eye(3) + 2.0 * _matrix(strain, 0.5)  # 2E + 1
+    c = np.tile(np.eye(3), (*strain.shape[:-1], 1, 1))  # 2E + 1
+    for place, (i, j) in enumerate(PAIRS):
+        c[..., i, j] += (2.0 if i == j else 1.0) * strain[..., place]
+        c[..., j, i] = c[..., i, j]
     inverse, determinant = np.linalg.inv(c), np.linalg.det(c)
     first = np.stack([inverse[..., i, j] for i, j in PAIRS], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
@@ -169,12 +129,10 @@ def _rubber(energy: Callable[[Material], Energy]) -> SolidLaw:
         lambda material, strain: _rubber_distortion(energy(material), strain),
         _logarithmic_volume,
         lambda material: energy(material).volume(material.poisson),
-        stands_any_strain=True,
     )
 
 
 LAWS = {
     "st-venant-kirchhoff": SolidLaw(_green_distortion, _green_volume, _green_bulk, quadratic=True),
-    "biot": SolidLaw(_stretch_distortion, _stretch_volume, lambda of: lame(of)[0]),
     "neo-hookean": _rubber(lambda of: Energy(0.5 * lame(of)[1])),
 } | dict.fromkeys(WORDS, _rubber(lambda of: of.energy))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fem_reference.surface.biquadratic import SIDE_MASS, THREE, THREE_WEIGHTS, side_shape
-from fem_reference.surface.rod import BoundRods, Rod
+from fem_reference.surface.rod import Rod
 from fem_reference.surface.supports import Driven
 from sheetbench.scenes import Scene
 
@@ -35,18 +35,6 @@ class HoldingForces(NamedTuple):
 
     nodal: np.ndarray
     position: np.ndarray
-
-
-def on_edges(rods: BoundRods, pull: np.ndarray, position: np.ndarray, director: np.ndarray) -> list[OnEdge]:
-    """What the rods exert on a surface that lies so, (n, 3) each; pull: on their sides (k, 9, 3)."""
-    found = []
-    for rod, own in zip(rods.rods, rods.by_rod(pull), strict=True):
-        on_nodes = np.zeros((2, len(rod.line), 3))
-        np.add.at(on_nodes[0], rod.places, -own[:, :3])
-        np.add.at(on_nodes[1], rod.places, -own[:, 3:6])
-        nodal = np.concatenate([on_nodes[0], np.cross(director[rod.line], on_nodes[1])], axis=1)
-        found.append(OnEdge(rod, nodal, position[rod.line], director[rod.line]))
-    return found
 
 
 def exerted(

@@ -60,8 +60,7 @@ class Surface:
 
     def sides(self, facets: np.ndarray) -> np.ndarray:
         """Nodes (k, 3) of the sides that are facets of the mesh, the sheet to their right."""
-        line = Line.along(self.plan.mesh, facets, self.plan.corners)
-        return self.plan.elements[line.elements[:, None], line.sides]
+        return Line.along(self.plan, facets).nodes
 
     def lengths(self, sides: np.ndarray) -> np.ndarray:
         """w |X,ξ| (k, 3) [m] at the points of sides (k, 3)."""
@@ -181,8 +180,7 @@ def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.nda
     plan, mesh = surface.plan, surface.plan.mesh
     inside = np.isin(mesh.f2t, elements_in(where, plan.nodes, plan.elements))
     facets = np.flatnonzero(inside.sum(axis=0) == 1)
-    line = Line.along(mesh, facets, plan.corners, np.where(inside[0], *mesh.f2t)[facets])
-    rim = surface.position[plan.elements[line.elements[:, None], line.sides]]
+    rim = surface.position[Line.along(plan, facets, np.where(inside[0], *mesh.f2t)[facets]).nodes]
     at, slope = _VALUE @ rim, _SLOPE @ rim
     square = (at * at).sum(axis=-1, keepdims=True)
     force, moment = (

@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from skfem import MeshQuad
 
 from fem_reference.surface.biquadratic import (
     AT_GAUSS,
@@ -87,29 +86,28 @@ class FollowerPressure:
 class Line:
     """Element sides along an edge.
 
-    elements: (k,); sides: (k, 3) local nodes along ν × e_z; speed: |X,ξ| (k, 3) [m] at three Gauss points.
+    elements: (k,); sides, nodes: (k, 3) along ν × e_z, numbers in the element and in the plan; speed: |X,ξ|
+    (k, 3) [m] at three Gauss points.
     """
 
     elements: np.ndarray
     sides: np.ndarray
+    nodes: np.ndarray
     speed: np.ndarray
 
     @classmethod
-    def along(
-        cls, mesh: MeshQuad, facets: np.ndarray, nodes: np.ndarray, elements: np.ndarray | None = None
-    ) -> Line:
-        """The sides that are `facets` (k,) of the mesh, of these elements or of any; nodes: plan positions
-        (m, 9, 2) [m]."""
+    def along(cls, plan: Plan, facets: np.ndarray, elements: np.ndarray | None = None) -> Line:
+        """The sides that are `facets` (k,) of a plan's mesh, of these elements or of any."""
+        mesh = plan.mesh
         elements = mesh.f2t[0, facets] if elements is None else elements
         sides = _SIDES[np.argmax(mesh.t2f[:, elements] == facets, axis=0)]
-        rows = np.arange(len(elements))[:, None]
-        ends = nodes[elements][rows, sides]
-        tangent, inward = ends[:, 2] - ends[:, 0], nodes[elements, 8] - ends[:, 1]
+        first, middle, last = np.moveaxis(plan.nodes[plan.elements[elements[:, None], sides]], 1, 0)
+        tangent, inward = last - first, plan.nodes[plan.elements[elements, 8]] - middle
         # The sheet must lie to the right.
         wrong = tangent[:, 0] * inward[:, 1] - tangent[:, 1] * inward[:, 0] > 0
         sides = np.where(wrong[:, None], sides[:, ::-1], sides)
-        ends = nodes[elements][rows, sides]
-        return cls(elements, sides, np.linalg.norm(np.einsum("gi,eic->egc", _LINE_SLOPE, ends), axis=-1))
+        nodes = plan.elements[elements[:, None], sides]
+        return cls(elements, sides, nodes, np.linalg.norm(_LINE_SLOPE @ plan.nodes[nodes], axis=-1))
 
     @property
     def shares(self) -> np.ndarray:
@@ -187,8 +185,8 @@ def area_force(
 
 def line_force(line: Line, plan: Plan, force_per_length: np.ndarray) -> np.ndarray:
     """∫ q N dL (count, 3) [N] of a dead force per undeformed length q (3,) [N/m]."""
-    nodes = plan.elements[line.elements[:, None], line.sides]
-    return np.bincount(nodes.ravel(), line.shares.ravel(), len(plan.nodes))[:, None] * force_per_length
+    shares = np.bincount(line.nodes.ravel(), line.shares.ravel(), len(plan.nodes))
+    return shares[:, None] * force_per_length
 
 
 def point_force(plan: Plan, at: np.ndarray, force: np.ndarray) -> np.ndarray:
@@ -218,7 +216,7 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
                 force = factor * np.array(load.force)
                 dead += point_force(plan, np.array(load.at), force)
             case EdgeLoad():
-                line = Line.along(plan.mesh, facets_on(plan.mesh, load), corners)
+                line = Line.along(plan, facets_on(plan.mesh, load))
                 dead += line_force(line, plan, factor * np.array(load.force_per_length))
                 if load.moment_per_length:
                     followers.append(FollowerMoment(factor * load.moment_per_length, line))

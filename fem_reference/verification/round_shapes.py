@@ -30,7 +30,7 @@ from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import Line
 from fem_reference.surface.materials import bending_stiffness
-from fem_reference.surface.mesh import mesh_of, nodes_of, quarters
+from fem_reference.surface.mesh import mesh_of, nodes_of, plan_of, quarters
 from fem_reference.verification.rows import THEORY, Row, absolutely, relatively
 from fem_reference.verification.specimens import moved, specimen
 from fem_reference.vibration import modes
@@ -166,9 +166,8 @@ def concentration(share: float) -> float:
     scene = specimen(sheet, STEEL, (Clamped("x0"),), cutouts=(hole,), loads=(load,))
     mesh = mesh_of(scene, ACROSS, graded=True)
     solution = solve_on(DiscretePlate, mesh, scene)
-    nodes, elements = nodes_of(mesh)
-    line = Line.along(mesh, mesh.boundary_facets(), nodes[elements])
-    sides = nodes[elements[line.elements[:, None], line.sides]]
+    plan = plan_of(mesh)
+    sides = plan.nodes[Line.along(plan, mesh.boundary_facets()).nodes]
     near = np.linalg.norm(sides[:, 1] - middle, axis=1) < 0.51 * share * width
     ends = sides[near][:, [0, 2]]
     moved = solution.displacement(ends.reshape(-1, 2))[:, :2].reshape(ends.shape)

@@ -33,7 +33,6 @@ Saint-Venant's.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -42,16 +41,11 @@ from scipy.linalg.lapack import dptsv
 from lumped import moduli, sections
 from lumped.calibration.cell_by_cell import EachCell
 from lumped.grid_lines import Lines
-from lumped.spring_constants import Springs, either, of_faces
+from lumped.spring_constants import Springs, of_faces
 from sheetbench.numerics.kept import kept
 
 AT_CORNERS = 0.55  # f is at least this where two reductions may add, 1 − 2 (1 − f) > 0
 MOST = 3.0  # f is sought up to this, and from where the cell's own twisting stiffness is positive
-
-
-def layer_width(thickness: float) -> float:
-    """λ [m] of a plate with the shear correction 5/6, whatever its ν."""
-    return thickness / math.sqrt(10.0)
 
 
 class Twist(NamedTuple):
@@ -72,63 +66,56 @@ def twist_of(each: EachCell, springs: Springs, whole: moduli.Moduli) -> Twist:
     return Twist(twisting, whole.free_shear[..., ::-1], shares[..., ::-1], stretch, each.section.layer_width)
 
 
-def with_edges(
-    each: EachCell, springs: Springs, twist: Twist
-) -> tuple[dict[str, tuple[np.ndarray, ...]], list[str]]:
-    """`edge_shear`, `strip_shear` and `edge_coupling`, and a note for edges where no factor will do.
+class Strips(NamedTuple):
+    """Cells by their place along the edges normal to an axis and by how far across they are, (places, across)
+    each: width [m], the parts of their `Twist`, and whether a free edge beside them crosses this one.
 
-    A layer's cell takes −(1 − f) D̃66/Σ z_k² on γ + r ε_tt, z_k [m] the heights of the layers. On a graded
-    grid every cell along an edge has the f of the strip of cells that begins with it, or the largest there
-    is. Where cells are finer towards one of two opposite edges each has its own, `far_edge_shear` and so on
-    at the far one; of a strip whose edges are both free, that of the strip and its mirror image together.
-    """
-    notes: list[str] = []
-    edges = _of_edges(each, springs, twist, False, notes)
-    if each.cells is not None or not all(map(_alike, each.lines)):
-        far = _of_edges(each, springs, twist, True, notes)
-        edges |= {f"far_{name}": value for name, value in far.items()}
-    return edges, list(dict.fromkeys(notes))
+    lines: across which they lie, of a whole rectangle; its strips are as the grid is graded, others of cells
+    like that at their end. alike: whether a strip's cells are the same but for their width."""
+
+    width: np.ndarray
+    twisting: np.ndarray
+    shear: np.ndarray
+    shares: np.ndarray
+    stretch: np.ndarray
+    lost: np.ndarray
+    corner: np.ndarray
+    lines: Lines | None
+    alike: bool
+
+    def taken(
+        self, place: np.ndarray, cell: np.ndarray, count: np.ndarray, far: bool, both: bool, unknown: float
+    ) -> tuple[np.ndarray, bool]:
+        """Return what free edges add to D̃66 of the cells at the near or the far end of strips of so many
+        cells, (m,) [N·m], and whether there is a factor for each; unknown: the factor of those without.
+
+        On a graded grid every cell along an edge has the f of the strip of cells that begins with it. Of a
+        strip whose edges are both free and whose cells are finer towards one it is that of the strip and its
+        mirror image together."""
+        factor, step = np.ones(len(count)), -1 if far else 1
+        for cells in set(count.tolist()):
+            of = count == cells
+            at = place[of], cell[of]
+            strips = [part[at][:, None] for part in self[:4]]
+            if self.lines is None:
+                strips[0] = np.repeat(strips[0], cells, axis=1)
+            else:
+                if not self.alike:
+                    strips = [part[at[0], ::step] for part in self[:4]]
+                strips[0] = self.lines.widths[None, ::step]
+                if both and not symmetric(self.lines):
+                    strips = [row if row.shape[1] == 1 else np.hstack([row, row[:, ::-1]]) for row in strips]
+            factor[of] = edge_factors(strips[0], strips[1], strips[2], strips[3], self.lost[at], both)
+        found = bool(np.all(factor > 0.0))
+        factor = np.where(np.isnan(factor), unknown, factor)
+        factor = np.where(self.corner[place, cell], np.maximum(factor, AT_CORNERS), factor)
+        return (factor - 1.0) * self.twisting[place, cell], found
 
 
-def _alike(lines: Lines) -> bool:
+def symmetric(lines: Lines) -> bool:
     """Whether a side's cells are the same from either end."""
     widths = lines.widths
     return bool(np.all(np.abs(widths - widths[::-1]) <= 1e-9 * widths))
-
-
-def _of_edges(
-    each: EachCell, springs: Springs, twist: Twist, far: bool, notes: list[str]
-) -> dict[str, tuple[np.ndarray, ...]]:
-    """Constants of x0 and y0 by name, or of x1 and y1 (`far`); adds to the notes. Cells with sections of
-    their own are each taken as if all across the sheet were like it."""
-    square = moduli.second_moment(each.grid[2]) * springs.layer_distance**2
-    unequal = springs.varies
-    found: dict[str, list[np.ndarray]] = {"edge_shear": [], "strip_shear": [], "edge_coupling": []}
-    for axis, across in enumerate(each.lines):
-        # (places along the edge, cells across the sheet from it)
-        turned = (part[..., axis] if axis == 0 else part[..., axis].T for part in twist)
-        strips = [part[:, ::-1] if far else part for part in turned]
-        if each.cells is not None:
-            strips = [part[:, :1] for part in strips]
-        widths = across.widths[::-1] if far else across.widths
-        twisting, shear, shares, stretch, lost = strips
-        found["edge_coupling"].append(stretch[:, 0])
-        for both, name in ((False, "edge_shear"), (True, "strip_shear")):
-            rows = [widths[None], twisting, shear, shares]
-            if both and not _alike(across):  # with their mirror image behind them
-                rows = [
-                    row if row.shape[1] == 1 < len(widths) else np.hstack([row, row[:, ::-1]]) for row in rows
-                ]
-            factor = edge_factors(rows[0], rows[1], rows[2], rows[3], lost[:, 0], both)
-            factor = factor.copy()
-            if not np.all(factor > 0.0):
-                edge = f"{'xy'[axis]}{int(far)}"
-                notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")
-                factor = np.where(np.isnan(factor), MOST if unequal else 1.0, factor)
-            corners = [0, -1]
-            factor[corners] = np.maximum(factor[corners], AT_CORNERS)
-            found[name].append((factor - 1.0) * twisting[:, 0] / square)
-    return {name: either(*both) for name, both in found.items()}
 
 
 def diagonals_share(each: EachCell, springs: Springs) -> np.ndarray:

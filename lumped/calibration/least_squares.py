@@ -77,39 +77,35 @@ def fit_moduli(
             rows.append(weight * np.append(in_plane, twist))
         return np.concatenate(rows)
 
-    def weak_strains(unknowns: np.ndarray) -> np.ndarray:
-        return np.concatenate([misses(unknowns), WEAK * unknowns[strains]])
-
-    bounded = len(UNKNOWNS) - len(FREE)
     strains = [UNKNOWNS.index(name) for name in STRAINS]
-    free_distance = 0 if layer_distance else 1
-    start = np.array([0.3] * bounded + [0.1] * len(FREE) + [0.0] * free_distance)
-    low = np.array([0.0] * bounded + [-np.inf] * len(FREE) + [-2.0] * free_distance)
-    high = np.array([np.inf] * len(UNKNOWNS) + [2.0] * free_distance)
-    exact = {
-        "jac": "3-point",
-        "x_scale": "jac",
-        "xtol": 1e-15,
-        "ftol": 1e-15,
-        "gtol": 1e-15,
-        "max_nfev": 3000,
-    }
+    every = np.arange(len(UNKNOWNS) + (0 if layer_distance else 1))
+    kinds = [every < len(UNKNOWNS) - len(FREE), every < len(UNKNOWNS)]
+    start, low = np.select(kinds, [0.3, 0.1]), np.select(kinds, [0.0, -np.inf], -2.0)
+    high = np.select(kinds, [np.inf, np.inf], 2.0)
 
-    links = np.setdiff1d(np.arange(len(start)), strains)
+    def fitted(active: np.ndarray) -> np.ndarray:
+        """The unknowns of least weighted miss; those that are not active stay 0."""
+        weak = np.intersect1d(strains, active)
 
-    def without_strains(active: np.ndarray) -> np.ndarray:
-        unknowns = np.zeros_like(start)
-        unknowns[links] = active
-        return unknowns
+        def of(values: np.ndarray) -> np.ndarray:
+            unknowns = np.zeros_like(start)
+            unknowns[active] = values
+            return unknowns
 
-    found = without_strains(
-        least_squares(
-            lambda active: misses(without_strains(active)),
-            start[links],
-            bounds=(low[links], high[links]),
-            **exact,
-        ).x
-    )
+        found = least_squares(
+            lambda values: np.append(misses(of(values)), WEAK * of(values)[weak]),
+            start[active],
+            jac="3-point",
+            bounds=(low[active], high[active]),
+            x_scale="jac",
+            xtol=1e-15,
+            ftol=1e-15,
+            gtol=1e-15,
+            max_nfev=3000,
+        )
+        return of(found.x)
+
+    found = fitted(np.setdiff1d(every, strains))
     if np.abs(misses(found)).max() > MATCHED:
-        found = least_squares(weak_strains, start, bounds=(low, high), **exact).x
+        found = fitted(every)
     return report("moduli", each_cell(sheet, material, grid), springs_of(found))

@@ -98,9 +98,8 @@ def solve(
     else:
         outcome = solve_path(scene, problem, branch, progress=progress)
     done = now()
-    usual = {"branch": "path", "weights": "tributary", "linear": False}
-    options = {"branch": branch, "weights": weights, "linear": linear}
-    requested = {name: value for name, value in options.items() if value != usual[name]}
+    options = {"branch": (branch, "path"), "weights": (weights, "tributary"), "linear": (linear, False)}
+    requested = {name: value for name, (value, usual) in options.items() if value != usual}
     return solution(scene, calibration, problem, outcome, (ready - began, done - ready), requested)
 
 
@@ -201,9 +200,7 @@ def solve_from_best_start(
     lattice, from that of one with half as many cells a side."""
     if near is not None and near.shape != problem.loads.dead.shape:
         raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
-    if problem.assembly.coupling is not None:
-        return solve_path(scene, problem, progress=progress)
-    if problem.items:  # whose points are others on another grid
+    if problem.assembly.coupling is not None or problem.items:  # whose points are others on another grid
         return solve_path(scene, problem, progress=progress)
     large = near is None and problem.descends and problem.system.unknowns > FROM
     springs = halved(scene, calibration) if large else None

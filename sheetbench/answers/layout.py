@@ -1,16 +1,14 @@
 """A table as lines of text within a width, laid out by rich: every figure is whole, and nothing is cut off.
 
-Headings and prose are broken over lines at spaces. A table that is still too wide has the names of its groups
-on lines of their own; and if that is not enough it stands in blocks one under the other, each led by the
-columns that name the rows. Only a word longer than the width itself is broken.
+Headings and prose are broken over lines at spaces. A table that is still too wide stands in blocks one under
+the other, each led by the columns that name the rows. Only a word longer than the width itself is broken.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from io import StringIO
-from itertools import pairwise, repeat
+from itertools import pairwise
 from shutil import get_terminal_size
 from textwrap import wrap
 
@@ -68,23 +66,21 @@ class _Strip:
 def blocks(table: Table, width: int | None) -> list[Block]:
     """Return the table without its details, in blocks of at most `width` columns of text; without one, in
     one."""
-    brief, width = table.brief(), width and max(width, LEAST)
-    shown = [[terminal(text) for text in row] for row in brief.shown_rows()]
+    width = width and max(width, LEAST)
+    shown = [[terminal(text) for text in row] for row in table.shown_rows()]
     strips = [
         _Strip(column, terminal(name), terminal(unit), [row[i] for row in shown])
-        for i, column in enumerate(brief.columns)
+        for i, column in enumerate(table.columns)
         for name, unit in [column.heading(shown=True)]
+        if not column.detail
     ]
-    firsts = strips[0].cells
-    new = [True, *(a != b or not table.grouped for a, b in pairwise(firsts))][: len(firsts)]
-    if table.grouped:
-        firsts[:] = [text if first else "" for text, first in zip(firsts, new, strict=True)]
-    naming = next((i for i, c in enumerate(brief.columns) if c.numeric or c.prose), 1)
-    while naming < len(strips) - 1 and len({tuple(row[:naming]) for row in shown}) < len(shown):
+    rows = [*zip(*(strip.cells for strip in strips), strict=True)]
+    if table.grouped and _fits(strips, width):
+        firsts = strips[0].cells
+        firsts[1:] = ["" if before == text else text for before, text in pairwise(firsts)]
+    naming = next((i for i, one in enumerate(strips) if one.column.numeric or one.column.prose), 1)
+    while naming < len(strips) - 1 and len({row[:naming] for row in rows}) < len(rows):
         naming += 1
-    if table.grouped and not _fits(strips, width):
-        parts = _stacked(strips[1:], max(naming - 1, 1), width)
-        return [_under_names([strips[0], *part], width, [*new[1:], False]) for part in parts]
     return [_block(part, width) for part in _stacked(strips, max(naming, 1), width)]
 
 
@@ -119,19 +115,7 @@ def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[
     return parts or [keys]
 
 
-def _under_names(strips: list[_Strip], width: int | None, starts: list[bool]) -> Block:
-    """Return a table without its first column, every group of rows under a line with its name."""
-    block = _block(strips[1:], width, starts)
-    names, rows = iter(filter(None, strips[0].cells)), list[str]()
-    for line in (block.rule, *block.rows):
-        rows.append(line)
-        if line == block.rule:
-            rows += wrap(next(names), width or UNBOUNDED)
-    return Block(block.head, rows[0], rows[1:])
-
-
-def _block(strips: list[_Strip], width: int | None, starts: Iterable[bool] = repeat(False)) -> Block:
-    """starts: whether a group begins after a row."""
+def _block(strips: list[_Strip], width: int | None) -> Block:
     fits, whole_names = _fits(strips, width), _fits(strips, width, whole=True)
     layout = Layout(box=BOX, show_edge=False, pad_edge=False, padding=(0, GAP - 1, 0, 0))
     for strip in strips:
@@ -141,8 +125,8 @@ def _block(strips: list[_Strip], width: int | None, starts: Iterable[bool] = rep
             Text("\n".join(head)), overflow="fold", no_wrap=whole,
             justify="right" if strip.column.numeric else "left",
         )  # fmt: skip
-    for row, start in zip(zip(*(strip.cells for strip in strips), strict=True), starts, strict=False):
-        layout.add_row(*map(Text, row), end_section=start)
+    for row in zip(*(strip.cells for strip in strips), strict=True):
+        layout.add_row(*map(Text, row))
     plain = dict(color_system=None, legacy_windows=False, force_jupyter=False)
     console = Console(file=StringIO(), width=width or UNBOUNDED, **plain)  # type: ignore[arg-type]
     console.print(layout)

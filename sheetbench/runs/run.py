@@ -205,34 +205,27 @@ class Run(Generic[AnyState]):
     def _take(self, samples: Any) -> Fault | None:
         """Keep samples up to the first that means nothing, and why it does not; energies: since the step
         began."""
-        rows = self._observer.rows(samples)
+        observer, rows = self._observer, self._observer.rows(samples)
         rows[:, 4:6] += self.spent
-        count, fault = self._sound(samples, rows)
+        count, grown = self.watch.take(rows)
+        stretches, fault = observer.inspect(samples, count + np.isfinite(grown))
+        count = count if fault is None else len(stretches)
+        self.watch.strained(rows[:count, 0], stretches[:count], observer.beyond)
+        if count < len(rows):
+            if fault is None:
+                where = f"{observer.fastest(samples, count)}: use smaller steps"
+                share = f"by {100.0 * grown:.3g} % of the largest, fastest at {where}"
+                grew = Fault(Status.DIVERGED, f"the energy has grown from nothing, {share}")
+                overflowed = Fault(Status.NON_FINITE, f"a number overflowed, first at {where}")
+                fault = grew if np.isfinite(grown) else overflowed
+            fault = Fault(fault.status, f"at {rows[count, 0]:.6g} s {fault.message}")
         shown = fault is not None and fault.status is not Status.NON_FINITE
         self._kept.sample(rows[: count + shown])
         for i in range(count):
             if self.samples + i in self._shown:
-                self._kept.frame(self._observer.frame(samples, i))
+                self._kept.frame(observer.frame(samples, i))
         self.samples += count
         return fault
-
-    def _sound(self, samples: Any, rows: np.ndarray) -> tuple[int, Fault | None]:
-        """How many samples are sound before the first that is not, and what is wrong with that one."""
-        observer, (count, grown) = self._observer, self.watch.take(rows)
-        stretches, fault = observer.inspect(samples, count + np.isfinite(grown))
-        count = count if fault is None else len(stretches)
-        self.watch.strained(rows[:count, 0], stretches[:count], observer.beyond)
-        if count == len(rows):
-            return count, None
-        when = f"at {rows[count, 0]:.6g} s"
-        if fault is not None:
-            return count, Fault(fault.status, f"{when} {fault.message}")
-        where = observer.fastest(samples, count)
-        if np.isfinite(grown):
-            share = f"by {100.0 * grown:.3g} % of the largest, fastest at {where}: use smaller steps"
-            return count, Fault(Status.DIVERGED, f"{when} the energy has grown from nothing, {share}")
-        text = f"{when} a number overflowed, first at {where}: use smaller steps"
-        return count, Fault(Status.NON_FINITE, text)
 
     def _checkpoint(self, state: AnyState) -> None:
         self._method.forget()

@@ -20,7 +20,6 @@ from sheetbench.scenes.scene import Scene
 WIDTH = 100  # of a comment
 SCHEMA = "scene.schema.json"  # beside the file, for editors
 EARTH = Gravity(acceleration=(0.0, 0.0, -9.81))
-OPPOSITE = {"x0": "x1", "x1": "x0", "y0": "y1", "y1": "y0"}
 
 
 def template(
@@ -53,16 +52,11 @@ def template(
         "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]
     shown = {"[[support]]"}
-    for heading, table in _offered(sheet, _free_edge(clamped)):
+    free = next((edge for edge in EDGES if edge not in clamped), "x1")
+    for heading, table in _offered(sheet, free):
         parts.append(_commented(_block(heading, table, about=heading not in shown)))
         shown.add(heading)
     return "\n".join(parts)
-
-
-def _free_edge(clamped: Sequence[str]) -> str:
-    """An edge without a support, opposite to one that has one if there is such an edge."""
-    free = [edge for edge in EDGES if edge not in clamped]
-    return next((edge for edge in free if OPPOSITE[edge] in clamped), free[0] if free else "x1")
 
 
 def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:

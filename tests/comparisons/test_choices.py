@@ -24,11 +24,8 @@ def test_every_name_is_there_and_described():
 
 def test_the_usual_choices_are_those_of_the_functions():
     assert signature(lumped.calibrate).parameters["method"].default == choices.CALIBRATION
-    assert signature(lumped.simulate).parameters["integrator"].default == choices.INTEGRATOR
+    assert signature(lumped.simulate).parameters["integrator"].default == choices.INTEGRATOR == choices.AUTO
     assert signature(fem_reference.solve).parameters["model"].default == choices.REFERENCE
-    assert choices.CALIBRATION in choices.CALIBRATIONS
-    assert choices.INTEGRATOR == choices.AUTO
-    assert choices.REFERENCE in choices.REFERENCES
 
 
 NAMES = {

@@ -23,17 +23,9 @@ CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe
 WORDS = frozenset({"grid", "calibration", "k", "layer_distance", "grading"})
 LISTS = {"grid": "9", "calibration": "consistent"}  # of verbs that take several, unless given
 OPTIONS: tuple[dict[str, Any], ...] = (
-    {},
-    {"grid": "5"},
-    {"grid": "5x7"},
-    {"calibration": "van-gelder"},
-    {"calibration": "auto"},
-    {"k": 550.0},
-    {"layer_distance": 0.004},
-    {"grid": "4", "k": 550.0, "layer_distance": 0.004},
-    {"grading": "0.3"},
-    {"grading": "0.4:x0"},
-    {"grading": "auto"},
+    *({}, {"grid": "5"}, {"grid": "5x7"}, {"calibration": "van-gelder"}, {"calibration": "auto"}),
+    *({"k": 550.0}, {"layer_distance": 0.004}, {"grid": "4", "k": 550.0, "layer_distance": 0.004}),
+    *({"grading": "0.3"}, {"grading": "0.4:x0"}, {"grading": "auto"}),
     {"calibration": "consistent", "grading": "auto"},
 )
 SCENE = "curved-edge"  # whose calibration and grading "auto" are others than the usual ones

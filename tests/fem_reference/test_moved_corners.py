@@ -122,7 +122,6 @@ def test_what_cannot_both_be_obeyed_is_refused(supports, actuators, said):
 
 
 def test_a_motion_is_looked_at_all_the_time():
-    """Back at rest in the end, or a full turn between two samples: what happens meanwhile counts."""
     there_and_back = {"time": (0.0, 1.0, 2.0), "displacement": ((0, 0, 0), LIFT, (0, 0, 0))}
     a_turn = {"time": (0.0, 1.0), "rotation": ((0, 0, 0), (2.0 * np.pi, 0, 0))}
     for table, at in ((there_and_back, "t = 1 s"), (a_turn, r"t = 0\.")):

@@ -100,7 +100,7 @@ def test_a_sheet_that_falls_too_hard_ends_in_a_status(integrator):
     assert all(np.isfinite(u).all() for u in run.probes.values())
 
 
-def test_energy_from_nowhere_is_told_with_time_and_place(problem):
+def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
     scene = sheet(0.016, 1.0)
     equations = system(scene, calibrated(scene))
     state = start(equations, np.zeros_like(problem.loads.dead))
@@ -110,11 +110,13 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem):
     observer = LatticeObserver(equations)
     row = np.zeros((1, width(observer.columns)))
     row[0, :3] = 0.25, 1.0, 1.0  # time, kinetic, elastic
+    monkeypatch.setattr(observer, "rows", lambda samples: row.copy())
 
     def checked(balance):
         run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), MemoryStore(6, 1), (), None)
         run.watch = Watch(balance, lowest=balance, largest=3.0)
-        return run._sound(moving, row)
+        fault = run._take(moving)
+        return run.samples, fault
 
     assert checked(1.9) == (1, None)
     sound, fault = checked(1.5)
@@ -143,13 +145,6 @@ def test_the_shell_knows_its_mid_surface_s_stretch_and_its_inverted_elements():
     assert "use more elements" in shell.inside_out(q)
 
 
-def test_a_sheet_pulled_out_of_its_model_says_so():
-    truth = fem_reference.solve(pressed(-1.2), model="shell", elements=4)
-    lattice = lumped.solve(pressed(-0.8), calibrated(HEAVY))
-    assert truth.status is lattice.status is Status.STRAIN_OUTSIDE_MODEL
-    assert "stretched by" in truth.message and "link strain" in lattice.message
-
-
 LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX
 SHARES = (0.0, 0.4, 0.65, 0.74, 0.995 * LIMIT, 1.005 * LIMIT)
 P3 = [(0.15, 0.075)]
@@ -162,11 +157,6 @@ def bent(share):
     return cases.sheet(0.15, 0.15, 0.002, 1e7, 0.45, density, weight=weight, supports=supports)
 
 
-def sag(found):
-    assert found.status is Status.CONVERGED, found.message
-    return float(found.displacement(P3)[0, 2])
-
-
 @pytest.mark.parametrize("elements", [12, pytest.param(16, marks=pytest.mark.slow)])
 def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(elements):
     """Measured: between 0.7656 and 0.7664 on 12 elements, 0.7648 and 0.7656 on 16, with −15.17 mm."""
@@ -176,7 +166,8 @@ def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(element
         found = fem_reference.solve(
             scene, model="shell", elements=elements, near=lambda at, s=start, f=last: shape(s, f, at)
         )
-        sags.append(sag(found))
+        assert found.status is Status.CONVERGED, found.message
+        sags.append(float(found.displacement(P3)[0, 2]))
         before = scene
     *smooth, folded = sags
     assert np.diff(smooth).max() < 0.0  # ever lower, without a jump

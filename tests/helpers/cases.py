@@ -5,11 +5,15 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from scipy.integrate import solve_bvp
+from skfem import MeshQuad
 
 import fem_reference
 import lumped
+from fem_reference.surface.mesh import rectangle
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
+from sheetbench.scenes.objects.grid import grid_of
 
 SHEET = Sheet(length_x=0.188, length_y=0.188, thickness=0.003)
 RUBBER = Material(young=54.5e6, poisson=0.48, density=1678.0)
@@ -81,3 +85,46 @@ def with_constants(calibration: lumped.Calibration, **constants: float) -> lumpe
 def relative(u: np.ndarray, reference: np.ndarray) -> float:
     """The design's error: largest difference over the largest component."""
     return float(np.abs(u - reference).max() / np.abs(reference).max())
+
+
+def distorted(sheet: Sheet = SHEET, elements: int = 3, by: float = 0.2) -> MeshQuad:
+    """The sheet's mesh with its inner vertices moved by up to `by` of an element."""
+    mesh = rectangle(sheet, elements)
+    places, inner = mesh.p.copy(), mesh.interior_nodes()
+    drawn = np.random.default_rng(0).uniform(-1.0, 1.0, (2, len(inner)))
+    places[:, inner] += by * sheet.length_x / elements * drawn
+    return MeshQuad(places, mesh.t).with_boundaries(mesh.boundaries)
+
+
+def calibrated(scene: Scene, grid: Any = 3, grading: Any = 0.0, **settings: Any) -> lumped.Calibration:
+    """The springs of a scene's cells on a grid as `grid_of` takes it."""
+    grid = grid_of(scene.sheet, grid)
+    cells = lumped.sections_of(scene, grid, grading)
+    return lumped.calibrate(scene.sheet, scene.material, grid, cells=cells, grading=grading, **settings)
+
+
+def elastica_tip(
+    rigidity: float,
+    length: float,
+    force: tuple[float, float] = (0.0, 0.0),
+    weight: float = 0.0,
+    curvature: float = 0.0,
+    turn: float = 1.0,
+) -> np.ndarray:
+    """Where the tip (x, z) [m] of an inextensible strip is that is clamped level: B θ'' = (w (L − s) − F_z)
+    cos θ + F_x sin θ, θ(0) = 0, θ'(L) = curvature. turn: about what its angle is [rad], by which branches
+    differ."""
+
+    def slopes(s: np.ndarray, y: np.ndarray) -> list[np.ndarray]:
+        across = weight * (length - s) - force[1]
+        bent = (across * np.cos(y[0]) + force[0] * np.sin(y[0])) / rigidity
+        return [y[1], bent, np.cos(y[0]), np.sin(y[0])]
+
+    def ends(start: np.ndarray, end: np.ndarray) -> list[float]:
+        return [start[0], start[2], start[3], end[1] - curvature]
+
+    s = np.linspace(0.0, length, 101)
+    guess = [turn * s / length, np.full_like(s, turn / length), s, 0.5 * turn * s**2 / length]
+    found = solve_bvp(slopes, ends, s, guess, tol=1e-10, max_nodes=100_000)
+    assert found.success
+    return found.y[2:, -1]

@@ -9,6 +9,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from cases import calibrated
+
 import fem_reference
 import lumped
 from sheetbench import scenes
@@ -96,9 +98,7 @@ OTHERS = {
 
 
 def lattice(scene: Scene, **options: Any) -> Solution:
-    grid = (GRID, GRID, 2)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
-    return lumped.solve(scene, springs, **options)
+    return lumped.solve(scene, calibrated(scene, (GRID, GRID)), **options)
 
 
 MODELS = {

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+import fem_reference
 import lumped
 from lumped import System, build_problem
 from lumped.dynamics.runs.initial import initial_state
@@ -27,6 +28,14 @@ def make_scene(base="two-edges-clamped", actuators=(), gravity=True, supports=No
 def springs(scene, n=5):
     """Consistent springs of an n × n × 2 lattice."""
     return lumped.calibrate(scene.sheet, scene.material, grid=(n, n))
+
+
+def moved(scene, model, duration, elements, **options):
+    """The history of a lattice of five masses along the shorter side, or of a reference of elements."""
+    if model == "lumped":
+        own = lumped.calibrate(scene.sheet, scene.material, grid=5)
+        return lumped.simulate(scene, own, duration, **options)
+    return fem_reference.simulate(scene, model, duration, elements=elements, **options)
 
 
 def system(scene, n=5):

@@ -6,10 +6,8 @@ from typing import Any
 from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from rubbers import LAWS, rubber
 
-import lumped
 from sheetbench import scenes
 from sheetbench.scenes import EdgeLoad, Held, Hinged, PointLoad, Pressure, Scene, Symmetric
-from sheetbench.scenes.objects.grid import grid_of
 
 READERS = Path(__file__).parents[2] / "comparisons" / "codes" / "scripts"
 HINGED = Scene(
@@ -75,9 +73,3 @@ SCENES: dict[str, tuple[Scene, dict[str, Any]]] = {
     "ball": (BARRED.replace(obstacles=(BALL,)), {"grid": (5, 3)}),
     "napkin": (scenes.load("napkin-on-ball"), {"grid": 4}),  # unstable: no equilibrium in the folder
 }
-
-
-def spring_set(scene: Scene, grid: Any = 3, **settings: Any) -> lumped.Calibration:
-    cells = lumped.sections_of(scene, grid_of(scene.sheet, grid))
-    own: dict[str, Any] = {} if cells is None else {"cells": cells}
-    return lumped.calibrate(scene.sheet, scene.material, grid=grid, **own, **settings)

@@ -113,7 +113,6 @@ def test_narrow_layers_at_the_edges(method, young, name, masses_, held):
     ],
 )
 def test_the_order_of_convergence(method, held):
-    """Linear, two edges clamped, 17 and 33 masses, cells halved at one grading: second order."""
     scene, errors = load("two-edges-clamped"), []
     for n in (17, 33):
         springs = lumped.calibrate(scene.sheet, scene.material, n, method, grading=0.5)

@@ -92,7 +92,7 @@ def test_the_places_are_the_sides_of_shapes_and_the_ends_of_edges_and_are_writte
 def test_a_slit_narrower_than_a_cell_is_open():
     """Of 5 mm, with cells of 10 mm: it is as wide a column of cells that are not there."""
     strip = load("kirigami-strip")
-    springs = resolve(strip, Lattice(grid=5)).calibrated()
+    springs = resolve(strip, Lattice(grid=5)).springs
     lines, _ = grid_lines(strip.sheet, springs.grid, springs.grading)
     slit = int(np.argmin(np.abs(lines.at - 0.035)))
     assert lines.at[slit + 1] == pytest.approx(0.04)
@@ -105,7 +105,7 @@ def test_an_edge_holds_the_masses_where_the_sheet_reaches_it():
     outline = [(0, corner), (corner, 0), (0.15, 0), (0.15, 0.15), (0, 0.15)]
     scene = load("one-edge-clamped").replace(sheet=Sheet(0.15, 0.15, 3e-3, outline=outline), probes={})
     for grading, expected in ((None, corner), (0.0, 0.046875)):
-        springs = resolve(scene, Lattice(grid=17, grading=grading)).calibrated()
+        springs = resolve(scene, Lattice(grid=17, grading=grading)).springs
         lattice = Assembly(scene.sheet, springs).lattice
         masses, _ = constrain(scene, lattice).holders["x0"]
         assert lattice.positions[masses, 1].min() == pytest.approx(expected)
@@ -116,7 +116,7 @@ def test_cells_that_the_rim_of_a_clamp_cuts_are_stiffer_in_every_verb():
     scene = load("one-edge-clamped").replace(
         supports=[{"kind": "clamped", "where": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}}], probes={}
     )
-    springs = resolve(scene, Lattice(grid=9)).calibrated()
+    springs = resolve(scene, Lattice(grid=9)).springs
     assert springs.cells is not None
     factors = springs.cells.bending[..., 0, 0]
     assert factors.max() > 1.1 * factors.min()

@@ -137,7 +137,6 @@ def test_gregory_masses_cut_the_error_of_coarse_grids(edges, right):
 
 
 def test_a_free_sheet_has_six_rigid_motions_and_no_spurious_mode():
-    """Spurious zero-energy motions of the lattice would show as further frequencies near zero."""
     scene = plate()
     assert lumped.modes(scene, lumped.calibrate(scene.sheet, scene.material, (9, 9)), 1).rigid == 6
     lowest = parameters(scene, 9, 1, "gregory")[0]
@@ -223,7 +222,6 @@ def test_a_turn_of_all_masses_has_the_bodys_kinetic_energy(layers, turn):
 
 
 def test_drag_and_the_sheets_own_mass_know_no_payload():
-    """The air resists areas, not masses."""
     air = {"air": {"drag": 2.0}}
     bare, laden = (lattice_of(*payloads, **air) for payloads in ((), ({"at": AT, "mass": 0.5},)))
     one, other = (lumped.System(scene, lumped.build_problem(scene.replace(

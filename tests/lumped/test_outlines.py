@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import relative
+from cases import calibrated, relative
 
 import lumped
 from lumped.assembly import Assembly
@@ -23,11 +23,6 @@ def sheet(cutout=(), outline=None, gravity=WEIGHT, **keys):
     sides = {"length_x": 0.2, "length_y": 0.1, "thickness": 0.003, "outline": outline}
     scene = {"name": "drawn", "sheet": sides, "material": MATERIAL, "support": [CLAMP], "cutout": cutout}
     return Scene(**{**scene, "gravity": gravity, **keys})
-
-
-def calibrated(scene, across):
-    grid = (2 * across - 1, across, 2)
-    return lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
 
 
 def deflections(scene, across, linear=True):
@@ -88,9 +83,7 @@ def test_a_square_with_a_round_hole_is_pulled_as_kirsch_has_it():
         load=[{"kind": "edge", "edge": "x1", "force_per_length": (5e3 * stretch, 0.0, 0.0)}],
         probes={"P": (side, side)},
     )  # fmt: skip
-    grid = (41, 41, 2)
-    springs = lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
-    solution = lumped.solve(scene, springs, linear=True)
+    solution = lumped.solve(scene, calibrated(scene, 41), linear=True)
     assert solution.status is Status.CONVERGED
     beside = side / 40.0  # a cell
     assert solution.displacement([[beside, radius]])[0, 0] / beside == pytest.approx(3.14 * stretch, rel=0.04)

@@ -8,7 +8,6 @@ import shutil
 import stat
 import subprocess
 import sys
-import time
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,7 +22,7 @@ from numba.core.errors import TypingError
 import lumped
 from comparisons.models import solve
 from lumped.dynamics.explicit.steps import march
-from sheetbench.kernels import MONTH, NOTICE, ROOT, X86_64_V3, Locator, _remove_old, kept, made_of
+from sheetbench.kernels import NOTICE, ROOT, X86_64_V3, Locator, kept, made_of
 from sheetbench.numerics import maps
 from sheetbench.numerics.maps import csr_arrays
 from sheetbench.numerics.typed import TypedTuple, typed
@@ -153,19 +152,6 @@ def test_the_processor_is_the_common_one_unless_numba_is_there_before():
     common = all(map(get_host_cpu_features().get, X86_64_V3)) and platform.machine() == "x86_64"
     assert printed("import sheetbench.kernels") == f"{'x86-64-v3' if common else None}\n"
     assert printed("import numba", "import sheetbench.kernels") == "None\n"
-
-
-def test_kernels_of_former_sources_go_after_a_month(tmp_path):
-    folders = [tmp_path / f"sheetbench.numerics.maps-{digest}" for digest in ("new", "old", "young")]
-    for folder in folders:
-        folder.mkdir()
-    (tmp_path / "sheetbench.numerics.banded-old").mkdir()
-    for name in ("sheetbench.numerics.maps-old", "sheetbench.numerics.banded-old"):
-        os.utime(tmp_path / name, (0.0, time.time() - 1.01 * MONTH))
-    _remove_old(folders[0])
-    assert {path.name for path in tmp_path.iterdir()} == {
-        "sheetbench.numerics.maps-new", "sheetbench.numerics.maps-young", "sheetbench.numerics.banded-old",
-    }  # fmt: skip
 
 
 class Inner(NamedTuple):

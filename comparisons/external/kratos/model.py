@@ -24,9 +24,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
+from skfem import MeshQuad
 
 from comparisons.external.answer import Code, Reached, refusal, require_count
-from comparisons.external.bricks import point_loads
+from comparisons.external.bricks import SITES, point_loads
+from fem_reference.surface.location import locate
+from fem_reference.surface.mesh import rectangle
 from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
     EDGES,
@@ -44,23 +47,17 @@ from sheetbench.scenes.objects.sheet import Sheet
 
 @dataclass(frozen=True)
 class Triangles:
-    """x (nx + 1,), y (ny + 1,): lines between the cells [m]; node (i, j) has the number i (ny + 1) + j."""
+    """plan: the cells, each cut in two; counts: of them along x and y."""
 
     KIND: ClassVar = "triangle"
-    x: np.ndarray
-    y: np.ndarray
+    plan: MeshQuad
+    counts: tuple[int, int]
 
     @classmethod
     def of(cls, sheet: Sheet, elements: int) -> Triangles:
         """Elements along the shorter side, near-square and of one size."""
         counts = near_square(sheet, elements)
-        x, y = (np.linspace(0.0, length, n + 1) for length, n in zip(sheet.lengths, counts, strict=True))
-        return cls(x, y)
-
-    @property
-    def counts(self) -> tuple[int, int]:
-        """Cells along x and y."""
-        return len(self.x) - 1, len(self.y) - 1
+        return cls(rectangle(sheet, counts), counts)
 
     @property
     def label(self) -> str:
@@ -70,37 +67,26 @@ class Triangles:
     @cached_property
     def positions(self) -> np.ndarray:
         """(n, 3) [m]."""
-        x, y = np.meshgrid(self.x, self.y, indexing="ij")
-        return np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+        return np.column_stack([self.plan.p.T, np.zeros(self.plan.nvertices)])
 
     @cached_property
     def elements(self) -> np.ndarray:
         """Nodes of the triangles (2 nx ny, 3), normal along +z."""
-        nx, ny = self.counts
-        i, j = (a.ravel() for a in np.meshgrid(range(nx), range(ny), indexing="ij"))
-        a = i * (ny + 1) + j
-        b, c, d = a + ny + 1, a + ny + 2, a + 1
-        rising = (i + j) % 2 == 0
-        first = np.where(rising[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
-        second = np.where(rising[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
-        return np.vstack([first, second])
+        cells, (nx, ny) = self.plan.t[[0, 3, 2, 1]].T, self.counts  # those of the plan run clockwise
+        places = self.plan.p[:, cells].mean(axis=2) / self.plan.p.max(axis=1)[:, None]
+        falling = np.floor(places * [[nx], [ny]]).sum(axis=0) % 2 == 1
+        cells[falling] = np.roll(cells[falling], -1, axis=1)
+        return np.vstack([cells[:, :3], cells[:, [0, 2, 3]]])
 
     def edge(self, name: str) -> np.ndarray:
         """Nodes on an edge, along it."""
-        number = np.arange(len(self.x) * len(self.y)).reshape(len(self.x), len(self.y))
-        across = np.moveaxis(number, EDGES[name].normal_axis, 0)
-        return across[-1 if EDGES[name].far_end else 0]
+        return np.unique(self.plan.facets[:, self.plan.boundaries[name]])
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Corners of the cells at plan points (p, 2) [m], and their bilinear shares, (p, 4)."""
-        places = []
-        for lines, at in zip((self.x, self.y), points.T, strict=True):
-            i = np.clip(np.searchsorted(lines, at, side="right") - 1, 0, len(lines) - 2)
-            places.append((i, (at - lines[i]) / (lines[i + 1] - lines[i])))
-        (i, s), (j, t) = places
-        a = i * len(self.y) + j
-        nodes = np.column_stack([a, a + len(self.y), a + len(self.y) + 1, a + 1])
-        return nodes, np.column_stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
+        element, place = locate(self.plan, points)
+        shares = 0.25 * np.prod(1.0 + SITES[:4] * place.T[:, None], axis=2)
+        return self.plan.t[:, element].T, shares
 
 
 def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str, np.ndarray]:

@@ -18,7 +18,6 @@ from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of_placed, natural_work, obstacle_work
 from sheetbench.numerics.time.method import Advance
-from sheetbench.numerics.time.rule import MidpointStep
 
 STEP_TOLERANCE = 1e-13  # last correction relative to the sheet's side
 
@@ -47,13 +46,11 @@ class Midpoint(Integrator):
         moved = motion.place(time) - motion.place(state.time)
         jump = moved / h - motion.rate(state.time)
 
-        step = MidpointStep(h, state.u, state.v)
-
         def mean(u: np.ndarray) -> np.ndarray:
-            return np.where(algebraic, u, step.place(u))
+            return np.where(algebraic, u, 0.5 * (state.u + u))
 
         def velocity(u: np.ndarray) -> np.ndarray:
-            return np.where(algebraic, 0.0, step.rate(u))
+            return np.where(algebraic, 0.0, (u - state.u) / h)
 
         def residual(u: np.ndarray) -> np.ndarray:
             rate = velocity(u)

@@ -9,16 +9,8 @@ import numpy as np
 
 from sheetbench.numerics.direct import Count, Factor
 
-
-class BalancedForces(Protocol):
-    """Forces at a state. size: of those that balance [N], which residuals are measured against."""
-
-    @property
-    def size(self) -> float: ...
-
-
 State = TypeVar("State")
-Forces = TypeVar("Forces", bound=BalancedForces)
+Forces = TypeVar("Forces", bound=Any)  # `size`: of those that balance [N], by which residuals are measured
 Matrix = Any  # what `Solver.factor` takes
 
 

@@ -10,15 +10,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-
-class Moment(Protocol):
-    """A state of motion."""
-
-    @property
-    def time(self) -> float: ...
-
-
-AnyState = TypeVar("AnyState", bound=Moment)
+AnyState = TypeVar("AnyState", bound=Any)  # with its `time` [s]
 
 
 class StepFailed(ArithmeticError):

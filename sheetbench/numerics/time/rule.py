@@ -1,6 +1,4 @@
-"""Generalised-α and the midpoint rule: coefficients, error and equation of a step, for whoever solves that.
-
-Generalised-α:
+"""Generalised-α: coefficients, error and equation of a step, for whoever solves that.
 
     M a₁ + f(u₁, v₁, t₁) = 0                               equilibrium at the step's end, constraints included
     (1 − αm) a'₁ + αm a'₀ = (1 − αf) a₁ + αf a₀            a': the algorithm's acceleration
@@ -15,9 +13,6 @@ order with constraints too.
 
 Backward Euler, u₁ = u₀ + h v₁ and v₁ = v₀ + h a₁, is of the same form; its local error is ½ h² |a₁|.
 With u₁ as its unknown a step of either has v₁ = v̂ + c₁ (u₁ − û) and a₁ = c₂ (u₁ − û) (`AlphaStep`).
-
-The midpoint rule, of second order, is ½ (v₀ + v₁) = (u₁ − u₀)/h with the forces of the model's own choice at
-its middle (`MidpointStep`); with a discrete gradient it conserves energy (Simo and Tarnow, 1992).
 """
 
 from __future__ import annotations
@@ -97,30 +92,6 @@ def step_of(rule: Rule, h: float, u: np.ndarray, v: np.ndarray, a: np.ndarray, o
     base_v = v + h * ((1.0 - gamma) * old + gamma * base_a)
     base_u, guess = start + h * h * beta * base_a, start + h * h * beta * old
     return AlphaStep(base_u, base_v, base_a, rule.by_v(h), rule.by_a(h), (1.0 - af) / (1.0 - am), guess)
-
-
-class MidpointStep(NamedTuple):
-    """A midpoint step of h [s] from u₀ and v₀, with u₁ as its unknown."""
-
-    h: float
-    u: np.ndarray
-    v: np.ndarray
-
-    def place(self, u: np.ndarray) -> np.ndarray:
-        """Return ½ (u₀ + u₁)."""
-        return 0.5 * (self.u + u)
-
-    def rate(self, u: np.ndarray) -> np.ndarray:
-        """Return (u₁ − u₀)/h."""
-        return (u - self.u) / self.h
-
-    def velocity(self, u: np.ndarray) -> np.ndarray:
-        """Return v₁."""
-        return 2.0 * self.rate(u) - self.v
-
-    def acceleration(self, u: np.ndarray) -> np.ndarray:
-        """Return (v₁ − v₀)/h."""
-        return (self.velocity(u) - self.v) / self.h
 
 
 def shifted(a: np.ndarray, algorithm: np.ndarray, h: float, before: float) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from decimal import Decimal
-from typing import Any, Protocol
+from typing import Any
 
 import tomlkit
 from tomlkit.items import AoT, InlineTable, Table
@@ -12,13 +12,7 @@ from tomlkit.items import AoT, InlineTable, Table
 LARGE = 1e5  # written with an exponent, as 54.5e6
 
 
-class Documented(Protocol):
-    """A scene, of which nothing is needed but its document."""
-
-    def document(self) -> dict[str, Any]: ...
-
-
-def to_toml(scene: Documented) -> str:
+def to_toml(scene: Any) -> str:
     """The scene as the text of a file, from which `load` reads an equal one; all digits."""
     return dumps(keys(scene))
 
@@ -31,7 +25,7 @@ def dumps(data: Mapping[str, Any]) -> str:
     return tomlkit.dumps(text)
 
 
-def keys(scene: Documented) -> dict[str, Any]:
+def keys(scene: Any) -> dict[str, Any]:
     """The scene's keys and values as they stand in a file; what is absent or empty is left out."""
     data = scene.document()
     return {key: value for key, value in data.items() if value not in ("", [], {})}

@@ -179,12 +179,10 @@ class Material(Fibres):
         for key in CONSTANTS:
             value = getattr(self, key)
             if value is not None and key not in words.keys:
-                of = (
-                    f"law = '{self.law}' takes {' and '.join(words.keys) or 'young'}"
-                    if self.law
-                    else "law is missing"
-                )
-                raise ValueError(f"{key} = {value:g}: {of}; leave {key} out, or choose law: {_choices(key)}")
+                takes = f"law = '{self.law}' takes {' and '.join(words.keys) or 'young'}"
+                laws = ", ".join(law for law, words in WORDS.items() if key in words.keys)
+                of = takes if self.law else "law is missing"
+                raise ValueError(f"{key} = {value:g}: {of}; leave {key} out, or choose law: {laws}")
             if value is None and key in words.keys:
                 raise ValueError(f"law = '{self.law}': {key} is missing; it takes {', '.join(words.keys)}")
         if self.law is not None:
@@ -326,10 +324,6 @@ def _require_pull(energy: Energy, given: str, law: str | None) -> None:
             f"{given}: pulled both ways beyond a stretch of {stretch:.3g} this rubber would push; c2 must "
             "be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
         )
-
-
-def _choices(key: str) -> str:
-    return ", ".join(law for law, words in WORDS.items() if key in words.keys)
 
 
 def require_no_branches(material: Material, who: str) -> None:

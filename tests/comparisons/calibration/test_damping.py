@@ -41,20 +41,6 @@ def test_moduli_of_a_dynamic_test_and_of_a_relaxation_become_branches(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("known", "named"),
-    [
-        ({"loss_factor": 0.1}, "--at HZ"),
-        ({"loss_factor": 0.1, "prony": "a.csv"}, "--prony and --loss-factor"),
-        ({"at": 5.0}, "--at: needs --loss-factor"),
-        ({"loss_factor": -1.0, "at": 5.0}, "--loss-factor = -1: must be greater than 0"),
-    ],
-)
-def test_what_does_not_go_together_is_refused(known, named):
-    with pytest.raises(BadInput, match=named):
-        keys(**known)
-
-
-@pytest.mark.parametrize(
     ("text", "named"),
     [
         ("frequency,storage,loss\n1,1e6,1e5\n2,1e6,1e5\n2,1e6,1e5\n4,1e6,1e5\n", "line 4: frequency = '2'"),

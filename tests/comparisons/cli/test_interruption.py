@@ -16,10 +16,6 @@ main()
 """
 
 
-def test_it_is_in_time():
-    assert interruption.PATIENCE < 2.0
-
-
 SIMULATE = ["simulate", "two-edges-settling", "--lumped", "3", "--duration", "500", "--out", "kept"]
 COMPARE = ["compare", "two-edges-clamped", "--out", "kept"]
 TRADEOFF = ["tradeoff", "two-edges-clamped", "--solid", "48", "--workers", "2", "--out", "kept"]

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from commands import run
 from rich.console import Console
+from verbs import write_inputs
 
 import fem_reference
 import lumped
@@ -84,10 +85,8 @@ def test_other_verbs_tell_too(tmp_path):
     reports: list[Any] = []
     sb.modes(SCENE, grid=3, elements=2, count=2, progress=reports.append)
     assert [one.doing for one in reports] == ["modes of lumped", "modes of shell"]
-    reports.clear()
-    measured = tmp_path / "measured.csv"
-    measured.write_text("x,y,uz\n0.094,0.094,-0.00245\n0.188,0.188,-0.0135\n")
-    sb.identify(SCENE, measured, model="shell", elements=2, progress=reports.append)
+    write_inputs(tmp_path)
+    sb.identify(SCENE, tmp_path / "measured.csv", model="shell", elements=2, progress=reports.append)
     assert any(isinstance(one, Work) and one.share == 1.0 for one in reports)
     assert any(isinstance(one, str) and one.startswith("young = ") for one in reports)
 

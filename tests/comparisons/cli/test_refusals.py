@@ -77,6 +77,7 @@ ROWS = {
     f"live {TWO} --port 70000": "--port",
     f"live {TWO} --grid 99": "grid = 99",
     f"modes {ONE} --count 0": "--count",
+    f"modes {TWO} --lumped 3 --elements 2 --buckling": "bend the sheet at once",
     f"modes {ONE} --lumped 3 --count 500": "count = 500",
     "new a.toml --poisson 0.5": "--poisson = 0.5|less than 0.5",
     "new a.toml --side '3 s'": "--side = '3 s'|length",
@@ -111,6 +112,10 @@ ROWS = {
     f"tradeoff {ONE} --retry": "--retry: no effect without --out",
     f"tradeoff {ONE} --workers 2 --scheduler tcp://127.0.0.1:9": "--workers: no effect with --scheduler",
     f"crosscheck {ONE} --judges '' --meshes 4,8": "--meshes: no effect without external codes",
+    f"calibrate {ONE} --loss-factor 0.1": "--at HZ",
+    f"calibrate {ONE} --loss-factor 0.1 --prony a.csv": "--prony and --loss-factor",
+    f"calibrate {ONE} --at 5": "--at: needs --loss-factor",
+    f"calibrate {ONE} --loss-factor=-1 --at 5": "--loss-factor = -1: must be greater than 0",
     f"calibrate {ONE} --for newton --loss-factor 0.1 --at 3": "--loss-factor: no effect|newton|stiffness",
     f"calibrate {ONE} --for mujoco --loss-factor 0.1 --band 1 9": "no effect with --for mujoco|Maxwell",
     f"identify {ONE} --tensile measured.csv": "SCENE: no effect with --tensile",
@@ -139,7 +144,7 @@ ROWS = {
     "weigh": "No such command 'weigh'; see sheetbench --help",
     "compare frame.toml --lumped 3x2": "3×2×2|every mass",
     "modes frame.toml --lumped 2x2": "2×2×2|every mass",
-    "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "no scheduler there",
+    "tradeoff two-edges-settling --duration 0.1 --scheduler tcp://127.0.0.1:9": "--scheduler = |no scheduler",
 }
 
 

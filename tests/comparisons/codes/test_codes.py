@@ -17,6 +17,7 @@ from comparisons.codes.coefficients import moduli_of
 from comparisons.codes.files import OWN_MASSES, WRITERS, _geom
 from comparisons.codes.setup import setup
 from comparisons.codes.sheet_mesh import sheet_mesh
+from comparisons.scoring.reference import references
 from sheetbench import scenes
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, Plane, PointLoad, Sphere
@@ -192,6 +193,14 @@ def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(kept):
 def test_what_a_code_does_not_have_is_said():
     curved = setup(scenes.load("curved-edge"), "newton", 4, best=False)
     assert not curved.files() and curved.notes()[0].startswith("No files")
+
+
+@pytest.mark.usefixtures("coarse_limits")
+@pytest.mark.parametrize(("squares", "grid"), [(8, 28), (40, None)])
+def test_layers_too_shallow_for_the_load_are_told_with_the_mesh_that_bears_it(squares, grid):
+    """Two layers of springs in a thin sheet: with 8 squares shear turns over 39 % of those between them."""
+    notes = setup(references("statics")["thin"].scene, "pybullet", squares, best=False).notes()
+    assert [f"--grid {grid}." in note for note in notes if "too coarse" in note] == [True] * bool(grid)
 
 
 @pytest.mark.usefixtures("coarse_limits")

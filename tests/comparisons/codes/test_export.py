@@ -5,9 +5,9 @@ import json
 
 import numpy as np
 import pytest
-from cases import CLAMP, RUBBER, SHEET
+from cases import CLAMP, RUBBER, SHEET, calibrated
 from commands import run
-from exported import BLOWN, DRAWN, HALF, spring_set
+from exported import BLOWN, DRAWN, HALF
 from scipy.io import loadmat
 
 import lumped
@@ -29,13 +29,13 @@ def folder(tmp_path_factory):
     """Habibi et al.'s test 1 on 4 × 4 × 2 masses, edge twist and all."""
     made = tmp_path_factory.mktemp("lattice")
     scene = scenes.load("two-edges-clamped")
-    export(made, scene, spring_set(scene, 4, method="consistent"))
+    export(made, scene, calibrated(scene, 4, method="consistent"))
     return made
 
 
 def test_the_tables_hold_what_the_lattice_is(folder):
     scene = scenes.load("two-edges-clamped")
-    solution = lumped.solve(scene, spring_set(scene, 4, method="consistent"))
+    solution = lumped.solve(scene, calibrated(scene, 4, method="consistent"))
     nodes, links, cells = (table(folder / f"{name}.csv") for name in ("nodes", "links", "cells"))
     assert [*nodes[0]] == ["number", "i", "j", "k", "x", "y", "z", "mass"]
     assert [*links[0]] == ["a", "b", "family", "rest_length", "stiffness", "damping"]
@@ -57,7 +57,7 @@ def test_the_tables_hold_what_the_lattice_is(folder):
 
 
 def test_the_page_says_what_a_drawn_sheet_is_made_of(tmp_path):
-    export(tmp_path, DRAWN, spring_set(DRAWN, (9, 5)))
+    export(tmp_path, DRAWN, calibrated(DRAWN, (9, 5)))
     page = (tmp_path / "README.md").read_text(encoding="utf-8")
     assert len(table(tmp_path / "nodes.csv")) < 90
     assert "patch 1: rectangle" in page and "left out" in page
@@ -79,7 +79,7 @@ def test_matlab_and_numpy_files_hold_the_same(folder):
 def test_an_exported_lattice_carries_the_payload(tmp_path):
     scene = scenes.load("two-edges-clamped")
     laden = scene.replace(masses=({"at": (0.17, 0.16), "mass": 0.05},))
-    own = spring_set(scene, 3)
+    own = calibrated(scene, 3)
     bare, found = (lumped.describe(one, own) for one in (scene, laden))
     assert (found.mass - bare.mass).sum() == pytest.approx(0.05)
     assert (found.dead - bare.dead).sum(axis=0) == pytest.approx([0.0, 0.0, -9.81 * 0.05])
@@ -91,7 +91,7 @@ def test_an_exported_lattice_carries_the_payload(tmp_path):
 
 def test_tables_hold_obstacles_and_their_points(tmp_path):
     scene = scenes.load("strip-on-table")
-    export(tmp_path, scene, spring_set(scene, (5, 3)))
+    export(tmp_path, scene, calibrated(scene, (5, 3)))
     (row,) = table(tmp_path / "obstacles.csv")
     assert [*row] == ["kind", "x", "y", "z", "ax", "ay", "az", "radius"]
     assert (row["kind"], row["z"], row["az"], row["radius"]) == ("plane", "-0.03", "1.0", "0.0")
@@ -103,12 +103,12 @@ def test_tables_hold_obstacles_and_their_points(tmp_path):
     assert "`contacts.csv`" in page and "natural.csv" not in page
     for code in ("cpp", "matlab", "sofa"):
         with pytest.raises(BadInput, match="obstacle"):
-            lattice_files(scene, spring_set(scene, 3), code)
+            lattice_files(scene, calibrated(scene, 3), code)
 
 
 def test_loads_that_follow_the_sheet_balance_it_as_the_readme_says():
     """At rest, springs, dead loads and the followers by the README's formulas leave the supports alone."""
-    lattice = arrays(lumped.describe(BLOWN, spring_set(BLOWN, (4, 4, 3))))
+    lattice = arrays(lumped.describe(BLOWN, calibrated(BLOWN, (4, 4, 3))))
     x = lattice["positions"] + lattice["state_displacement"][-1]
     unbalanced = lattice["state_force"][-1] - lattice["load"]
     corners, layers = lattice["pressed_corners"], 3
@@ -133,15 +133,15 @@ def test_loads_that_follow_the_sheet_balance_it_as_the_readme_says():
 def test_what_files_cannot_say_is_refused_or_told(tmp_path):
     with pytest.raises(BadInput, match="actuators are not springs"):
         scene = scenes.load("actuated-edge")
-        lumped.describe(scene, spring_set(scene, 5))
+        lumped.describe(scene, calibrated(scene, 5))
     free = Scene(name="free", sheet=SHEET, material=RUBBER, support=(Hinged(edge="x0"),))
-    found = lumped.describe(free, spring_set(free, 3))
+    found = lumped.describe(free, calibrated(free, 3))
     assert [state.name for state in found.states] == ["stretched", "rolled"]
     assert "rotation about edge x0" in found.notes[0]
-    assert "no equilibrium to check by" in export(tmp_path, free, spring_set(free, 3))
+    assert "no equilibrium to check by" in export(tmp_path, free, calibrated(free, 3))
     assert "no equilibrium to check by" in (tmp_path / "README.md").read_text(encoding="utf-8")
     with pytest.raises(BadInput, match=r"--export = .*holds files of another 'export'"):
-        export(tmp_path, HALF, spring_set(HALF, 3))
+        export(tmp_path, HALF, calibrated(HALF, 3))
 
 
 def test_verbs_export_the_lattice_that_they_answer_with(tmp_path, capsys):
@@ -158,13 +158,13 @@ def test_verbs_export_the_lattice_that_they_answer_with(tmp_path, capsys):
 def test_dampers_are_those_of_the_motion():
     material = RUBBER.model_copy(update={"damping_time": 4e-3, "damping_rate": 2.0})
     scene = Scene(name="damped", sheet=SHEET, material=material, support=(CLAMP,))
-    found = lumped.describe(scene, spring_set(scene, 3))
+    found = lumped.describe(scene, calibrated(scene, 3))
     np.testing.assert_allclose(found.links.damping, 4e-3 * found.links.stiffness)
     for cells in found.cells:
         np.testing.assert_allclose(cells.damping, 4e-3 * cells.stiffness)
     assert found.damping_rate == 2.0
     own = scene.model_copy(update={"dampers": DamperSet(axial=3.0, vertical=5.0)})
-    found = lumped.describe(own, spring_set(scene, 3))
+    found = lumped.describe(own, calibrated(scene, 3))
     ends = found.links.masses[found.links.damping > 0.0]
     assert set(found.links.family[found.links.damping > 0.0]) == {"axial", "vertical"}
     assert len({tuple(pair) for pair in found.links.masses.tolist()}) == len(found.links.masses)

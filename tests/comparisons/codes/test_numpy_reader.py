@@ -7,7 +7,8 @@ import subprocess
 
 import numpy as np
 import pytest
-from exported import BLOWN, READERS, SCENES, spring_set
+from cases import calibrated
+from exported import BLOWN, READERS, SCENES
 
 import lumped
 from comparisons.codes.lattice import export
@@ -22,7 +23,7 @@ AT_REST = ("hinged", "half", "cylinder", "gent", "cut", "bimetal", "table", "bal
 
 def described(name):
     scene, settings = SCENES[name]
-    lattice = arrays(lumped.describe(scene, spring_set(scene, **settings)))
+    lattice = arrays(lumped.describe(scene, calibrated(scene, **settings)))
     return lattice, NUMPY["differences"](lattice)
 
 
@@ -32,8 +33,8 @@ def folders(tmp_path_factory):
     made = tmp_path_factory.mktemp("lattices")
     for name in ("graded", "mooney-rivlin", "gent", "hinged", "woven", "skew", "muscles", "table", "napkin"):
         scene, settings = SCENES[name]
-        export(made / name, scene, spring_set(scene, **settings))
-    export(made / "blown", BLOWN, spring_set(BLOWN, 3))
+        export(made / name, scene, calibrated(scene, **settings))
+    export(made / "blown", BLOWN, calibrated(BLOWN, 3))
     return {path.name: path for path in made.iterdir()}
 
 

@@ -19,7 +19,7 @@ from sheetbench.answers.solution import Status
 class Fake:
     """Answers limit + error h² at every point; counts its solves."""
 
-    called, needs, meshes, layered = "a fake", "nothing", (4, 6, 8), False
+    called, needs, meshes, layered = "a fake", "luck", (4, 6, 8), False
     settings = {"elements": 4}
     limit, error, fails = -0.01, 0.001, ""
 
@@ -28,40 +28,26 @@ class Fake:
         vars(self).update(own)
 
     def version(self):
-        return "1.0"
+        return None if self.fails == "absent" else "1.0"
 
     def solve(self, scene, settings):
-        with open(Path(__file__).with_name("solves"), "a") as kept:
-            kept.write(f"{self.name} {settings['elements']}\\n")
         n = settings["elements"]
-        u = np.array([0.1, 0.2, 1.0]) * (self.limit + self.error / n**2)
-        if self.fails == "refuses" or scene.actuators:
-            status = Status.REFUSED
-        elif self.fails == "raises":
+        with open(Path(__file__).with_name("solves"), "a") as kept:
+            kept.write(f"{self.name} {n}\\n")
+        if self.fails == "raises":
             raise RuntimeError("out of luck")
-        else:
-            status = Status.DIVERGED if self.fails == "diverges" and n == 8 else Status.CONVERGED
+        refused, diverged = self.fails == "refuses" or scene.actuators, self.fails == "diverges" and n == 8
+        status = Status.REFUSED if refused else Status.DIVERGED if diverged else Status.CONVERGED
+        u = np.array([0.1, 0.2, 1.0]) * (self.limit + self.error / n**2)
         return solution(
             scene, self.name, label=f"{self.name} {n}", settings={"elements": [n, n]}, status=status,
             sample=lambda points: np.tile(u, (len(points), 1)), load_factor=1.0 * (status == "converged"),
-            remarks=("takes no such scene",) if status is Status.REFUSED else (),
+            remarks=("takes no such scene",) if refused else (),
         )
 
 
-EXACT = Fake("exact")
-SAME = Fake("same", error=-0.002)
-OTHER = Fake("other", limit=-0.0102)
-REFUSES = Fake("refuses", fails="refuses")
-RAISES = Fake("raises", fails="raises")
-DIVERGES = Fake("diverges", fails="diverges")
-
-
-class Absent(Fake):
-    def version(self):
-        return None
-
-
-ABSENT = Absent("absent", needs="luck")
+EXACT, SAME, OTHER = Fake("exact"), Fake("same", error=-0.002), Fake("other", limit=-0.0102)
+REFUSES, RAISES, DIVERGES, ABSENT = (Fake(one, fails=one) for one in "refuses raises diverges absent".split())
 '''
 NONE = ("--lumped", "", "--plate", "", "--shell", "", "--solid", "")
 

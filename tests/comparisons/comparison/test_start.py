@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 import scipy.optimize
+from dynamic_cases import moved
 
-import fem_reference
-import lumped
 from sheetbench.errors import NoEquilibrium
+from sheetbench.face import solve
 from sheetbench.scenes import Scene
 
 SHEET = {"length_x": 0.15, "length_y": 0.03, "thickness": 0.003}
 MATERIAL = {"young": 6e6, "poisson": 0.0, "density": 1100.0}
 CLAMP = {"edge": "x0", "kind": "clamped"}
 BETA = 1.8751040687  # cosh β cos β = −1
-TIP = (0.15, 0.015)
+TIP, MESH = (0.15, 0.015), (8, 2)
 PULL = {"kind": "edge", "edge": "x1", "force_per_length": [0.0, 0.0, 0.02], "hold": True}
 MODELS = ("lumped", "plate", "shell", "solid")
 DAILY = ("lumped", "plate", "shell", pytest.param("solid", marks=pytest.mark.nightly))
@@ -25,18 +25,8 @@ def strip(**more):
     return Scene.model_validate(scene | more)
 
 
-def moved(scene, model, duration, n=5, elements=(8, 2), **options):
-    if model == "lumped":
-        return lumped.simulate(
-            scene, lumped.calibrate(scene.sheet, scene.material, grid=n), duration, **options
-        )
-    return fem_reference.simulate(scene, model, duration, elements=elements, **options)
-
-
-def at_rest(scene, model, n=5):
-    if model == "lumped":
-        return lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=n))
-    return fem_reference.solve(scene, model, elements=(8, 2))
+def at_rest(scene, model):
+    return solve(scene, model, **({"grid": 5} if model == "lumped" else {"elements": MESH}))
 
 
 @pytest.mark.parametrize("model", DAILY)
@@ -46,7 +36,7 @@ def test_a_rod_bent_out_of_reach_is_no_start(model):
     rod = {"edge": "x0", "kind": "curved", "curvature": 200.0}
     scene = Scene.model_validate({"name": "rod", "sheet": sheet, "material": MATERIAL, "supports": [rod]})
     with pytest.raises(NoEquilibrium, match=f"start from no stable equilibrium: {model}: .*:"):
-        moved(scene, model, 0.01, elements=1)
+        moved(scene, model, 0.01, 1)
 
 
 @pytest.mark.sweep(2)
@@ -54,7 +44,7 @@ def test_a_rod_bent_out_of_reach_is_no_start(model):
 def test_a_motion_starts_from_the_equilibrium_that_statics_find(model):
     """The held load is in the statics; let go, the energy at the start is the elastic one, and is kept."""
     scene = strip()
-    history, still = moved(scene, model, 0.01), at_rest(scene, model)
+    history, still = moved(scene, model, 0.01, MESH), at_rest(scene, model)
     assert np.allclose(history.probes["tip"][0], still.displacement([TIP])[0], atol=1e-9)
     assert history.energies["kinetic"][0] == 0.0
     assert history.energies["elastic"][0] == pytest.approx(sum(still.energies.values()), rel=1e-6)
@@ -69,7 +59,7 @@ def test_a_plucked_strip_swings_and_decays_as_a_beam(model):
     scene = strip(material=MATERIAL | {"damping_rate": alpha})
     omega = BETA**2 * np.sqrt(6e6 * 0.003**2 / 12.0 / 1100.0) / 0.15**2
     period = 2.0 * np.pi / omega
-    history = moved(scene, model, 3.25 * period, every=period / 80.0)
+    history = moved(scene, model, 3.25 * period, MESH, every=period / 80.0)
     t, z = history.time, history.probes["tip"][:, 2]
     assert z[0] == pytest.approx(0.02 * 0.15**3 / (3.0 * 6e6 * 0.003**3 / 12.0), rel=0.01)
 
@@ -98,4 +88,6 @@ def test_a_start_under_loads_takes_histories_and_supports_as_they_are_then():
     scene = strip(loads=[half], supports=[lifted])
     for model in MODELS:
         full = at_rest(strip(), model).displacement([TIP])[0, 2]
-        assert moved(scene, model, 0.001).probes["tip"][0, 2] == pytest.approx(1e-3 + 0.5 * full, rel=2e-3)
+        assert moved(scene, model, 0.001, MESH).probes["tip"][0, 2] == pytest.approx(
+            1e-3 + 0.5 * full, rel=2e-3
+        )

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from dynamic_cases import moved
 
-import fem_reference
 import lumped
 from sheetbench.answers.solution import Status
 from sheetbench.runs.run import Watch
@@ -19,17 +19,9 @@ SOFT = {
 }
 
 
-def moved(scene, model, duration, **options):
-    if model == "lumped":
-        return lumped.simulate(
-            scene, lumped.calibrate(scene.sheet, scene.material, grid=5), duration, **options
-        )
-    return fem_reference.simulate(scene, model, duration, **{"elements": 3, **options})
-
-
 @pytest.mark.parametrize("model", MODELS)
 def test_a_sheet_too_heavy_for_its_law_is_outside_the_model_in_motion_too(model):
-    history = moved(Scene.model_validate(SOFT), model, 0.01, **({} if model == "lumped" else {"elements": 1}))
+    history = moved(Scene.model_validate(SOFT), model, 0.01, 1)
     assert history.status is Status.STRAIN_OUTSIDE_MODEL
     assert "ρ g a/E = 0.0981" in history.message and "from 0 s on" in history.message
     assert history.time[-1] == 0.01
@@ -44,7 +36,7 @@ def test_an_edge_torn_away_is_outside_the_model_from_when_it_is(model):
     supports = [*SOFT["supports"], edge]
     material = SOFT["material"] | {"young": 2e6, "damping_time": 0.02}
     scene = Scene.model_validate(SOFT | {"supports": supports, "material": material, "gravity": None})
-    history = moved(scene, model, 0.2)
+    history = moved(scene, model, 0.2, 3)
     assert history.status is Status.STRAIN_OUTSIDE_MODEL
     since = float(history.message.split(" s on")[0].removeprefix("from "))
     assert 0.05 < since < 0.18
@@ -57,7 +49,7 @@ def test_what_turns_inside_out_ends_a_run(model):
     edge = {"edge": "x1", "kind": "held", "components": ["x", "z"]}
     edge["motion"] = {"time": [0.0, 0.2], "displacement": [[0.0, 0.0, 0.0], [-0.5, 0.0, 0.0]]}
     scene = Scene.model_validate(SOFT | {"supports": [*SOFT["supports"], edge], "gravity": None})
-    history = moved(scene, model, 0.2)
+    history = moved(scene, model, 0.2, 3)
     assert history.status in (Status.INVERTED, Status.DIVERGED)
     assert "inside out" in history.message or model == "solid"
     assert history.time[-1] < 0.2

@@ -44,6 +44,9 @@ def test_forces_add_up_and_act_where_they_should(bricks):
         middle = pull[:, 2] @ bricks.positions / pull[:, 2].sum()
         np.testing.assert_allclose(middle, (*at, 0.0), atol=1e-12)
         np.testing.assert_allclose(problem(scene, triangles, np.ones(1))["force"].sum(axis=0), total)
+    first, *others = np.moveaxis(triangles.positions[triangles.elements], 1, 0)
+    twice = np.cross(*(other - first for other in others))[:, 2]
+    assert twice.min() > 0.0 and twice.sum() / 2.0 == pytest.approx(0.188**2)
 
 
 DISC = {"circle": {"centre": (0.12, 0.12), "radius": 0.03}}

@@ -56,25 +56,24 @@ def test_the_example_of_the_docs_answers_like_a_beam(capsys):
 
 def test_it_gets_the_scene_and_its_settings_and_may_tell_more(program, tmp_path):
     kept = tmp_path / "kept"
-    more = {**ANSWER, "solve_seconds": 1e-4, "unknowns": 7, "iterations": 3, "reactions": {"x0": [0, 0, 1.7]}}
-    model = program("mine", f"cat > '{kept}'", f"echo \"$@\" > '{kept}.options'", says(more))
-    scene = parse(f"{model}:seconds=5,n=9,grid=9x5,quick=true,name=a b")
-    solution = face.solve(SCENE, scene)
+    more = {"solve_seconds": 1e-4, "unknowns": 7, "iterations": 3, "reactions": {"x0": [0, 0, 1.7]}}
+    model = program("mine", f"cat > '{kept}'", f"echo \"$@\" > '{kept}.options'", says(ANSWER | more))
+    spec = parse(f"{model}:seconds=5,n=9,grid=9x5,quick=true,name=a b")
+    solution = face.solve(SCENE, spec)
     assert scenes.Scene.model_validate_json(kept.read_text()) == SCENE
     assert Path(f"{kept}.options").read_text() == "--n=9 --grid=9x5 --quick --name=a b\n"
     assert solution.settings == {"n": 9, "grid": [9, 5], "quick": True, "name": "a b"}
     assert (solution.unknowns, solution.iterations, solution.solve_seconds) == (7, 3, 1e-4)
     assert solution.setup_seconds > 0.0 and solution.reactions["x0"][2] == 1.7
-    assert parse(str(scene)) == scene
+    assert parse(str(spec)) == spec
 
 
 def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(program, tmp_path, in_process, capsys):
     truth = face.solve(SCENE, "shell", elements=4).displacement(SCENE.probe_points())
-    right = {"probes": dict(zip(SCENE.probes, truth.tolist(), strict=True))}
-    wrong = {"probes": dict(zip(SCENE.probes, (-truth).tolist(), strict=True))}
+    right, wrong = (dict(zip(SCENE.probes, (s * truth).tolist(), strict=True)) for s in (1, -1))
     models = [
-        program("right", says(right)),
-        program("wrong", says(wrong)),
+        program("right", says({"probes": right})),
+        program("wrong", says({"probes": wrong})),
         program("crash", "echo 'out of luck' >&2", "kill -SEGV $$"),
         program("hang", "sleep 600 &", f"echo $! > '{tmp_path / 'sleeper'}'", "wait") + ":seconds=0.3",
         program("garbage", "echo 'P4 = -0.04'"),
@@ -85,16 +84,15 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(program, tmp_path, 
     rows = {row["model"]: row for row in found["rows"]}
     assert rows["right"]["error"] < 0.05 < 1.5 < rows["wrong"]["error"]
     assert rows["right"]["solve_seconds"]["median"] > 0.0 and rows["right"]["peak_memory_bytes"] is None
-    assert rows["lumped"]["status"] == rows["shell"]["status"] == rows["right"]["status"] == "converged"
+    assert {rows[name]["status"] for name in ("lumped", "shell", "right")} == {"converged"}
+    front = [found["rows"][number]["model"] for number in found["front"]]
     for name, said in (
         ("crash", "ended by SIGSEGV: out of luck"),
         ("hang", "no answer within 0.3 s"),
         ("garbage", "its answer cannot be read: not one JSON document"),
     ):
-        assert (rows[name]["status"], rows[name]["error"]) == ("failed", None)
-        assert rows[name]["message"] == said
-    front = [found["rows"][number]["model"] for number in found["front"]]
-    assert not {"crash", "hang", "garbage"} & set(front)
+        row = rows[name]
+        assert (row["status"], row["error"], row["message"]) == ("failed", None, said) and name not in front
     sleeper = int((tmp_path / "sleeper").read_text())
     wait_for(lambda: not alive(sleeper), 10.0)  # killed with what it had started
 

@@ -20,6 +20,7 @@ from comparisons.identification.unknowns import Unknown, unknown
 from comparisons.models.grading import lines_on_shapes
 from comparisons.models.spec import Lattice
 from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.parameters import put
 from sheetbench.scenes.objects.grading import of_settings
 
@@ -54,6 +55,19 @@ def fit_of(function, measured, starts_at=1.0):
 
 def anything(measured, predicted):
     """Refuse nothing."""
+
+
+def test_a_deflection_of_the_other_sign_is_refused_with_its_correlation():
+    u = np.array([[-2e-3, 1e-5, -9e-3], [-2.2e-3, 0.0, -1e-2], [-2.4e-3, -1e-5, -1.1e-2]])
+
+    def required(measured, predicted):
+        fit = Fit(Displacements(POINTS[:3], measured), (), Model({}, (np.zeros(2), np.zeros(2)), anything))
+        fit.require_same_way(Prediction(predicted, []))
+
+    required(0.3 * u, u)
+    required(-u, 0.0 * u)
+    with pytest.raises(BadInput, match=r"uz have the opposite sign of the model's \(correlation −1\.00"):
+        required(-2.0 * u, u)
 
 
 def swing(frequency, measured):

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from commands import json_of, run
+from commands import json_of
 
 import fem_reference
 import lumped
-import sheetbench as sb
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Held, Material, PointLoad, Pressure, Scene, Sheet
 
@@ -99,7 +98,7 @@ def test_what_has_no_buckling_load_is_refused_by_name(change, message):
         fem_reference.buckling(square(), "plate", 2)
 
 
-def test_the_verb_pairs_shapes_and_writes_them(tmp_path, capsys):
+def test_the_verb_pairs_shapes(tmp_path, capsys):
     file = tmp_path / "pressed.toml"
     square().save(file)
     arguments = ("modes", str(file), "--lumped", "9", "--elements", "4", "--count", "2", "--buckling")
@@ -109,8 +108,3 @@ def test_the_verb_pairs_shapes_and_writes_them(tmp_path, capsys):
     for pair, ours, theirs in zip(found["pairs"], *factors, strict=True):
         assert (pair["against"], pair["is"]) == ("shell", pair["number"]) and pair["mac"] > 0.99
         assert pair["relative"] == pytest.approx(ours / theirs - 1.0)
-    answer = sb.modes(file, grid=9, elements=4, count=2, buckling=True)
-    np.testing.assert_allclose([one.load_factors for one in answer.buckling], factors, rtol=1e-9)
-    assert len(answer.tables()) == 2
-    assert run("modes", "two-edges-clamped", "--lumped", "3", "--elements", "2", "--buckling") == 2
-    assert "bend the sheet at once" in capsys.readouterr().err

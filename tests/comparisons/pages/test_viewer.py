@@ -101,51 +101,51 @@ def page(browser, tmp_path_factory):  # noqa: F811
 
 
 def test_it_draws_and_turns_by_key_and_by_mouse(page):
+    canvas = page.locator("canvas[tabindex]")
+    box = canvas.bounding_box()
+
+    def changed(before, after):
+        return (np.abs(after - before) > 20).any(axis=2).mean() > 0.01
+
     first = pixels(page, "canvas[tabindex]")
     assert colours(first) > 100
-    page.locator("canvas[tabindex]").focus()
+    canvas.focus()
     page.keyboard.press("ArrowLeft")
     turned = pixels(page, "canvas[tabindex]")
-    assert (np.abs(turned - first) > 20).any(axis=2).mean() > 0.01
-    box = page.locator("canvas[tabindex]").bounding_box()
     page.mouse.move(box["x"] + 300, box["y"] + 200)
     page.mouse.down()
     page.mouse.move(box["x"] + 380, box["y"] + 220, steps=3)
     page.mouse.up()
-    dragged = pixels(page, "canvas[tabindex]")
-    assert (np.abs(dragged - turned) > 20).any(axis=2).mean() > 0.01
+    assert changed(first, turned) and changed(turned, pixels(page, "canvas[tabindex]"))
     page.get_by_role("button", name="Reset view").click()
-    assert (np.abs(pixels(page, "canvas[tabindex]") - first) > 20).any(axis=2).mean() < 0.01
+    assert not changed(first, pixels(page, "canvas[tabindex]"))
 
 
 def test_arrows_of_point_loads():
     scene = load("two-edges-clamped")
-    small, large = (
-        PointLoad(at=at, force=(0, 0, f)) for at, f in (((0.1, 0.1), 1e-4), ((0.188, 0.09), -2.0))
-    )
     mesh = plan_mesh(scene, 4)
-    still = np.zeros_like(mesh.points)
-    weak, strong = sheets.forces(mesh.points, still, scene.replace(loads=(small, large)))
+
+    def forces(*loads):
+        points = [PointLoad(at=at, force=(0, 0, force)) for at, force in loads]
+        return sheets.forces(mesh.points, np.zeros_like(mesh.points), scene.replace(loads=points))
+
+    weak, strong = forces(((0.1, 0.1), 1e-4), ((0.188, 0.09), -2.0))
     assert strong["at"] == [0.188, 0.09, 0.0] and strong["along"] == pytest.approx([0, 0, -0.16 * 0.188])
     assert weak["along"] == pytest.approx([0, 0, 0.4 * 0.16 * 0.188])
     assert mesh.points[strong["point"]][:2] == pytest.approx([0.188, 0.094])
-    assert sheets.forces(mesh.points, still, scene) == []
-    nothing = scene.replace(loads=(PointLoad(at=(0.1, 0.1), force=(0, 0, 0)),))
-    assert sheets.forces(mesh.points, still, nothing) == []
+    assert forces() == forces(((0.1, 0.1), 0)) == []
 
 
 def test_arrows_of_edge_loads_and_pressures():
     """Along the edge; all over the sheet, along the normal that it has where it is turned about y."""
-    scene = load("two-edges-clamped")
-    mesh, turn = plan_mesh(scene, 4), 0.7
-    x, size = mesh.points[:, 0], 0.188
+    scene, turn, size = load("two-edges-clamped"), 0.7, 0.188
+    mesh = plan_mesh(scene, 4)
+    x = mesh.points[:, 0]
     turned = np.column_stack([x * (np.cos(turn) - 1.0), np.zeros_like(x), x * np.sin(turn)])
     pulled = EdgeLoad("x1", force_per_length=(3.0, 0.0, 0.0))
     found = sheets.forces(mesh.points, turned, scene.replace(loads=(pulled, Pressure(-5.0))))
     along_edge, pressed = found[:5], found[5:]
-    assert [one["at"][:2] for one in along_edge] == [
-        [size, share * size] for share in (0, 0.25, 0.5, 0.75, 1)
-    ]
+    assert [one["at"][:2] for one in along_edge] == [[size, 0.25 * n * size] for n in range(5)]
     assert all(one["along"] == pytest.approx([0.1 * size, 0.0, 0.0]) for one in along_edge)
     expected = 0.08 * size * np.array([np.sin(turn), 0.0, -np.cos(turn)])
     assert len(pressed) == 16 and all(one["along"] == pytest.approx(expected, abs=1e-9) for one in pressed)

@@ -23,12 +23,6 @@ def hurried(monkeypatch):
     monkeypatch.setattr(executors, "PATIENCE", 1.0)
 
 
-def test_no_scheduler_is_said_in_a_line():
-    refused = pytest.raises(BadInput, match=r"--scheduler = 'tcp://127\.0\.0\.1:9': no scheduler there")
-    with refused, pool_of("tcp://127.0.0.1:9"):
-        pass
-
-
 def cluster(workers):
     return LocalCluster(n_workers=workers, processes=False, dashboard_address=None, protocol="tcp")
 

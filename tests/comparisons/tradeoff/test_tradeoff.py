@@ -10,9 +10,9 @@ from commands import run
 from verbs import run_here
 
 from comparisons.models.spec import Elements, External, Lattice, lattices, parse, references
-from comparisons.sweep import load, task
+from comparisons.sweep import load
 from comparisons.sweep.peak_memory import with_peak_memory
-from comparisons.sweep.solved import Ask, Solved
+from comparisons.sweep.solved import Solved
 from comparisons.tradeoff import statics
 from comparisons.tradeoff.motion import dynamic_tradeoff
 from sheetbench import scenes
@@ -56,18 +56,6 @@ def test_lists_of_sizes_become_rows_with_near_square_cells():
         references("shell", ["x"])
 
 
-def test_a_measured_row_says_what_it_cost(scene):
-    ask = Ask(scene, Lattice((9, 9, 2), "consistent"), repeats=3)
-    row = task.solve(**ask.task.arguments)
-    assert row["status"] == "converged" and row["unknowns"] == 384
-    cost = row["cost"]
-    assert Solved(ask, "converged", row=row).seconds == pytest.approx(np.median(cost["samples"]))
-    assert len(cost["samples"]) >= 3 and cost["peak_memory_bytes"] >= 0
-    assert {"python", "processor", "cpu_count"} <= set(cost["machine"])
-    assert {"sheetbench", "numpy", "scipy"} <= set(cost["versions"])
-    assert row["probes"]["P4"][2] == pytest.approx(-0.01346, rel=1e-2)
-
-
 def test_memory_is_that_of_the_run(scene):
     _, memory = with_peak_memory(lambda: np.ones(8_000_000).sum())
     assert memory == pytest.approx(64e6, rel=0.1)
@@ -93,8 +81,11 @@ def test_a_tradeoff_has_all_its_rows(finished):
     assert [row["model"] for row in rows] == ["lumped"] * 4 + ["shell"] * 2
     for row in rows:
         assert row["status"] == "converged" and 0.0 < row["error"] < 0.2
-        assert row["solve_seconds"]["median"] > 0.0 and len(row["solve_seconds"]["samples"]) >= 2
-        assert row["peak_memory_bytes"] >= 0 and row["machine"] and row["versions"]
+        samples = row["solve_seconds"]["samples"]
+        assert len(samples) >= 2 and row["solve_seconds"]["median"] == pytest.approx(np.median(samples))
+        assert min(samples) > 0.0 and row["peak_memory_bytes"] >= 0
+        assert {"python", "processor", "cpu_count"} <= set(row["machine"])
+        assert {"sheetbench", "numpy", "scipy"} <= set(row["versions"])
     assert rows[1]["error"] < rows[3]["error"]  # consistent and uniform
     assert 0.0 < document["reference"]["uncertainty"] < 0.01
     errors = [rows[i]["error"] for i in document["front"]]

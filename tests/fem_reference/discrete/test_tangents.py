@@ -7,6 +7,7 @@ from rod_cases import SHEET, chain, driven
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
+from fem_reference.solid.materials import LAWS
 from fem_reference.surface.mesh import rectangle
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.scenes import Curved, Hinged, Material, Scene, Sheet
@@ -44,7 +45,7 @@ def sheets():
     for law in STRAIN_LAWS:
         mesh = rectangle(loaded(law).sheet, (2, 2), graded=True)
         yield f"shell, {law}", lambda mesh=mesh, law=law: DiscreteShell(mesh, loaded(law), law=law)
-        for layers in (1, 2):
+        for layers in (1, 2) if law in LAWS else ():
             name = f"solid, {law}, {layers}"
             yield name, lambda mesh=mesh, law=law, n=layers: DiscreteSolid(mesh, loaded(law), n, law)
     mesh = rectangle(SHEET, 2)

@@ -131,7 +131,6 @@ def settling():
 
 
 def test_energy_is_kept_in_account(settling):
-    """Weight that comes on over time does work; an edge that moves too."""
     ramp = FactorTable(time=(0.0, 0.05), factor=(0.0, 1.0))
     raised = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
     scene = settling.replace(

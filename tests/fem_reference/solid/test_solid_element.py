@@ -5,9 +5,9 @@ from itertools import product
 
 import numpy as np
 import pytest
+from cases import distorted, sheet
 from rubbers import material
-from skfem import ElementHex2, MeshQuad
-from solid_cases import block
+from skfem import ElementHex2
 
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import Bricks, reference, shape, tangent
@@ -17,12 +17,8 @@ from fem_reference.surface.mesh import rectangle
 pytestmark = pytest.mark.smoke
 
 
-def distorted():
-    mesh = MeshQuad.init_tensor(*2 * [np.linspace(0.0, 1.0, 4)])
-    mesh = mesh.with_boundaries(rectangle(block().sheet, 3).boundaries)
-    moved, inner = mesh.p.copy(), mesh.interior_nodes()
-    moved[:, inner] += np.random.default_rng(3).uniform(-0.08, 0.08, (2, len(inner)))
-    return MeshQuad(moved, mesh.t).with_boundaries(mesh.boundaries)
+def block(thickness=0.4, poisson=0.3):
+    return sheet(1.0, 1.0, thickness, 1e6, poisson, held="")
 
 
 @pytest.fixture
@@ -41,7 +37,6 @@ def warped(rng):
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("part", ["distortion", "volume"])
 def test_laws_are_triads(law, part, rng):
-    """Stress is the slope of energy, tangent the slope of stress."""
     function, strain, step = getattr(LAWS[law], part), 0.1 * rng.normal(size=(4, 6)), 1e-6
     if part == "distortion":
         function = partial(function, material(law))
@@ -147,7 +142,9 @@ def test_constant_strain_is_exact_in_a_warped_brick(stretched, rng):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_rigid_motion_costs_nothing(law, rng):
-    sheet = DiscreteSolid(distorted(), block(0.05).replace(material=material(law, 0.49, 1e6)), law=law)
+    sheet = DiscreteSolid(
+        distorted(block().sheet), block(0.05).replace(material=material(law, 0.49, 1e6)), law=law
+    )
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
     x = sheet.columns.positions
@@ -161,8 +158,7 @@ def test_rigid_motion_costs_nothing(law, rng):
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.4999])
 @pytest.mark.parametrize("mesh", ["one", "distorted"])
 def test_six_zero_modes(thickness, layers, poisson, mesh):
-    """The free solid has six rigid motions and no spurious mode."""
-    plan = distorted() if mesh == "distorted" else rectangle(block().sheet, 1)
+    plan = distorted(block().sheet) if mesh == "distorted" else rectangle(block().sheet, 1)
     sheet = DiscreteSolid(plan, block(thickness, poisson), layers)
     rest = np.zeros(sheet.size)
     stiffness = sheet.tangent(sheet.shape(rest, 0.0), rest, 0.0, 0.0)

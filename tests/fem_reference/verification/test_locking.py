@@ -13,7 +13,6 @@ from sheetbench.answers.solution import Status
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["shell", "plate"])
 def test_thin_to_thick_within_2_percent(model):
-    """h/a from 1e-5 to 0.2."""
     rows = list(run([f"locking-{model}"]))
     ratios = [1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.2]
     assert [row.quantity for row in rows] == [f"w D/qL⁴ at h/a = {ratio:g}, ν = 0.3" for ratio in ratios]
@@ -24,14 +23,12 @@ def test_thin_to_thick_within_2_percent(model):
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("poisson", [0.4999, 0.48])
 def test_solid_within_1_percent_at_the_seeds_slenderness(poisson):
-    """h/a = 3/188."""
     coarse, fine = (deflection("solid", "clamped", 3 / 188, n, poisson) for n in (8, 12))
     assert coarse == pytest.approx(fine, rel=0.01)
 
 
 @pytest.mark.slow
 def test_solid_within_1_percent_as_it_becomes_incompressible():
-    """ν = 0.3, 0.48, 0.499, 0.4999 and h/a from 1e-3 to 0.2."""
     rows = list(run(["locking-solid"]))
     assert len(rows) == 20
     assert max(row.relative or 0.0 for row in rows) < 0.01

@@ -69,7 +69,7 @@ def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
         warnings.simplefilter("ignore")
         try:
             scene = scenes.Scene.model_validate(data)
-            springs = resolve(scene, Lattice(grid=5)).calibrated()
+            springs = resolve(scene, Lattice(grid=5)).springs
             found = lumped.solve(scene, springs)
             moved = found.displacement(scene.probe_points())
         except (scenes.BadInput, ValidationError) as refused:

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import sheet
-from scipy.integrate import solve_bvp
+from cases import elastica_tip, sheet
 
 import lumped
 from comparisons.models.resolve import resolve
@@ -13,33 +12,6 @@ from sheetbench.scenes import load
 
 LENGTH, WIDTH, THICK, YOUNG, CURVATURE, RIGIDITY = 0.2, 0.016, 2e-3, 2e7, 9.0, 3e-3
 PER_LENGTH = 1200.0 * WIDTH * THICK + 2 * 0.03  # [kg/m]
-
-
-def make_scene(young, segments):
-    """The catalogue's actuated edge without weight, of a material and with so many segments."""
-    base = load("actuated-edge")
-    chain = base.actuators[0].replace(segments=segments)
-    material = base.material.replace(young=young)
-    return base.replace(material=material, actuators=(chain,), gravity=None)
-
-
-def composite_elastica():
-    """Tip (x, z) [m] of the inextensible strip and its two rods, clamped level, under their weight:
-    (2 EI + E b h³/12) θ'' = w (L − s) cos θ, θ(0) = 0, (2 EI + E b h³/12) θ'(L) = 2 EI κ₀, ν = 0."""
-    sheet, weight = YOUNG * WIDTH * THICK**3 / 12.0, PER_LENGTH * 9.81
-    whole = 2.0 * RIGIDITY + sheet
-
-    def slopes(s, y):
-        return [y[1], weight * (LENGTH - s) * np.cos(y[0]) / whole, np.cos(y[0]), np.sin(y[0])]
-
-    def ends(start, end):
-        return [start[0], start[2], start[3], end[1] - 2.0 * RIGIDITY * CURVATURE / whole]
-
-    s = np.linspace(0.0, LENGTH, 101)
-    guess = np.array([5.0 * s, np.full_like(s, 5.0), s, 2.5 * s**2])
-    found = solve_bvp(slopes, ends, s, guess, tol=1e-10, max_nodes=100_000)
-    assert found.success
-    return found.y[2:, -1]
 
 
 @pytest.mark.sweep
@@ -56,7 +28,9 @@ def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
     solution = solve(resolve(strip, Lattice(grid=grid)))
     assert solution.balance.holds
     tip = solution.displacement([[LENGTH, 0.0]])[0]
-    x, z = composite_elastica()
+    whole = 2.0 * RIGIDITY + YOUNG * WIDTH * THICK**3 / 12.0  # of both chains and the strip, ν = 0
+    bent = 2.0 * RIGIDITY * CURVATURE / whole
+    x, z = elastica_tip(whole, LENGTH, weight=PER_LENGTH * 9.81, curvature=bent)
     assert np.abs(tip - [x - LENGTH, 0.0, z]).max() < 1e-3 * z
 
 
@@ -66,8 +40,8 @@ def test_a_strip_between_two_chains_is_the_composite_elastica(grid, segments):
 def test_parts_keep_curvatures_and_forces_of_the_segments(base, segments):
     """A curvature a joint, held against the same pieces written out for a chain of as many segments as parts;
     forces and moments of segments, against those of the parts about the segment's middle."""
-    scene = make_scene(54.5e6, segments)
-    chain = scene.actuators[0].replace(base=base)
+    scene = load("actuated-edge").replace(gravity=None)
+    chain = scene.actuators[0].replace(base=base, segments=segments)
     chain = chain.replace(curvature=tuple(1.0 + np.arange(chain.joints)))
     whole = lattice_answer(scene, chain)
     parts = -(-8 // segments)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import sheet
+from cases import calibrated, sheet
 
 import lumped
 from lumped.calibration.cell_by_cell import each_cell
@@ -27,13 +27,6 @@ SHEETS = {
 }
 
 
-def calibrated(name):
-    document, grid, grading, method = SHEETS[name]
-    scene = Scene.model_validate(document)
-    cells = lumped.sections_of(scene, grid, grading)
-    return lumped.calibrate(scene.sheet, scene.material, grid, method, grading=grading, cells=cells)
-
-
 @pytest.mark.parametrize("gradients", [False, True])
 def test_a_cells_springs_are_those_of_a_sheet_of_such_cells(gradients):
     """Whatever cells are beside it: no cell's fixed point, fibres or bounds reach another's."""
@@ -54,7 +47,8 @@ def test_a_cells_springs_are_those_of_a_sheet_of_such_cells(gradients):
 
 @pytest.mark.parametrize("name", SHEETS)
 def test_a_table_is_read_as_it_was_written(name):
-    found = calibrated(name)
+    document, *grids, method = SHEETS[name]
+    found = calibrated(Scene.model_validate(document), *grids, method=method)
     table = SpringSet.model_validate(found.springs.model_dump())
     assert table == found.springs == Springs.read(table).table()
     require_cells(table, found.grid, "")
@@ -63,7 +57,6 @@ def test_a_table_is_read_as_it_was_written(name):
 
 
 def test_an_even_sheet_is_calibrated_once():
-    """A second call costs no closed form; another sheet has its own."""
     plan, material = Sheet(0.1, 0.1, 0.002), Material(1e6, 0.3, 1e3)
     first = lumped.calibrate(plan, material, 5)
     assert lumped.calibrate(plan, material, 5) is first

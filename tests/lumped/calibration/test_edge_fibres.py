@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cases import relative, sheet
+from cases import calibrated, relative, sheet
 
 import fem_reference
 import lumped
@@ -20,11 +20,6 @@ def strip(width, angle, fibres=STRONG, length=0.1, **keys):
     material = Material(kind="orthotropic", density=1e3, angle=float(np.radians(angle)), **fibres)
     scene = sheet(length, width, THICKNESS, material=material, weight=9.81)
     return scene.replace(**keys) if keys else scene
-
-
-def calibrated(scene, grid, grading=0.0):
-    cells = lumped.sections_of(scene, (*grid, 2), grading)
-    return lumped.calibrate(scene.sheet, scene.material, grid, cells=cells, grading=grading)
 
 
 def bent(scene, springs, twisting, small=1e-10):

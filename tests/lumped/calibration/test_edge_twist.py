@@ -6,7 +6,7 @@ from cases import sheet
 
 import lumped
 from lumped.assembly import Assembly
-from lumped.calibration.edge_twist import edge_factors, layer_width
+from lumped.calibration.edge_twist import edge_factors
 from sheetbench.scenes import PointLoad, load
 
 SEED = load("two-edges-clamped")
@@ -37,7 +37,7 @@ def factor(cells, both):
     sheared = 5 / 6 * material.young / 2 / (1 + material.poisson) * seed.thickness
     shear = 1 / (1 / sheared + width**2 / 12 / rigidity)
     twisting = rigidity * (1 - material.poisson) / 2
-    return edge_factor(cells, width, twisting, shear, 1 / 3, layer_width(seed.thickness), both)
+    return edge_factor(cells, width, twisting, shear, 1 / 3, seed.thickness / np.sqrt(10.0), both)
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from cases import calibrated
 from scipy.sparse.linalg import spsolve
 
 import lumped
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.calibration import plan_spacing
-from lumped.calibration.edge_twist import layer_width
 from lumped.spring_constants import Springs, of_edge_cells
 from sheetbench.scenes import Cells, Scene, SpringSet
 from sheetbench.scenes.objects.grid import grid_of
@@ -100,7 +100,7 @@ def lost(strip, method):
 def test_a_strip_at_any_angle_loses_the_width_of_twist_that_a_plate_loses(angle, cells, without):
     """h/√10 a side, within 8 % in cells of half to twice the thickness; without it 18 to 45 % less."""
     strip = Strip(angle, cells * THICKNESS, RUBBER)
-    target = layer_width(THICKNESS)
+    target = THICKNESS / np.sqrt(10.0)
     assert lost(strip, "consistent") == pytest.approx(target, rel=0.08)
     assert lost(strip, "consistent-interior") < (1.0 - without) * target
 
@@ -129,11 +129,6 @@ def test_a_moment_along_the_rim_bends_the_strip_as_it_bends_the_sheet():
 
 SHAPES = ("octagon", "parallelogram", "round-hole", "hole-on-lines")
 SHEETS = [scene for scene in drawn() if scene.name in SHAPES]
-
-
-def calibrated(scene, masses):
-    grid = grid_of(scene.sheet, masses)
-    return lumped.calibrate(scene.sheet, scene.material, grid, cells=lumped.sections_of(scene, grid))
 
 
 @pytest.mark.parametrize("scene", SHEETS, ids=lambda scene: scene.name)

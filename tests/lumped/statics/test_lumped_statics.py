@@ -153,22 +153,15 @@ def with_springs(scene, **springs):
 def test_per_direction_stiffness_is_the_seeds_law_and_said():
     scene = SEED["one-edge-clamped"]
     plain = lumped.solve(with_springs(scene))
-    k = plain.settings and lumped.calibrate(scene.sheet, scene.material, (9, 9)).springs.axial
+    k = lumped.calibrate(scene.sheet, scene.material, (9, 9)).springs.axial
     unequal = with_springs(scene, axial=PerDirection(x=2 * k, y=k, z=k))
     solution = lumped.solve(unequal)
     assert solution.status is Status.CONVERGED and "unsymmetric" in solution.message
     stiffer = abs(vertical(scene, solution)[2]) / abs(vertical(scene, plain)[2])
     assert 0.5 < stiffer < 0.85
-    equal = lumped.solve(with_springs(scene, axial=PerDirection(x=k, y=k, z=k)))
-    assert np.array_equal(equal.displacement([[0.188, 0.1]]), plain.displacement([[0.188, 0.1]]))
 
 
 # ---- ends that are not a plain stable equilibrium --------------------------------------------------
-
-
-def test_strain_outside_the_model_is_said():
-    scene = softer(SEED["one-edge-clamped"], 1e4)
-    assert solve(scene).status is Status.STRAIN_OUTSIDE_MODEL
 
 
 def test_no_stiffness_against_twisting_is_singular_not_a_crash():

@@ -91,17 +91,13 @@ def test_an_admissible_displacement_is_its_own_nearest(layers):
     np.testing.assert_allclose(miss, 0.0, atol=1e-13)
 
 
-def far_below_zero():
-    """Twenty soft eigenvalues before one of −1000; unsymmetric."""
-    values = np.concatenate([1e-3 * np.arange(1.0, 21.0), np.arange(1.0, 40.0), [-1000.0]])
-    return sp.csc_array(np.diag(values) + np.diag(np.full(59, 1e-4), 1))
-
-
 @pytest.mark.parametrize("library", ["rslab", "superlu"])
 def test_a_negative_eigenvalue_behind_the_nearest_ones_is_not_taken_for_stability(monkeypatch, library):
+    """Twenty soft eigenvalues before one of −1000; unsymmetric."""
     if library == "superlu":
         monkeypatch.setattr(direct, "rslab", None)
-    matrix, made = far_below_zero(), []
+    values = np.concatenate([1e-3 * np.arange(1.0, 21.0), np.arange(1.0, 40.0), [-1000.0]])
+    matrix, made = sp.csc_array(np.diag(values) + np.diag(np.full(59, 1e-4), 1)), []
     factor = DirectSolver(symmetric=False).factor(matrix, lambda: made.append(1))
     assert factor.negative_real() is None and len(made) == 1
     assert DirectSolver(symmetric=False).factor(abs(matrix)).negative_real() == 0

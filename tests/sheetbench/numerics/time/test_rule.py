@@ -8,7 +8,7 @@ import pytest
 from sheetbench.errors import BadInput
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import StepFailed
-from sheetbench.numerics.time.rule import BACKWARD_EULER, MidpointStep, generalised, step_of
+from sheetbench.numerics.time.rule import BACKWARD_EULER, generalised, step_of
 
 
 def stepped(rule, turn, state):
@@ -57,22 +57,6 @@ def test_a_step_in_its_last_displacement_is_the_rule(rule):
     found = [u, h * step.velocity(u), h**2 * a, h**2 * step.algorithm(a)]
     assert found == pytest.approx(stepped(rule, turn, state), abs=1e-14)
     assert step.algorithm(step.acceleration(step.guess)) == pytest.approx(algorithm)
-
-
-def test_a_midpoint_step_keeps_an_oscillators_energy():
-    h, u, v, stiffness = 0.02, 0.3, -10.0, 1225.0
-    step = MidpointStep(h, u, v)
-    low, high = 0.0, 1.0  # the balance c (u₁ − u₀) + … is linear in u₁
-
-    def balance(end):
-        return step.acceleration(end) + stiffness * step.place(end)
-
-    end = low - balance(low) * (high - low) / (balance(high) - balance(low))
-    assert 0.5 * (v + step.velocity(end)) == pytest.approx(step.rate(end))
-    energies = [
-        0.5 * speed**2 + 0.5 * stiffness * place**2 for place, speed in ((u, v), (end, step.velocity(end)))
-    ]
-    assert energies[1] == pytest.approx(energies[0], rel=1e-13)
 
 
 def test_a_radius_that_is_none_is_refused():

@@ -1,6 +1,7 @@
 """What a scene's author gets wrong is said in the scene's words: near misses, lists from 1, no tracebacks."""
 
 import pytest
+from scene_files import refusal
 
 from sheetbench import scenes
 from sheetbench.scenes import SceneError
@@ -10,17 +11,6 @@ pytestmark = pytest.mark.smoke
 
 GOOD = scenes.catalogue()["actuated-edge"].read_text(encoding="utf-8")
 LOAD = '[[load]]\nkind = "point"\nat = [0.1, 0.1]\nforce = [0.0, 0.0, 0.1]\n'
-
-
-def refusal(folder, text):
-    """The one line with which the text is refused, without the file's name."""
-    path = folder / "scene.toml"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(SceneError) as caught:
-        scenes.load(path)
-    said = str(caught.value)
-    assert "\n" not in said and said.startswith(f"{path}: ")
-    return said.removeprefix(f"{path}: ")
 
 
 def with_load(keys):

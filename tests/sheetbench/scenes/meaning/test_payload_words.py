@@ -1,6 +1,7 @@
 """[[mass]] as it is written, read back and refused."""
 
 import pytest
+from scene_files import written
 
 import sheetbench as sb
 from sheetbench.errors import SceneError
@@ -30,9 +31,7 @@ TIP = BASE + '[[mass]]\nat = ["20 cm", 0.05]\nmass = "5 g"\n'
 
 
 def read(tmp_path, text):
-    path = tmp_path / "scene.toml"
-    path.write_text(text, encoding="utf-8")
-    return load(path)
+    return load(written(tmp_path, text))
 
 
 def test_a_mass_is_read_written_and_told(tmp_path):

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 from rubbers import LAWS, rubber
-from scene_files import GOOD, written
+from scene_files import GOOD, refusal
 
 import lumped
-import sheetbench as sb
 from sheetbench import scenes
-from sheetbench.scenes import Material, Relaxation, Scene, SceneError, Sheet, load
+from sheetbench.scenes import Material, Relaxation, Scene, SceneError, Sheet
 from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.words import in_words
 
@@ -41,14 +40,6 @@ def test_young_and_poisson_are_those_of_the_energy_at_small_strains(law):
     # a central difference: h² of the fourth derivatives, here up to 30 times the second ones
     assert lame / (2.0 * (lame + shear)) == pytest.approx(0.4, rel=1e-4)
     assert 2.0 * shear * 1.4 == pytest.approx(material.young, rel=1e-4)
-
-
-@pytest.mark.parametrize("law", LAWS)
-def test_a_rubber_comes_back_from_its_file(law, tmp_path):
-    scene = sb.load("two-edges-clamped").replace(material=rubber(law))
-    scene.save(tmp_path / "scene.toml")
-    assert sb.load(tmp_path / "scene.toml") == scene
-    assert law in dict(in_words(scene))["material"]
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -94,15 +85,13 @@ REFUSED = {
 
 @pytest.mark.parametrize("said", REFUSED)
 def test_constants_that_make_no_rubber_are_refused_with_file_key_and_value(said, tmp_path):
-    path = tmp_path / "scene.toml"
     material = {"poisson": 0.4, "density": 1000.0, **REFUSED[said]}
     springs = material.pop("springs", "")
     lines = [f"{key} = {value!r}" for key, value in material.items()]
     before = "[sheet]\nlength_x = 0.1\nlength_y = 0.1\nthickness = 0.001\n"
-    path.write_text(f'name = "a"\n{before}[material]\n' + "\n".join([*lines, springs]) + "\n")
-    with pytest.raises(sb.SceneError) as refused:
-        sb.load(path)
-    assert str(refused.value).startswith(f"{path}: ") and said in str(refused.value)
+    assert said in refusal(
+        tmp_path, f'name = "a"\n{before}[material]\n' + "\n".join([*lines, springs]) + "\n"
+    )
 
 
 FIBRES = {"kind": "orthotropic", "young_1": 5e7, "young_2": 5e6, "poisson_12": 0.3, "shear_12": 3e6}
@@ -153,12 +142,6 @@ def test_other_constants_scale_with_young(tmp_path):
     assert material.replace(young_1=2e8).young == pytest.approx(2.0 * material.young)
 
 
-def test_a_file_says_what_an_object_does(tmp_path):
-    scene = scene_of({"shape": ROOT, "angle": 0.5}, angle=0.1, shear_23=1e6)
-    scene.save(tmp_path / "fibres.toml")
-    assert load(tmp_path / "fibres.toml") == scene and not scene.uniform
-
-
 def series(*branches):
     return "\n".join(f"[[material.relaxation]]\nshare = {share}\ntime = {time}" for share, time in branches)
 
@@ -180,12 +163,8 @@ DAMPERS_REFUSED = {
 @pytest.mark.parametrize("fault", DAMPERS_REFUSED)
 def test_what_no_material_does_is_refused_by_key_and_value(tmp_path, fault):
     lines, named = DAMPERS_REFUSED[fault]
-    path = written(tmp_path, GOOD.replace("density = 1678.0", f"density = 1678.0\n{lines}"))
-    with pytest.raises(SceneError) as caught:
-        scenes.load(path)
-    assert str(caught.value).startswith(f"{path}: material")
-    for part in named:
-        assert part in str(caught.value)
+    said = refusal(tmp_path, GOOD.replace("density = 1678.0", f"density = 1678.0\n{lines}"))
+    assert said.startswith("material") and all(part in said for part in named)
 
 
 @pytest.mark.parametrize("loss_factor", [0.02, 0.12, 0.5])
@@ -208,8 +187,10 @@ def test_a_relaxing_modulus_is_its_prony_series():
     material = Material(1e6, 0.48, 1e3, relaxation=(Relaxation(0.2, 0.05), Relaxation(0.3, 1.0)))
     time = np.array([0.0, 0.1, 50.0])
     series = 2e6 * (1.0 - 0.2 * (1.0 - np.exp(-time / 0.05)) - 0.3 * (1.0 - np.exp(-time)))
-    assert 1e6 * material.branches.modulus(time) == pytest.approx(series, rel=1e-12)
-    storage, _ = material.branches.storage_and_loss(1e6)
+    branches = material.branches
+    relaxing = np.exp(-np.divide.outer(time, branches.times)) @ branches.stiffness
+    assert 1e6 * (1.0 + relaxing) == pytest.approx(series, rel=1e-12)
+    storage, _ = branches.storage_and_loss(1e6)
     assert storage == pytest.approx(2.0, rel=1e-6)
 
 

@@ -5,7 +5,7 @@ import warnings
 from pathlib import Path
 
 import pytest
-from scene_files import GOOD, written
+from scene_files import GOOD, refusal, written
 
 import sheetbench as sb
 from sheetbench.scenes import Implausible
@@ -127,9 +127,7 @@ def test_a_file_takes_quantities_wherever_a_number_has_a_unit(tmp_path):
     ],
 )
 def test_a_wrong_unit_is_refused_where_it_stands(tmp_path, text, stands, said):
-    with pytest.raises(sb.SceneError) as caught:
-        sb.load(written(tmp_path, WITH_UNITS.replace(text, stands)))
-    assert said in str(caught.value)
+    assert said in refusal(tmp_path, WITH_UNITS.replace(text, stands))
 
 
 def test_signatures_name_every_key_with_its_type():
@@ -161,7 +159,6 @@ def test_a_scene_shows_itself_on_a_few_lines():
 
 @pytest.mark.parametrize("module", ["__main__", "studies.mine", "lumped"])
 def test_an_implausible_scene_made_in_python_is_warned_of_by_the_verb_that_reads_it(module):
-    """Whatever the module is called that makes it."""
     mine = {"__name__": module, "sb": sb, "sheet": sb.Sheet(120, 40, 2), "material": MATERIAL}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -193,22 +190,16 @@ def test_an_implausible_scene_made_in_python_is_warned_of_by_the_verb_that_reads
     ],
 )
 def test_what_is_not_modelled_is_refused_as_such(tmp_path, text, key):
-    with pytest.raises(sb.SceneError) as caught:
-        sb.load(written(tmp_path, GOOD.replace("[probes]", text)))
-    assert WISHES[key] in str(caught.value) and PAGE in str(caught.value)
-    assert "did you mean" not in str(caught.value) and "unknown key" not in str(caught.value)
+    said = refusal(tmp_path, GOOD.replace("[probes]", text))
+    assert WISHES[key] in said and PAGE in said
+    assert "did you mean" not in said and "unknown key" not in said
 
 
-@pytest.mark.parametrize(
-    ("ask", "message"),
-    [
-        (lambda: setattr(MATERIAL, "young", 1.0), r"Material.young cannot be changed.*replace\(young=…\)"),
-        (lambda: sb.load("two-edge-clamped"), "did you mean two-edges-clamped"),
-    ],
-)
-def test_a_refusal_says_what_is_meant(ask, message):
-    with pytest.raises(sb.SceneError, match=message):
-        ask()
+def test_a_refusal_says_what_is_meant():
+    with pytest.raises(sb.SceneError, match=r"Material.young cannot be changed.*replace\(young=…\)"):
+        MATERIAL.young = 1.0
+    with pytest.raises(sb.SceneError, match="did you mean two-edges-clamped"):
+        sb.load("two-edge-clamped")
 
 
 def test_no_key_that_a_scene_has_is_said_not_to_be_modelled():

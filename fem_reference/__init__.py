@@ -48,11 +48,11 @@ def solve(
     >>> solution.status, solution.displacement([[0.188, 0.188]]).round(4)
     (<Status.CONVERGED: 'converged'>, array([[-0.0004, -0.0004, -0.0135]]))
     """
-    known, scene = options(model), scene_of(scene)
+    check(model, requested)
     from fem_reference import sheets, statics
 
-    requested = sheets.with_defaults(scene, known, requested)
-    check(model, requested)
+    scene = scene_of(scene)
+    requested = sheets.with_defaults(scene, model, requested)
     if near is not None:
         if model != "shell":
             raise BadInput(f"{model}: is not begun near a shape; the shell is")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -92,13 +93,13 @@ def solid(
 SHEETS: dict[str, Callable[..., DiscreteElements]] = {"plate": plate, "shell": shell, "solid": solid}
 
 
-def with_defaults(scene: Scene, known: Collection[str], requested: Mapping[str, Any]) -> dict[str, Any]:
+def with_defaults(scene: Scene, model: str, requested: Mapping[str, Any]) -> dict[str, Any]:
     """Return the options requested and, of those that a model knows, the law of the scene's rubber, and that
     a mesh is not graded which is the user's own, or whose edges are all clamped.
 
     These have no layer of twist (`edge_layer`); elements finer towards them are only larger elsewhere: with 8
     a sheet bent by less than its thickness is 3 to 30 times as far off, and its error bars miss."""
-    decided: dict[str, Any] = {}
+    known, decided = signature(SHEETS[model]).parameters, dict[str, Any]()
     if scene.material.law is not None:
         decided["law"] = scene.material.law
     if scene.sheet.mesh is not None or not (scene.twisting_edges() or borders_of(scene)):

@@ -9,8 +9,8 @@ load.
 Lanczos iterations (ARPACK) on (K − σM)⁻¹ with the shift σ < 0 below the spectrum, so that a free sheet's
 singular K needs no special care.
 
-The rigid motions that the supports leave free are counted exactly (the null space of their values at
-the held unknowns); so many lowest modes, whose frequency is zero, are left out and their number is reported.
+As many lowest modes as supports leave rigid motions free, whose frequency is zero, are left out, and their
+number is reported.
 
 Plate and shell are divided finer towards the edges, over `REACH` of their elements: there the clamps' ends
 have singularities, but modes have waves in the middle too. Of the first ten frequencies of Habibi et al.'s
@@ -26,7 +26,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -44,7 +43,7 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, require_static, scene_of
 
 REACH = 0.375  # of the grading
 
@@ -100,15 +99,14 @@ def modes(
         if model != "shell" or scene.actuators:
             raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
     scene = scene.replace(actuators=())
-    options = with_defaults(scene, signature(SHEETS[model]).parameters, options)
+    options = with_defaults(scene, model, options)
     along_x, along_y = divisions(scene.sheet, elements)
     with one_blas_thread():
         sheet = SHEETS[model](scene, (along_x, along_y), **options, reach=REACH)
-        q, at, rigid = np.zeros(sheet.size), 0.0, 0
         if about == "deformed":
-            q, at = _equilibrium(sheet), 1.0
+            q, at, rigid = _equilibrium(sheet), 1.0, 0
         else:
-            rigid = _free_rigid_motions(sheet)
+            q, at, rigid = np.zeros(sheet.size), 0.0, len(free_rigid_motions(scene))
         shape = sheet.shape(q, at)
         stiffness = sheet.tangent(shape, sheet.forces(shape), 0.0, 0.0)
         basis = sheet.basis(q, at)
@@ -133,22 +131,6 @@ def _slow(scene: Scene) -> float:
     """An angular frequency [rad/s] of the order of the sheet's lowest: √(E h²/12ρ)/a², a the longer side."""
     material, sheet = scene.material, scene.sheet
     return np.sqrt(material.young / (12.0 * material.density)) * sheet.thickness / max(sheet.lengths) ** 2
-
-
-def rigid_motions(sheet: DiscreteElements) -> np.ndarray:
-    """Return the flat sheet's rigid motions (N, 6), along the axes and about them through its middle."""
-    arms = np.pad(sheet.plan.nodes - sheet.plan.nodes.mean(axis=0), ((0, 0), (0, 1)))
-    still, up = np.zeros_like(arms), np.tile([0.0, 0.0, 1.0], (len(arms), 1))
-    motions = [(still + axis, still) for axis in np.eye(3)]
-    motions += [(np.cross(axis, arms), np.cross(axis, up)) for axis in np.eye(3)]
-    return np.array([sheet.of_vectors(*motion) for motion in motions]).T
-
-
-def _free_rigid_motions(sheet: DiscreteElements) -> int:
-    """How many independent rigid motions vanish at all that is held."""
-    rigid = rigid_motions(sheet)
-    held = sheet.held(rigid / np.linalg.norm(rigid, axis=0), 0.0)
-    return 6 - int(np.sum(np.linalg.svd(held, compute_uv=False) > 1e-9))
 
 
 def _equilibrium(sheet: DiscreteElements) -> np.ndarray:

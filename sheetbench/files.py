@@ -88,21 +88,15 @@ def only_writer(folder: Path) -> Iterator[None]:
     """
     path = folder / LOCK
     with writing(path):
-        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | NOT_FOLLOWED, 0o666)
+        file = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT | NOT_FOLLOWED, 0o666), "r+")
+    with file:
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            with writing(path):
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            os.close(descriptor)
-            raise BadInput(
-                f"{folder}: another process writes here; wait until it has ended, or choose another folder"
-            ) from None
-        except BaseException:
-            os.close(descriptor)
-            raise
-    try:
+            wait = "another process writes here; wait until it has ended, or choose another folder"
+            raise BadInput(f"{folder}: {wait}") from None
         yield
-    finally:
-        os.close(descriptor)
 
 
 def _elsewhere(named: object, path: Path) -> bool:

@@ -102,20 +102,14 @@ def run(
                         stopped = f"no answer within {seconds:g} s"
                 took = perf_counter() - started
             finally:
-                _end(process.pid)
+                # all gone; macOS says PermissionError of what is dying
+                with suppress(ProcessLookupError, PermissionError):
+                    os.killpg(process.pid, SIGKILL)
         answer.seek(0)
         complaint.seek(max(0, complaint.seek(0, os.SEEK_END) - TAIL))
         lines = complaint.read().decode("utf-8", "replace").strip().splitlines()
         said = foreign(lines[-1]) if lines else ""
         return Ended(process.returncode, answer.read(most), said, stopped, took)
-
-
-def _end(group: int) -> None:
-    """Kill a program and what it has started."""
-    try:
-        os.killpg(group, SIGKILL)
-    except (ProcessLookupError, PermissionError):  # all gone; macOS says the latter of what is dying
-        return
 
 
 def output_of(command: Sequence[str], folder: Path, limit: float, fine: Collection[int] = (0,)) -> str:

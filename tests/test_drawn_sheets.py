@@ -10,6 +10,7 @@ import fem_reference
 import lumped
 from comparisons.codes.lattice import lattice_files
 from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from sheetbench import face
 from sheetbench.answers.balance import dead_force
@@ -19,11 +20,8 @@ from sheetbench.scenes import Gravity, Material, Point, Scene, Sheet, free_rigid
 
 LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
 TIP = [[LENGTH, WIDTH / 2.0]]
-CUT = [  # of the sheet's own material, aligned, oblique and round, over each other
-    {"shape": {"rectangle": {"x": (0.02, 0.1), "y": (0.0, 0.188)}}, "young": 54.5e6},
-    {"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}, "thickness": 0.003},
-    {"shape": {"polygon": [(0.05, 0.0), (0.188, 0.188), (0.0, 0.188)]}, "poisson": 0.48, "density": 1678.0},
-]
+BOX = {"rectangle": {"x": (0.02, 0.1), "y": (0.0, 0.188)}}
+DISC = {"circle": {"centre": (0.1, 0.1), "radius": 0.03}}
 
 
 def strip(**drawn):
@@ -139,14 +137,21 @@ def test_springs_alike_in_all_cells_are_shared_out_where_a_sheet_is_cut(tmp_path
     assert len(masses) < 17 * 11 * 2
 
 
+def test_cells_of_a_lattice_know_their_share_of_the_sheet():
+    scene = load("one-edge-clamped").replace(cutouts=[{"shape": DISC}])
+    mesh = solve(resolve(scene, Lattice(6))).mesh
+    share = mesh.cell_data["share"][1]
+    assert share.sum() * (0.188 / 5) ** 2 == pytest.approx(2.0 * scene.region.area) and share.min() < 0.9
+
+
 SHAPED = {
     "sheet.outline": {"sheet": {"outline": [(0, 0), (0.188, 0), (0.1, 0.188), (0, 0.188)]}},
-    "cutout": {"cutouts": [{"shape": CUT[1]["shape"]}]},
-    "support.where": {"supports": [{"kind": "clamped", "where": CUT[0]["shape"]}]},
-    "load.where": {"loads": [{"kind": "pressure", "value": 1.0, "where": CUT[0]["shape"]}]},
+    "cutout": {"cutouts": [{"shape": DISC}]},
+    "support.where": {"supports": [{"kind": "clamped", "where": BOX}]},
+    "load.where": {"loads": [{"kind": "pressure", "value": 1.0, "where": BOX}]},
     "load.where on an edge": {"loads": [{"kind": "edge", "edge": "x1", "force_per_length": (0.0, 0.0, 1.0),
         "moment_per_length": 0.01} | {"where": {"rectangle": {"x": (0.15, 0.188), "y": (0.0, 0.08)}}}]},
-    "mass.where": {"masses": [{"mass": 0.1, "where": CUT[0]["shape"]}]},
+    "mass.where": {"masses": [{"mass": 0.1, "where": BOX}]},
     'load.kind = "area"': {"loads": [{"kind": "area", "force_per_area": (0.0, 0.0, 1.0)}]},
 }  # fmt: skip
 

@@ -39,17 +39,15 @@ def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
             yield bare.replace(**alone), PiecewiseCurve(table.time, table.factor).at if table else None
 
 
-def commands_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
-    """Scenes with a part of the chains' commands each, and the factor that the part has."""
+def commands_of(scene: Scene, moving: bool) -> tuple[Scene, list[Factor]]:
+    """A scene, and a factor of the curvature that each of its actuators has there: in motion a curvature that
+    follows a table is that table's times 1 1/m."""
     if not moving:
-        yield scene, float  # the load factor itself
-        return
-    still = [a.replace(curvature=0.0) if isinstance(a, Chain) else a for a in scene.actuators]
-    # one commanded, the others straight
+        return scene, [float] * len(scene.actuators)  # the load factor itself
+    actuators, factors = list(scene.actuators), list[Factor]()
     for number, chain in enumerate(scene.actuators):
-        if isinstance(chain, Chain):
-            over_time = chain.curvature if isinstance(chain.curvature, CurvatureTable) else None
-            bent = chain.replace(curvature=1.0) if over_time else chain
-            actuators = (*still[:number], bent, *still[number + 1 :])
-            factor = PiecewiseCurve(over_time.time, over_time.value).at if over_time else None
-            yield scene.replace(actuators=actuators), factor
+        factors.append(None)
+        if isinstance(chain, Chain) and isinstance(course := chain.curvature, CurvatureTable):
+            actuators[number] = chain.replace(curvature=1.0)
+            factors[number] = PiecewiseCurve(course.time, course.value).at
+    return scene.replace(actuators=tuple(actuators)), factors

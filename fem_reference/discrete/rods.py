@@ -22,7 +22,7 @@ does as the rod deflects is of second order.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Sequence
 from copy import copy
 
 import numpy as np
@@ -41,30 +41,26 @@ BENT = {"normal": (NORMAL,), "inplane": (INPLANE,), "spatial": (NORMAL, INPLANE)
 class Rods:
     """The rods of a scene's chains among the coordinates (N,) of a sheet.
 
-    bound: to the sheet's vectors; bind: does that for a scene with the same chains; size: N; commands: scenes
-    with a part of the curvature each, and its factor; places: of φ, d and m (9,) in Q; linear: strains are
-    those about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q.
+    bound: to the sheet's vectors; size: N; commands: the curvatures' factors; places: of φ, d, m (9,) in Q;
+    linear: strains are those about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q.
     """
 
     def __init__(
         self,
         scene: Scene,
         bound: BoundRods,
-        bind: Callable[[Scene], BoundRods],
         size: int,
-        commands: Iterable[tuple[Scene, Factor]],
+        commands: Sequence[Factor],
         places: np.ndarray | None = None,
         linear: bool = False,
     ):
-        self.bound, self._bind, self._linear, self._size = bound, bind, linear, size
+        self.bound, self._linear, self._size = bound, linear, size
+        self._commands = commands if bound.rods else ()
         places = np.arange(9) if places is None else places
         self._directors = places[3:6]
         k, a = bound.sites.shape
         self.rows = (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
         self.elements: RodElements = bound.elements
-        self._commands: list[tuple[np.ndarray, Factor]] = [
-            (bind(alone).elements.intrinsic, factor) for alone, factor in commands
-        ]
         self._mass = self._side_masses(scene, places)
         self._viscous = self._dampers(scene)
 
@@ -73,7 +69,8 @@ class Rods:
 
     def weight(self, scene: Scene) -> np.ndarray:
         """Dead forces (k, a, 3) on the sides' vectors of the chains under a scene's gravity."""
-        return self._bind(scene).elements.weight
+        acceleration = np.zeros(3) if scene.gravity is None else scene.gravity.last_acceleration
+        return np.multiply.outer(self.elements.weight, acceleration)
 
     def mass(self) -> csr_matrix:
         """The rods' mass (N, N)."""
@@ -131,8 +128,10 @@ class Rods:
         """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from strains e_n of a shape."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)
-        slow.elements = self.elements._replace(stiffness=(1.0 + drag) * self.elements.stiffness)
-        slow._commands = [(past / (1.0 + drag), None)]
+        slow.elements = self.elements._replace(
+            stiffness=(1.0 + drag) * self.elements.stiffness, intrinsic=past[..., None] / (1.0 + drag)
+        )
+        slow._commands = [None]
         return slow
 
     def matrix(self, sides: np.ndarray) -> csr_matrix:
@@ -169,10 +168,7 @@ class Rods:
         return np.einsum("esic,eic->es", self._gradient(0.5 * change), change)
 
     def _intrinsic(self, at: float) -> np.ndarray:
-        total = np.zeros_like(self.elements.intrinsic)
-        for shape, factor in self._commands:
-            total += factor_at(factor, at) * shape
-        return total
+        return self.elements.intrinsic @ [factor_at(factor, at) for factor in self._commands]
 
     def _dampers(self, scene: Scene) -> np.ndarray:
         """τ S of what bends freely, (k, s); chains on one edge by their stiffness."""

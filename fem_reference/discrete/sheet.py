@@ -51,7 +51,7 @@ class Discrete(ABC):
     loads act on the flat sheet. any_strain: whether the law of strain is meant for
     large strains. lever: the flat sheet's longer side [m]; scale: 1 of positions (N,), of directors the
     lever. own: whether the mesh has an outline of its own, in place of the scene's sheet. bodies: the rods,
-    if there are any.
+    if there are any; commanded: the scene whose chains have the curvatures that commands are times of.
     """
 
     model: ClassVar[str]
@@ -71,6 +71,7 @@ class Discrete(ABC):
 
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
+        self.commanded, self._commands = commands_of(scene, moving)
         material = scene.material
         self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
@@ -87,16 +88,15 @@ class Discrete(ABC):
         self.settings = {"elements": list(counts), **own}
         return self
 
-    def rods_of(self, scene: Scene) -> BoundRods:
-        """The rods of a scene on the sheet."""
-        rods, n = rod.of_scene(scene, self.plan), self.nodes
+    def bound_rods(self) -> BoundRods:
+        """The rods on the sheet."""
+        rods, n = rod.of_scene(self.commanded, self.plan), self.nodes
         return rod.bound(rods, 9, 2 * n, lambda one: (one.elements, np.hstack([one.nodes, n + one.nodes])))
 
     def bind(self, bound: BoundRods, places: np.ndarray | None = None) -> None:
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
         scene, moving = self.scene, self.moving
-        commands = commands_of(scene, moving) if bound.rods else ()
-        self.rods = rods = Rods(scene, bound, self.rods_of, self.size, commands, places, self.linear)
+        self.rods = rods = Rods(scene, bound, self.size, self._commands, places, self.linear)
         self.bodies = [rods] if rods else []
         for alone, factor in loads_of(scene, moving):
             nodal, followers = loads.of_scene(alone, self.plan)
@@ -175,10 +175,6 @@ class Discrete(ABC):
     @abstractmethod
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         """Z (N, unknowns)."""
-
-    @abstractmethod
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        """The parts that are held of vectors (N, k) of the flat sheet, (h, k)."""
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         """q after a step Z x (N,), on the constraints."""

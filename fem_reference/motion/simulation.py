@@ -8,7 +8,6 @@ their error allows; samples lie within them, cubic in time between their ends.
 
 from __future__ import annotations
 
-from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -56,15 +55,15 @@ def simulate(
     (<Status.CONVERGED: 'converged'>, 0.01)
     """
     keeping, options = parted(options)
-    require_moving(scene_of(scene), model)
+    requested = scene_of(scene)
+    require_moving(requested, model)
     for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")
     require_error(error)
     began = now()
-    requested = scene_of(scene)
     if model == "plate":
         require_no_obstacles(requested, "the plate, which is linear,")
-    options = with_defaults(requested, signature(SHEETS[model]).parameters, options)
+    options = with_defaults(requested, model, options)
     moving = SHEETS[model](requested, **options, moving=True)
     spacing = every or 1.0 / float(modes(requested, "plate", 4, count=1).frequencies[0]) / SAMPLES_PER_PERIOD
     count = sample_count(duration, spacing, whole=every is not None)

@@ -72,7 +72,7 @@ class DiscreteShell(DiscreteElements):
         self.any_strain = self.element.stands_any_strain
         n = self.nodes
 
-        bound = self.rods_of(scene)
+        bound = self.bound_rods()
         self.supports = supports = rod.hold_bases(self.supports_of(plan.mesh), bound.rods)
         free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
         free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
@@ -167,11 +167,6 @@ class DiscreteShell(DiscreteElements):
     def short(self, shape: SheetShape) -> np.ndarray:
         free = np.concatenate([np.zeros((self.nodes, 3)), to_unit(self.directors(shape.q))])
         return np.where(self._held, self._target(shape.at) - shape.q.reshape(-1, 3), free).ravel()
-
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        on = self._held.copy()
-        on[self.nodes : 2 * self.nodes, :2] |= self.supports.tilt
-        return vectors[on.ravel()]
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         return self.of_unit_directors((q + step).reshape(-1, 3))

@@ -81,7 +81,7 @@ class DiscreteSolid(DiscreteElements):
         self._products = plain.products
         self.per_vector = np.ones(27)
 
-        bound = self.rods_of(scene)
+        bound = self.bound_rods()
         self.column_supports = of_scene(scene, columns, clamp, bound.rods)
         self.supports = self.column_supports.line
         self.free = ~self.column_supports.held
@@ -99,8 +99,8 @@ class DiscreteSolid(DiscreteElements):
         places = np.concatenate([levels * np.arange(3) + columns.layers, 3 * levels + np.arange(6)])
         self.bind(bound, places)
 
-    def rods_of(self, scene: Scene) -> BoundRods:
-        return on_columns(rod.of_scene(scene, self.plan), self.columns)
+    def bound_rods(self) -> BoundRods:
+        return on_columns(rod.of_scene(self.commanded, self.plan), self.columns)
 
     @cached_property
     def _inertia(self) -> np.ndarray:
@@ -140,11 +140,6 @@ class DiscreteSolid(DiscreteElements):
         gap = applied(np.linalg.inv(bases), target - self._on_columns(q))
         step = applied(bases, np.where(self.free, 0.0, gap))
         return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
-
-    def held(self, vectors: np.ndarray, at: float) -> np.ndarray:
-        inverse = np.linalg.inv(self.frame(vectors, at))
-        own = [applied(inverse, self._on_columns(vector))[~self.free] for vector in vectors.T]
-        return np.concatenate([np.array(own).T, vectors[self._cut :][self._held_aside]])
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         bases = self.frame(q, at)

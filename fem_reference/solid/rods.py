@@ -57,8 +57,8 @@ def _elements(rod: Rod, columns: Columns) -> RodElements:
         reference=np.concatenate([flat, one.reference[:, 3:], along], axis=1),
         forms=np.concatenate(forms, axis=1),
         stiffness=total,
-        intrinsic=np.pad(one.intrinsic, ((0, 0), (0, total.shape[1] - one.intrinsic.shape[1]))),
-        weight=np.einsum("ia,eic->eac", onto, one.weight),
+        intrinsic=np.pad(one.intrinsic, ((0, 0), (0, total.shape[1] - one.intrinsic.shape[1]), (0, 0))),
+        weight=one.weight @ onto,
     )
 
 

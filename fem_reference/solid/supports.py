@@ -31,7 +31,7 @@ import numpy as np
 
 from fem_reference.solid.mesh import Columns
 from fem_reference.surface import supports
-from fem_reference.surface.rod import Rod
+from fem_reference.surface.rod import Rod, hold_bases
 from fem_reference.surface.supports import Supports
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Symmetric, holds_director
@@ -99,30 +99,21 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
     if clamp not in CLAMPS:
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
-    line = supports.of_scene(scene, columns.plan.mesh)
-    edges, by_mean = {}, np.zeros(len(columns.plan.nodes), dtype=bool)
-
-    def face(nodes: np.ndarray, axes: np.ndarray | list[int], turns: bool) -> np.ndarray:
-        """What a support holds of the columns of its nodes; turns: the director is free."""
-        held = np.zeros((len(columns.plan.nodes), columns.levels, 3), dtype=bool)
+    line = hold_bases(supports.of_scene(scene, columns.plan.mesh), rods)
+    kinds, edges = named(scene.supports), {}
+    none, by_mean = (
+        np.zeros(columns.positions.shape, dtype=bool),
+        np.zeros(len(columns.plan.nodes), dtype=bool),
+    )
+    for name, (nodes, axes) in line.edges.items():
+        edges[name] = held = none.copy()
         held[nodes[:, None], columns.layers, axes] = True
-        if not turns:
-            held[nodes, :, : 3 if clamp == "full" else 2] = True
-            by_mean[nodes] |= clamp == "mean"
-        return held
-
-    for name, support in named(scene.supports).items():
-        nodes, axes = line.edges[name]
-        held = face(nodes, axes, isinstance(support, Symmetric) or not holds_director(support))
+        support = kinds.get(name)  # None of motions and of rods' bases, which hold as clamps do
         if isinstance(support, Symmetric):
             held[nodes[:, None], :, axes] = True
-        elif not holds_director(support):
+        elif support is None or holds_director(support):
+            held[nodes, :, : 3 if clamp == "full" else 2] = True
+            by_mean[nodes] |= clamp == "mean"
+        else:
             by_mean[nodes] = True
-        edges[name] = held
-    for motion in scene.motions().values():
-        edges[motion.held_as] = face(columns.edge(motion.edge), [0, 1, 2], False)
-    for rod in rods:
-        if rod.base is not None:
-            edges[rod.held_as] = face(rod.line[[rod.base]], [0, 1, 2], False)
-    none = np.zeros((len(columns.plan.nodes), columns.levels, 3), dtype=bool)
     return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, by_mean)

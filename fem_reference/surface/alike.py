@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.surface.borders import straight_parts
 from fem_reference.surface.mesh_points import NEAR
 
 if TYPE_CHECKING:
@@ -134,7 +135,7 @@ class CentredPlan(NamedTuple):
             return self.centre + np.where(on, np.sign(found) * half, found)
 
         upright = np.linalg.det(self.turn) > 0.0
-        return _mesh(moved(mesh.p.T), mesh.t.T if upright else mesh.t.T[:, ::-1]), moved(places)
+        return mesh_of_cells(moved(mesh.p.T), mesh.t.T if upright else mesh.t.T[:, ::-1]), moved(places)
 
 
 def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
@@ -143,7 +144,7 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
 
     centre = np.mean(np.reshape(region.bounds, (2, 2)), axis=0)
     rims, lines = (
-        _sides(shapely.transform(part, lambda at: np.round(at - centre, DIGITS)))
+        straight_parts(shapely.transform(part, lambda at: np.round(at - centre, DIGITS)))
         for part in (region.boundary, inner)
     )
     keys = [[_ordered(part, turn).ravel().tolist() for part in (rims, lines)] for turn in TURNS]
@@ -168,14 +169,6 @@ def reflection(normal: np.ndarray) -> np.ndarray:
     return np.asarray(np.round(np.eye(2) - 2.0 * np.outer(normal, normal)) + 0.0)
 
 
-def _sides(lines: BaseGeometry) -> np.ndarray:
-    """Straight parts (k, 2, 2) of lines."""
-    import shapely
-
-    parts = [shapely.get_coordinates(part) for part in shapely.get_parts(lines)]
-    return np.concatenate([np.zeros((0, 2, 2)), *(np.stack([at[:-1], at[1:]], axis=1) for at in parts)])
-
-
 def _ordered(sides: np.ndarray, turn: np.ndarray) -> np.ndarray:
     """Sides (k, 2, 2) turned, each from its lesser end, in rising order, none twice."""
     there = np.sort((sides @ turn.T + 0.0).view(complex), axis=1).view(float)
@@ -188,5 +181,6 @@ def _rounded(part: BaseGeometry) -> BaseGeometry:
     return shapely.normalize(shapely.transform(part, lambda at: np.round(at, DIGITS) + 0.0))
 
 
-def _mesh(at: np.ndarray, elements: np.ndarray) -> MeshQuad:
+def mesh_of_cells(at: np.ndarray, elements: np.ndarray) -> MeshQuad:
+    """Return the mesh of vertices (n, 2) and elements (m, 4)."""
     return MeshQuad(np.ascontiguousarray(at.T), np.ascontiguousarray(elements.T))

@@ -22,13 +22,11 @@ class Borders(NamedTuple):
     inner: BaseGeometry
 
     @property
-    def _sides(self) -> tuple[np.ndarray, np.ndarray]:
-        """Beginning and end (k, 2) of all straight parts."""
+    def _sides(self) -> np.ndarray:
+        """Beginning and end of all straight parts, (2, k, 2)."""
         import shapely
 
-        parts = shapely.get_parts(shapely.union_all([self.region.boundary, self.inner]))
-        lines = [shapely.get_coordinates(part) for part in parts]
-        return np.concatenate([line[:-1] for line in lines]), np.concatenate([line[1:] for line in lines])
+        return straight_parts(shapely.union_all([self.region.boundary, self.inner])).swapaxes(0, 1)
 
     @property
     def along_axes(self) -> bool:
@@ -44,6 +42,14 @@ class Borders(NamedTuple):
             at = at[(at > COINCIDENT * length) & (at < (1.0 - COINCIDENT) * length)]
             found.append(at[np.diff(at, prepend=-length) > COINCIDENT * length])
         return found[0], found[1]
+
+
+def straight_parts(lines: BaseGeometry) -> np.ndarray:
+    """Return the straight parts (k, 2, 2) of lines."""
+    import shapely
+
+    parts = [shapely.get_coordinates(part) for part in shapely.get_parts(lines)]
+    return np.concatenate([np.zeros((0, 2, 2)), *(np.stack([at[:-1], at[1:]], axis=1) for at in parts)])
 
 
 def borders_of(scene: Scene) -> Borders | None:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.surface.alike import DIGITS, CentredPlan, PlanCells, placed, reflection
+from fem_reference.surface.alike import DIGITS, CentredPlan, PlanCells, mesh_of_cells, placed, reflection
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
     NEAR,
@@ -207,8 +207,7 @@ def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQua
         centred = np.broadcast_to(centre + np.arange(len(cell))[:, None], cell.shape)
         elements.append(np.stack([cell, on, centred, np.roll(on, 1, axis=1)], axis=-1).reshape(-1, 4))
         first, centre = first + cell.size, centre + len(cell)
-    quads = np.ascontiguousarray(np.concatenate(elements).T)
-    return MeshQuad(np.ascontiguousarray(every.T), quads), len(points) + of_sides
+    return mesh_of_cells(every, np.concatenate(elements)), len(points) + of_sides
 
 
 def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
@@ -232,7 +231,7 @@ def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
         else:
             break
         places = moved
-    return MeshQuad(np.ascontiguousarray(places.T), mesh.t)
+    return mesh_of_cells(places, mesh.t.T)
 
 
 def _worst(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
@@ -275,37 +274,26 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
     in_middle[on_rim] -= share[ends[on_rim]].mean(axis=1)[:, None] * bulge[on_rim]  # rows straighten inwards
     fresh = np.full(len(at), -1)
     fresh[vertices] = np.arange(len(vertices))
-    rows = [len(at) + fresh[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))] + [
-        ends[on_rim]
-    ]
-    shares = [0.0, *LAYERS]
+    new = [len(at) + fresh[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))]
+    rows, shares = [*new, ends[on_rim]], [0.0, *LAYERS]
     moved = at + LAYERS[-1] * move
     every = np.concatenate([moved, *(at[vertices] + share * move[vertices] for share in shares[:-1])])
-    more = [np.column_stack([low, high[:, ::-1]]) for low, high in pairwise(rows)]
     turned = along[:, 0] * normal[:, 1] < along[:, 1] * normal[:, 0]
+    more = [np.column_stack([low, high[:, ::-1]]) for low, high in pairwise(rows)]
     more = [np.where(turned[:, None], quads[:, ::-1], quads) for quads in more]
-    elements = np.concatenate([mesh.t.T, *more])
+    in_rows = [places[on_rim] + share * in_middle[on_rim] for share in shares]
     return (
-        MeshQuad(np.ascontiguousarray(every.T), np.ascontiguousarray(elements.T)),
+        mesh_of_cells(every, np.concatenate([mesh.t.T, *more])),
         np.concatenate([ends[inner], *rows]),
-        np.concatenate(
-            [
-                places[inner] + LAYERS[-1] * in_middle[inner],
-                *(places[on_rim] + share * in_middle[on_rim] for share in shares),
-            ]
-        ),
+        np.concatenate([places[inner] + LAYERS[-1] * in_middle[inner], *in_rows]),
     )
 
 
 def _biquadratic(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray, unit: np.ndarray) -> MeshQuad2:
     """The mesh [m] with the middle nodes of sides between ends (k, 2) at places (k, 2)."""
     curved = MeshQuad2.from_mesh(mesh)
-    at, keys, nodes = (
-        curved.doflocs.T.copy(),
-        _keys(mesh.facets.T, mesh.nvertices),
-        curved.dofs.element_dofs.T,
-    )
-    straight = at.copy()
+    keys, nodes = _keys(mesh.facets.T, mesh.nvertices), curved.dofs.element_dofs.T
+    straight, at = curved.doflocs.T, curved.doflocs.T.copy()
     facets = _places(_keys(ends, mesh.nvertices), keys)
     middles = curved.dofs.facet_dofs[0, facets]
     bent = np.abs(places - straight[middles]).max(axis=1) > NEAR  # not by rounding of the vertices alone

@@ -28,6 +28,21 @@ from sheetbench.scenes.objects.orthotropy import Ply
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact for g², of the fourth power
 
 
+def _turned(own: np.ndarray, angle: np.ndarray, parts: Sequence[int] = range(6)) -> np.ndarray:
+    """Stiffness by x, y, z of that in a ply's axes; parts: of the strains, in the order of `in_space`."""
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.zeros((*c.shape, 6, 6))
+    turn[..., 0, 0] = turn[..., 1, 1] = c * c
+    turn[..., 0, 1] = turn[..., 1, 0] = s * s
+    turn[..., 0, 3], turn[..., 1, 3] = c * s, -c * s
+    turn[..., 3, 0], turn[..., 3, 1], turn[..., 3, 3] = -2.0 * c * s, 2.0 * c * s, c * c - s * s
+    turn[..., 2, 2] = 1.0
+    turn[..., 4, 4] = turn[..., 5, 5] = c
+    turn[..., 4, 5], turn[..., 5, 4] = -s, s
+    turn = turn[..., parts, :][..., parts]  # strains in the ply's axes of those in x, y, z
+    return np.asarray(turn.swapaxes(-1, -2) @ own @ turn)
+
+
 def plane_stress(ply: Ply) -> np.ndarray:
     """C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
     e1, e2, nu, g, angle = np.broadcast_arrays(
@@ -37,19 +52,13 @@ def plane_stress(ply: Ply) -> np.ndarray:
     left = 1.0 - nu**2 * e2 / e1
     own[..., 0, 0], own[..., 1, 1], own[..., 2, 2] = e1 / left, e2 / left, g
     own[..., 0, 1] = own[..., 1, 0] = nu * e2 / left
-    c, s = np.cos(angle), np.sin(angle)
-    turn = np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
-    turn = np.moveaxis(turn, (0, 1), (-2, -1))
-    return np.asarray(turn.swapaxes(-1, -2) @ own @ turn)
+    return _turned(own, angle, [0, 1, 3])
 
 
 def shear_moduli(ply: Ply) -> np.ndarray:
     """G (…, 2, 2) [Pa]: stress [xz, yz] of strain [2xz, 2yz]."""
     g13, g23, angle = np.broadcast_arrays(*map(np.float64, (ply.shear_13, ply.shear_23, ply.angle)))
-    c, s = np.cos(angle), np.sin(angle)
-    mixed = (g13 - g23) * c * s
-    rows = np.array([[g13 * c * c + g23 * s * s, mixed], [mixed, g13 * s * s + g23 * c * c]])
-    return np.moveaxis(rows, (0, 1), (-2, -1))
+    return _turned(np.stack([g13, g23], axis=-1)[..., None] * np.eye(2), angle, [5, 4])
 
 
 def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.ndarray, ...]:
@@ -80,13 +89,4 @@ def in_space(ply: Ply) -> np.ndarray:
         soft[..., place, place] = 1.0 / modulus
     for (a, b), mixed in (((0, 1), n12 / e1), ((0, 2), n13 / e1), ((1, 2), n23 / e2)):
         soft[..., a, b] = soft[..., b, a] = -mixed
-    c, s = np.cos(angle), np.sin(angle)
-    turn = np.zeros_like(soft)  # strains in the ply's axes of those in x, y, z
-    turn[..., 0, 0] = turn[..., 1, 1] = c * c
-    turn[..., 0, 1] = turn[..., 1, 0] = s * s
-    turn[..., 0, 3], turn[..., 1, 3] = c * s, -c * s
-    turn[..., 3, 0], turn[..., 3, 1], turn[..., 3, 3] = -2.0 * c * s, 2.0 * c * s, c * c - s * s
-    turn[..., 2, 2] = 1.0
-    turn[..., 4, 4] = turn[..., 5, 5] = c
-    turn[..., 4, 5], turn[..., 5, 4] = -s, s
-    return np.asarray(turn.swapaxes(-1, -2) @ np.linalg.inv(soft) @ turn)
+    return _turned(np.linalg.inv(soft), angle)

@@ -51,8 +51,8 @@ _SAMPLES = 400  # of a side, for the mean of a piecewise curvature
 class RodElements(NamedTuple):
     """k sides with s strains of a vectors each, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀ (see `discrete.rods`).
 
-    reference: Q₀ (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s); weight: dead
-    force on Q (k, a, 3) [N, N·m].
+    reference: Q₀ (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s, c) of the
+    curvatures of all actuators; weight: dead force on Q per acceleration (k, a) [kg, kg m].
     """
 
     reference: np.ndarray
@@ -109,14 +109,13 @@ def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray
     reference[:, 3:6, 2] = 1.0
     reference[:, 6:] = edge.outward
     start = scene.sheet.edge_ends(edge_name)[0][edge.along_axis]
-    intrinsic = np.zeros((len(sides), STRAINS))
     rigidity = np.array([chain.bending_stiffness for chain in chains])
     where = INPLANE if chains[0].plane == "inplane" else NORMAL
     length = scene.sheet.lengths[edge.along_axis]
-    own = [_mean_curvature(chain, length, along - start) for chain in chains]
-    intrinsic[:, where] = (
-        np.einsum("c,ceg->eg", rigidity / rigidity.sum(), np.array(own)) * half[:, None] ** 2
-    )
+    intrinsic = np.zeros((len(sides), STRAINS, len(scene.actuators)))
+    for chain, share in zip(chains, rigidity / rigidity.sum(), strict=True):
+        mean = _mean_curvature(chain, length, along - start)
+        intrinsic[:, where, scene.actuators.index(chain)] += share * mean * half[:, None] ** 2
     return Rod(
         names=tuple(here),
         edge=edge_name,
@@ -128,7 +127,7 @@ def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray
             forms=np.tile(_forms(offset), (len(sides), 1, 1, 1)),
             stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
             intrinsic=intrinsic,
-            weight=_weight(scene, chains, offsets, half),
+            weight=_weight(chains, offsets, half),
         ),
         held_as=chains[0].held_as,
         base=_base(chains[0], nodes[line, edge.along_axis] - start, length),
@@ -189,17 +188,11 @@ def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: n
     return out
 
 
-def _weight(scene: Scene, chains: Sequence[Chain], offsets: np.ndarray, half: np.ndarray) -> np.ndarray:
-    """Dead force on Q (k, 9, 3) of the chains' weight on their axes."""
-    out = np.zeros((len(half), 9, 3))
-    if scene.gravity is not None:
-        acceleration = np.array(scene.gravity.last_acceleration)
-        for chain, offset in zip(chains, offsets, strict=True):
-            line = chain.line_density * acceleration
-            nodal = half[:, None, None] * _SHARES[:, None] * line
-            out[:, :3] += nodal
-            out[:, 3:6] += offset * nodal
-    return out
+def _weight(chains: Sequence[Chain], offsets: np.ndarray, half: np.ndarray) -> np.ndarray:
+    """Dead force on Q (k, 9) [kg, kg m] of the chains' weight on their axes, per acceleration."""
+    density = np.array([chain.line_density for chain in chains])
+    nodal = np.multiply.outer(half, _SHARES)
+    return np.concatenate([density.sum() * nodal, (density @ offsets) * nodal, 0.0 * nodal], axis=1)
 
 
 def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
@@ -253,7 +246,7 @@ def bound(
     """The rods on a sheet that has the first vectors; of_sheet: a rod's sides, of so many vectors each, and
     where their first ones (k, …) are among the sheet's. Their last ones are so many directors, each of three
     nodes, of the rods' own: one of all nodes of a rod after the other."""
-    shapes = (vectors, 3), (1, vectors, vectors), (1,), (1,), (vectors, 3)
+    shapes = (vectors, 3), (1, vectors, vectors), (1,), (1, 0), (vectors,)
     none = np.zeros((0, vectors), dtype=int), np.zeros((0, 3)), np.zeros(0, dtype=bool)
     parts = [(*none, *(np.zeros((0, *shape)) for shape in shapes))]
     for rod in rods:

@@ -27,7 +27,7 @@ from sheetbench.errors import require_choice
 CASES: dict[str, Case] = {
     "end-shear": Case("cantilever under an end shear", large_deflections.end_shear),
     "roll-up": Case("cantilever rolled up to a full circle", large_deflections.roll_up),
-    "slit-annulus": Case("slit annular plate, lifted", slit_annulus.rows, quick=False),
+    "slit-annulus": Case("slit annular plate, lifted", slit_annulus.rows),
     "heavy-elastica": Case("strip under its own weight", large_deflections.heavy_elastica),
     "settling-strip": Case("strip that settles under its own weight", settling_strip.rows),
     "mindlin-simple": Case(
@@ -42,16 +42,14 @@ CASES: dict[str, Case] = {
     },
     "disc-bending": Case("thin disc clamped at its hub", round_shapes.bending),
     "disc-frequencies": Case("thin disc clamped at its hub, vibrating", round_shapes.frequencies),
-    "strip-with-hole": Case("strip with a round hole, pulled", round_shapes.strip_with_hole, quick=False),
-    "nafems-le10": Case("thick elliptic plate", elliptic_plate.rows, quick=False),
+    "strip-with-hole": Case("strip with a round hole, pulled", round_shapes.strip_with_hole),
+    "nafems-le10": Case("thick elliptic plate", elliptic_plate.rows),
     "manufactured-plate": Case("manufactured Mindlin plate: error and order", manufactured_plate.rows),
-    "manufactured-solid": Case("manufactured block: error and order", manufactured_solid.rows, quick=False),
+    "manufactured-solid": Case("manufactured block: error and order", manufactured_solid.rows),
     "large-rotation-order": Case("order of the shell, rolled up", large_deflections.order),
     "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "plate")),
     "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "shell")),
-    "locking-solid": Case(
-        "solid on 8 × 8, ν up to 0.4999", partial(mindlin_plates.locking, "solid"), quick=False
-    ),
+    "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", partial(mindlin_plates.locking, "solid")),
     "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
     "rubber": Case("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
     "orthotropic-plate": Case("plate with fibres along x, simply supported", orthotropic.plate),

@@ -51,14 +51,10 @@ class Row:
 
 @dataclass(frozen=True)
 class Case:
-    """A benchmark: what it is, and its rows, computed when they are requested.
-
-    quick: seconds, not tens of seconds.
-    """
+    """A benchmark: what it is, and its rows, computed when they are requested."""
 
     title: str
     rows: Callable[[], Iterator[Row]]
-    quick: bool = True
 
 
 def absolutely(

@@ -17,9 +17,9 @@ from sheetbench.scenes import Scene, SceneError
 
 def shortest_period(scene: Scene, springs: Calibration) -> float:
     """Return the lowest mode's period [s] about the flat sheet or about its equilibrium, the shorter."""
-    found = [modes(scene, springs, 1, "tributary")]
+    found = [modes(scene, springs, 1, springs.masses)]
     with suppress(NoEquilibrium, SceneError):  # where there is none, the flat sheet's it is
-        found.append(modes(scene, springs, 1, "tributary", "deformed"))
+        found.append(modes(scene, springs, 1, springs.masses, "deformed"))
     return 1.0 / max(float(one.frequencies[0]) for one in found)
 
 

@@ -66,18 +66,20 @@ class _Strip:
 def blocks(table: Table, width: int | None) -> list[Block]:
     """Return the table without its details, in blocks of at most `width` columns of text; without one, in
     one."""
-    brief, width = table.brief(), width and max(width, LEAST)
-    shown = [[terminal(text) for text in row] for row in brief.shown_rows()]
+    width = width and max(width, LEAST)
+    shown = [[terminal(text) for text in row] for row in table.shown_rows()]
     strips = [
         _Strip(column, terminal(name), terminal(unit), [row[i] for row in shown])
-        for i, column in enumerate(brief.columns)
+        for i, column in enumerate(table.columns)
         for name, unit in [column.heading(shown=True)]
+        if not column.detail
     ]
+    rows = [*zip(*(strip.cells for strip in strips), strict=True)]
     if table.grouped and _fits(strips, width):
         firsts = strips[0].cells
         firsts[1:] = ["" if before == text else text for before, text in pairwise(firsts)]
-    naming = next((i for i, c in enumerate(brief.columns) if c.numeric or c.prose), 1)
-    while naming < len(strips) - 1 and len({tuple(row[:naming]) for row in shown}) < len(shown):
+    naming = next((i for i, one in enumerate(strips) if one.column.numeric or one.column.prose), 1)
+    while naming < len(strips) - 1 and len({row[:naming] for row in rows}) < len(rows):
         naming += 1
     return [_block(part, width) for part in _stacked(strips, max(naming, 1), width)]
 

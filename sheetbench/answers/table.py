@@ -236,12 +236,6 @@ class Table:
         known |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
         return known if self.name else {**known, "rows": [list(row) for row in self.rows]}
 
-    def brief(self) -> Table:
-        """Return the table without its details."""
-        kept = [i for i, column in enumerate(self.columns) if not column.detail]
-        rows = tuple(tuple(row[i] for i in kept) for row in self.rows)
-        return replace(self, columns=tuple(self.columns[i] for i in kept), rows=rows)
-
     def shown_rows(self) -> list[list[str]]:
         """Return the rows as people read them."""
         shown = []

@@ -6,7 +6,7 @@ from cases import calibrated, with_material
 
 import lumped
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, EdgeLoad
+from sheetbench.scenes import Clamped, EdgeLoad, Mass
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.patches import Patch
 
@@ -19,6 +19,7 @@ DRAWN = {
     ),
 }
 OF_PATCHES = ("patch1.young", "patch1.density", "patch2.thickness", "patch2.poisson")
+BODY = Mass(at=(0.188, 0.094), mass=5e-3)
 MOMENT = EdgeLoad(edge="x1", moment_per_length=0.2)  # follows the sheet
 
 
@@ -31,6 +32,29 @@ def assert_close(mine, theirs, within=2e-5):
     assert np.abs(mine - theirs).max() < within * np.abs(theirs).max()
 
 
+@pytest.mark.parametrize("grid", [(7, 7), (5, 9)])
+def test_every_spring_constant(grid):
+    scene = scene_of("two-edges-clamped")
+    springs = calibrated(scene, grid)
+    names = [*springs.constants.names(), "layer_distance"]
+    assert len(names) >= 8
+    found = lumped.sensitivity(scene, springs, names)
+    for name in names:
+        value = springs.constants.value(name)
+
+        up, down = (
+            lumped.solve(scene, springs.with_constant(name, value + h)).displacement(scene.probe_points())
+            for h in (1e-4 * value, -1e-4 * value)
+        )
+        expected = (up - down) / (2e-4 * value)
+        scale = np.abs(found.displacement).max() / abs(value)
+        assert np.abs(found.derivatives[name] - expected).max() < 2e-7 * scale, name
+
+
+def held(tilt):
+    return (Clamped(edge="x0", tilt=tilt),)
+
+
 @pytest.mark.parametrize(
     "base, changes, name, h",
     [
@@ -41,6 +65,7 @@ def assert_close(mine, theirs, within=2e-5):
             for tilt in (0.0, 0.1, -0.7)
         ),
         ("one-edge-clamped", {"gravity": None, "loads": (MOMENT,)}, "young", None),
+        *(("one-edge-clamped", {"masses": (BODY,)}, name, None) for name in ("mass1", "young")),
         *(("one-edge-clamped", DRAWN, name, None) for name in (*OF_PATCHES, "thickness")),
     ],
 )

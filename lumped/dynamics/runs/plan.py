@@ -46,7 +46,7 @@ def plan_run(
 
     @cache
     def period() -> float:
-        return 1.0 / float(modes(system.scene, calibration, 1, "tributary").frequencies[0])
+        return 1.0 / float(modes(system.scene, calibration, 1, calibration.masses).frequencies[0])
 
     spacing = every if every is not None else period() / SAMPLES_PER_PERIOD
     if step is not None and every is None:

@@ -48,23 +48,12 @@ class Controller:
         """Return r."""
         return float(SAFETY * (allowed / max(error, 1e-30)) ** (1.0 / self.order))
 
-    def accepts(self, error: float, allowed: float, h: float, shortest: float) -> bool:
-        """Return whether a step of length h [s] counts; the next one's length follows. shortest [s]: a step
-        no longer always counts."""
-        ratio = self.ratio(error, allowed)
-        if error > allowed and h > shortest:
-            self.step = h * max(ratio, 0.2)
-            return False
-        self.floored += error > allowed
-        if not self.band[0] <= ratio <= self.band[1]:
-            self.step = h * min(max(ratio, 0.5), self.growth)
-        return True
-
     def take(
         self, attempt: Callable[[float], Tried[T]], at_most: float, shortest: float, fewer: float = np.inf
     ) -> tuple[T, float]:
-        """Return the first step of at most so long [s] that counts, and its length [s]. attempt: a step of a
-        length, its error and what is allowed. Raises StepFailed where the shortest one finds no solution."""
+        """Return the first step of at most so long [s] that counts, and its length [s]; the next one's length
+        follows. attempt: a step of a length, its error and what is allowed; shortest [s]: a step no longer
+        always counts. Raises StepFailed where it finds no solution."""
         while True:
             h = self.dividing(at_most, fewer)
             try:
@@ -74,9 +63,15 @@ class Controller:
                     raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
                 self.step = 0.25 * h
                 continue
-            if self.accepts(error, allowed, h, shortest):
-                return found, h
-            self.rejected += 1
+            ratio = self.ratio(error, allowed)
+            if error > allowed and h > shortest:
+                self.step = h * max(ratio, 0.2)
+                self.rejected += 1
+                continue
+            self.floored += error > allowed
+            if not self.band[0] <= ratio <= self.band[1]:
+                self.step = h * min(max(ratio, 0.5), self.growth)
+            return found, h
 
     def memory(self) -> dict[str, Any]:
         """Return what a resumed run needs."""

@@ -88,7 +88,8 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
                 return f"{key}: kind = {shown(facts['tag'])}: {not_modelled}"
             return f"{key}: kind = {shown(facts['tag'])}: {_choose(str(facts['tag']), _kinds(nodes))}"
         case "literal_error":
-            choices = [str(choice) for node in nodes for choice in _choices(node)]
+            enums = ([node["const"]] if "const" in node else node.get("enum", ()) for node in nodes)
+            choices = [str(choice) for enum in enums for choice in enum]
             return f"{key} = {shown(value)}: {_choose(str(value), choices)}"
         case "float_type" if isinstance(value, str) and (unit := _unit(fault["loc"], schema)) is not None:
             return f"{key}: {_no_quantity(value, unit)}"
@@ -205,7 +206,3 @@ def _keys(nodes: list[dict[str, Any]]) -> list[str]:
 
 def _kinds(nodes: list[dict[str, Any]]) -> list[str]:
     return [str(kind(node)) for node in nodes if kind(node)]
-
-
-def _choices(node: dict[str, Any]) -> list[Any]:
-    return [node["const"]] if "const" in node else list(node.get("enum", ()))

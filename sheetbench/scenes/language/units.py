@@ -107,8 +107,9 @@ def converted(value: object, unit: str) -> object:
     What is no quantity of this unit is left for whoever checks the number, and refuses it where it stands.
     """
     if isinstance(value, str):
+        match = NUMBER.fullmatch(value)
         try:
-            return value if _bare(value) else quantity(value, unit)
+            return value if match and not match[2] else quantity(value, unit)  # a bare number needs no quotes
         except BadInput:
             return value
     if isinstance(value, list | tuple):
@@ -126,12 +127,6 @@ def numbers(data: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, floa
         return {key: float(text) for key, text in texts.items()}
     except (KeyError, TypeError, ValueError):
         return {}
-
-
-def _bare(text: str) -> bool:
-    """Whether a text is a number without a unit, which needs no quotes."""
-    match = NUMBER.fullmatch(text)
-    return match is not None and not match[2]
 
 
 @cache

@@ -32,7 +32,6 @@ from sheetbench.scenes.objects.supports import (
     AnySupport,
     Clamped,
     Curved,
-    Motion,
     Symmetric,
     held_axes,
     holds_director,
@@ -103,7 +102,8 @@ def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet)
             f"the base of the chain on edge {other.edge} stands at the corner that the motion on edge "
             f"{one.edge} moves"
         )
-    tables = [table for each in (one, other) if (table := _table(each)) is not None]
+    moving = (each if isinstance(each, EdgeMotion) else each.motion for each in (one, other))
+    tables = [table for table in moving if table is not None]
     if not tables and driven.keys().isdisjoint((one.edge, other.edge)):
         return ""  # both at rest
     axes, turns = ([*(a & b)] for a, b in zip(_held(one), _held(other), strict=True))
@@ -123,11 +123,6 @@ def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet)
             where = f"the corner where {_named(held)} holds it otherwise"
             turned = f"{_named(turner)} turns the director at {where}{when}"
     return moved or turned
-
-
-def _table(holder: Holder) -> EdgeMotion | Motion | None:
-    """What a holder does over time."""
-    return holder if isinstance(holder, EdgeMotion) else holder.motion
 
 
 def _held(holder: Holder) -> tuple[set[int], set[int]]:

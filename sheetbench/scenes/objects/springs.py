@@ -1,14 +1,11 @@
 """Spring constants of a lattice, as data: the optional [springs] and [dampers] tables of a scene.
 
-Only the lumped model reads them. Axial, diagonal, vertical, cross and cross_diagonal are link
-stiffnesses [N/m] (Habibi et al.'s ka, kd, kz, kdT, kddT); area and mid_area are area-spring stiffnesses
-[N/m], energy ½ k (a/a0 − 1)² a0 per cell of a layer and of the mid-surface. Strain springs [N/m], energy
-½ k ε² a0 of a cell's mean strain, make up what those cannot: shear and mid_shear against the in-plane shear
-of a layer's and of the mid-surface's cells, stretch and mid_stretch against their stretching along x, y.
-edge_shear and strip_shear change the twisting stiffness of the cells along an edge whose director nothing
-holds and leave their membrane stiffness alone: energy ½ k (γ + r ε)² a0 on every layer's cell, ε its strain
-along the edge and r the edge_coupling, and of the other sign for all layers together on the mid-surface's.
-The rim_ springs do so at the rims of outlines and cutouts, cell by cell.
+Only the lumped model reads them. Links are Habibi et al.'s ka, kd, kz, kdT and kddT; area and strain springs,
+energy ½ k ε² a0 of a cell's mean strain, make up what those cannot. edge_shear and strip_shear change the
+twisting stiffness of the cells along an edge whose director nothing holds and leave their membrane stiffness
+alone: energy ½ k (γ + r ε)² a0 on every layer's cell, ε its strain along the edge and r the edge_coupling,
+and of the other sign for all layers together on the mid-surface's. The rim_ springs do so at the rims of
+outlines and cutouts, cell by cell.
 
 On a graded grid every cell has springs of its own: a constant is then a table of cells, a list of rows from
 y0 to y1, each from x0 to x1. A link takes half the value of each cell beside it, a vertical one a quarter of
@@ -194,6 +191,8 @@ class SpringTable(SpringSet):
     """The edges towards which they are smaller, where that is not all four."""
     lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = None
     """x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
+    masses: Distribution = "tributary"
+    """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
 
     @model_validator(mode="before")
     @classmethod

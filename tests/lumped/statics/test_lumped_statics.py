@@ -66,11 +66,9 @@ def test_energies_and_link_fields_agree():
     assert on_masses == pytest.approx(held, abs=1e-12 * held[2])
     per_link, per_cell = solution.mesh.cell_data["elastic_energy"]
     assert per_link.sum() + per_cell.sum() == pytest.approx(sum(solution.energies.values()), rel=1e-12)
-    per_cell = solution.mesh.cell_data["cell_energy"][1]
-    assert per_cell.sum() == pytest.approx(sum(solution.energies.values()), rel=1e-12)
     top_row = per_cell.reshape(2, 8, 8)[0]  # (layer, along y, along x): most is stored beside the clamp
     assert top_row[:, 0].sum() > 10.0 * top_row[:, -1].sum()
-    assert set(solution.energies) >= {"axial", "diagonal", "cross", "cross_diagonal", "vertical", "area"}
+    assert set(solution.energies) >= {"axial", "diagonal", "cross", "cross_diagonal", "vertical", "cells"}
     assert np.abs(solution.mesh.cell_data["tension"][0]).max() > 0.1
 
 
@@ -153,14 +151,12 @@ def with_springs(scene, **springs):
 def test_per_direction_stiffness_is_the_seeds_law_and_said():
     scene = SEED["one-edge-clamped"]
     plain = lumped.solve(with_springs(scene))
-    k = plain.settings and lumped.calibrate(scene.sheet, scene.material, (9, 9)).springs.axial
+    k = lumped.calibrate(scene.sheet, scene.material, (9, 9)).springs.axial
     unequal = with_springs(scene, axial=PerDirection(x=2 * k, y=k, z=k))
     solution = lumped.solve(unequal)
     assert solution.status is Status.CONVERGED and "unsymmetric" in solution.message
     stiffer = abs(vertical(scene, solution)[2]) / abs(vertical(scene, plain)[2])
     assert 0.5 < stiffer < 0.85
-    equal = lumped.solve(with_springs(scene, axial=PerDirection(x=k, y=k, z=k)))
-    assert np.array_equal(equal.displacement([[0.188, 0.1]]), plain.displacement([[0.188, 0.1]]))
 
 
 # ---- ends that are not a plain stable equilibrium --------------------------------------------------

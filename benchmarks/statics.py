@@ -15,7 +15,6 @@ import json
 import platform
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from resource import RUSAGE_SELF, getrusage
 from time import perf_counter, process_time
 from typing import Any
@@ -88,10 +87,7 @@ def batch(count: int) -> dict[str, Any]:
     """Many lattices of 9×9×2 whose springs differ, at once and one by one; seconds a case, of the CPU too."""
     springs = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(9, 9))
     stiffness = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(9, 9)).springs.diagonal
-    several = [
-        replace(springs, springs=springs.springs.model_copy(update={"diagonal": k}))
-        for k in np.linspace(0.5, 1.5, count) * stiffness
-    ]
+    several = [springs.with_constant("diagonal", k) for k in np.linspace(0.5, 1.5, count) * stiffness]
     some = several[: max(1, count // 20)]
     one_by_one = timed(lambda: [lumped.solve(SCENE, each) for each in some], perf_counter) / len(some)
     with one_blas_thread(), ThreadPoolExecutor() as pool:

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from lumped import moduli
 from lumped.assembly import Assembly
-from lumped.calibration import CALIBRATIONS, Calibration, calibrate, given, homogenised
+from lumped.calibration import Calibration, given, homogenised
 from lumped.calibration.cell_by_cell import with_shares
 from lumped.description import Description, describe
+from lumped.fitting.fits import FittedCalibration, ModalTarget, StaticTarget
+from lumped.fitting.identifiability import Identifiability, identifiability
+from lumped.fitting.methods import CALIBRATIONS, calibrate
 from lumped.footprint import footprint
-from lumped.identifiability import Identifiability, identifiability
 from lumped.lattice import Lattice
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
@@ -39,16 +41,19 @@ __all__ = [
     "Balanced",
     "Calibration",
     "Description",
+    "FittedCalibration",
     "Identifiability",
     "Inertia",
     "Integrator",
     "Lattice",
     "Linear",
     "MidSurface",
+    "ModalTarget",
     "Modes",
     "Sensitivity",
     "State",
     "StateSpace",
+    "StaticTarget",
     "StepFailed",
     "StepLimit",
     "System",

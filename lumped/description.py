@@ -127,7 +127,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     found = Description(
         index=np.stack([i, j, k], axis=1),
         positions=lattice.positions,
-        mass=masses(scene, lattice, cells=calibration.cells),
+        mass=masses(scene, lattice, calibration.masses, calibration.cells),
         damping_rate=scene.material.damping_rate,
         links=_links(scene, assembly),
         cells=tuple(_cells(scene, assembly)),

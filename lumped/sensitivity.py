@@ -3,11 +3,14 @@
 At equilibrium the residual R(q, θ) = Tᵀ (f − f_int)(T q + g(θ), θ) is zero for every θ, so that with the
 tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/dθ + dg/dθ, one solve a parameter.
 
-∂R/∂θ is a central difference of the residual at fixed q. The residual is linear in E, where that is exact to
-rounding; in the thickness, ν, a curvature or a tilt its relative error is of order 1e-8.
+∂R/∂θ is a central difference of the residual at fixed q. The residual is linear in every spring constant and
+in E, where that is exact to rounding; in the thickness, ν, a layer distance, a curvature or a tilt its
+relative error is of order 1e-8.
 
-Parameters: those of a scene (`scenes.meaning.parameters`); by young, poisson, thickness and those of fibres
-and patches springs are calibrated again by the same method.
+Parameters: the spring constants of `scenes.SpringSet` by name (axial_x, axial_y, … where a direction has its
+own), layer_distance; young, poisson, density, thickness (springs calibrated again by the same method);
+curvature_EDGE, of the curved support or the actuator on that edge; tilt_EDGE, of the clamp on it;
+patchN.young, … obstacleN.z, … (`scenes.parameters`).
 """
 
 from __future__ import annotations
@@ -18,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from lumped.calibration import CALIBRATIONS, Calibration
+from lumped.calibration import CLOSED, Calibration
 from lumped.mid_surface import MidSurface
 from lumped.sections import sections_of
 from lumped.statics.problem import Problem
@@ -33,7 +36,7 @@ STEP = 1e-4  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature_": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-11}  # m, of what presses in by 1e-8 m
-PATCH = "patch"  # with which names of a patch's constants begin
+PATCH, PAYLOAD = "patch", "mass"  # with which names of a patch's constants begin, and those of payloads
 
 
 @dataclass(frozen=True)
@@ -85,16 +88,16 @@ def rates(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The derivative of the unbalanced force by a parameter at free unknowns that stay as at u (n, 3),
     supports' movement included, and dg/dθ (n, 3)."""
-    found = parameter(scene, name)
-    value = found.value
+    value, low, high = _value(scene, calibration, name)
     own = name.partition(".")[2] if name.startswith(PATCH) else name
     step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides = []
-    placed, ends = problem.prescribed(1.0), np.clip([value + step, value - step], found.low, found.high)
+    placed, ends = problem.prescribed(1.0), np.clip([value + step, value - step], low, high)
     for end in ends:
-        changed = build_problem(*_changed(scene, calibration, name, float(end), calibrate))
+        changed_scene, recalibrated = _changed(scene, calibration, name, float(end), calibrate)
+        changed = build_problem(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
         moved = changed.prescribed(1.0) - placed
         sides.append((changed.residual(u + moved, 1.0).force, moved))
     interval = float(ends[0] - ends[1])
@@ -102,23 +105,37 @@ def rates(
     return rate, (sides[0][1] - sides[1][1]) / interval
 
 
+def _value(scene: Scene, calibration: Calibration, name: str) -> tuple[float, float, float]:
+    """The value of a parameter and its bounds."""
+    if _of_scene(name):
+        found = parameter(scene, name)
+        return found.value, found.low, found.high
+    return calibration.constants.value(name), -np.inf, np.inf
+
+
 def _changed(
     scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
 ) -> tuple[Scene, Calibration]:
+    if not _of_scene(name):
+        return scene, calibration.with_constant(name, value)
     changed = put(scene, name, value)
     if name not in CALIBRATED_FROM and not name.startswith(PATCH):
         return changed, calibration
     return (changed, calibrate(changed)) if calibrate is not None else _recalibrated(changed, calibration)
 
 
+def _of_scene(name: str) -> bool:
+    return name in (*CALIBRATED_FROM, "density") or name.startswith((*STEP_OF, PATCH, PAYLOAD))
+
+
 def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:
     """The scene with springs for its changed sheet, by the same method."""
-    if calibration.method not in CALIBRATIONS:
+    if calibration.method not in CLOSED:
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
     own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
     if (cells := sections_of(scene, calibration.grid, calibration.grading)) is not None:
         own["cells"] = cells
-    method = CALIBRATIONS[calibration.method]
+    method = CLOSED[calibration.method]
     return scene, method.make(sheet_at_rest(scene), scene.material, calibration.grid, **own)

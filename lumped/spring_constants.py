@@ -4,6 +4,9 @@
 the shape (directions, rows, columns): one direction, or x and y, of Habibi et al.'s per-direction law x, y
 and z; one row and column where all cells are alike, else rows of cells from y0 to y1, each from x0 to x1.
 Those of edges have an array along x0 and one along y0, or one number for both.
+
+By name a constant that every cell has its own of goes by its mean over the cells. Given another mean, all its
+values scale; those that may have either sign shift.
 """
 
 from __future__ import annotations
@@ -57,8 +60,8 @@ STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε
 }
 FACES = ("face_shear", "face_diagonal_shear", "face_coupling")
 MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
-ANY_SIGN = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN)
-ANY_SIGN += ("face_coupling", "mooney_rivlin", "yeoh_square")
+SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN, "face_coupling")
+ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
 REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
 NONE = np.zeros((1, 1, 1))
 
@@ -171,6 +174,47 @@ class Springs:
         """So many times as stiff, (rows, columns); without those of edges."""
         times = {name: np.ones_like(factor) if name == "gent_limit" else factor for name in self.of}
         return replace(self, of={name: array * times[name] for name, array in self.of.items()}, edges={})
+
+    def names(self) -> list[str]:
+        """Names of the constants that are not zero, one a direction where directions differ."""
+        found: list[str] = []
+        for name in SpringSet.model_fields:
+            parts = self.edges.get(name) or [*self.of.get(name, ())]
+            if len(parts) > 1:
+                found += [f"{name}_{axis}" for axis, part in zip("xy", parts, strict=False) if part.any()]
+            elif parts and parts[0].any():
+                found.append(name)
+        return found
+
+    def value(self, name: str) -> float:
+        """The value of one constant (or layer_distance) by name. Raises BadInput for an unknown name."""
+        if name == "layer_distance":
+            return self.layer_distance
+        family, which = self._named(name)
+        return float(np.mean([part.mean() for part in (self.edges.get(family) or self[family])[which]]))
+
+    def changed(self, name: str, value: float) -> Springs:
+        """The springs with one constant (or layer_distance) changed. Raises BadInput for an unknown name."""
+        if name == "layer_distance":
+            return replace(self, layer_distance=value)
+        (family, which), was = self._named(name), self.value(name)
+        if family in EDGES_OWN:
+            pair = [*self.edges.get(family, (np.zeros(1),))]
+            pair[which] = [part + (value - was) for part in pair[which]]
+            return replace(self, edges={**self.edges, family: tuple(pair)})
+        array = self[family].copy()
+        shift = family in SIGNED or was == 0.0
+        array[which] = array[which] + (value - was) if shift else array[which] * (value / was)
+        return replace(self, of={**self.of, family: array})
+
+    def _named(self, name: str) -> tuple[str, slice]:
+        """The constant, and which of its directions are meant."""
+        if name in SpringSet.model_fields:
+            return name, slice(None)
+        family, _, direction = name.rpartition("_")
+        if len(self.edges.get(family) or self[family]) == 1 or direction not in ("x", "y"):
+            raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
+        return family, slice(0, 1) if direction == "x" else slice(1, 2)
 
 
 def _parts(value: Any) -> Iterator[tuple[str, Any]]:

@@ -6,6 +6,7 @@ motions free has zero frequencies: they are found with a small shift, counted, a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,8 +15,9 @@ import scipy.sparse as sp
 from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
-from lumped.masses import Inertia, mass_matrix
+from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
+from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
@@ -51,7 +53,7 @@ def modes(
     """The `count` lowest natural modes of the scene's sheet on a lattice.
 
     calibration: as of `lumped.solve`. distribution: how the masses are shared out (`lumped.masses`);
-    higher-order unless given, of cells that differ Gregory's. about: the flat,
+    higher-order unless given, or those that springs fitted to frequencies go with. about: the flat,
     stress-free sheet, without actuators, loads not mattering; or "deformed", its equilibrium under the
     scene's loads (no actuators, no follower loads), with the tangent there.
 
@@ -110,7 +112,46 @@ def modes(
 
 def usual_masses(calibration: Calibration) -> Inertia:
     """The distribution that springs vibrate with unless another is requested."""
+    if calibration.masses != "tributary":
+        return calibration.masses
     return "higher-order" if calibration.cells is None else "gregory"
+
+
+def frequency_slopes(
+    scene: Scene, calibration: Calibration, parameters: Sequence[str], count: int
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per N/m].
+
+    dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
+    frequencies that stand alone (of equal ones it gives the slope of a mean); 0 of a motion that no spring
+    resists, and by a constant that is 0.
+    """
+    found = modes(scene, calibration, count, calibration.masses)
+    problem = build_problem(scene, calibration)
+    rest = np.zeros_like(problem.loads.dead)
+    weight = masses(scene, problem.assembly.lattice, calibration.masses, calibration.cells)
+    modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
+    slopes = {}
+    for name in parameters:
+        step = 1e-3 * abs(calibration.constants.value(name))
+        slopes[name] = np.zeros_like(found.frequencies)
+        if step == 0.0:  # a fit that ends without this spring
+            continue
+        sides = []
+        for sign in (1.0, -1.0):
+            value = calibration.constants.value(name) + sign * step
+            changed = build_problem(scene, calibration.with_constant(name, value))
+            stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
+            sides.append(np.array(stiffness))
+        squares = (sides[0] - sides[1]) / (2.0 * step) / modal
+        of = 2.0 * (2.0 * np.pi) ** 2 * found.frequencies
+        np.divide(squares, of, out=slopes[name], where=of > 0.0)
+    return found.frequencies, slopes
+
+
+def _product(problem: Problem, rest: np.ndarray, shape: np.ndarray) -> np.ndarray:
+    """K times a shape (n, 3), K the tangent at rest."""
+    return problem.system.apply(problem.tangent(rest, 0.0), shape)
 
 
 def _shift(scene: Scene) -> float:

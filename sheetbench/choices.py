@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-Option = Literal["k", "layer_distance", "grading", "cells"]
+Option = Literal["k", "layer_distance", "grading", "targets", "cells"]
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,11 @@ class Method:
 
     summary: str
     takes: tuple[Option, ...] = ("layer_distance",)
+
+    @property
+    def fitted(self) -> bool:
+        """Whether it is fitted to targets."""
+        return "targets" in self.takes
 
 
 CALIBRATION = "consistent"  # unless requested another
@@ -38,6 +43,8 @@ CALIBRATIONS: dict[str, Method] = {
         CELL_BY_CELL,
     ),
     "moduli": Method("bounded least squares on the moduli"),
+    "fit-static": Method("fitted to displacements", (*GRADED, "targets")),
+    "fit-modal": Method("fitted to natural frequencies", ("layer_distance", "targets")),
     "uniform": Method("one k for all links, given or matched to D11", ("k", "layer_distance")),
     "cauchy": Method("the isotropic central-force lattice, ν = 1/3; square cells", ()),
     "central": Method("links only, for simulators without area springs: least error at this ν", ()),

@@ -70,7 +70,7 @@ MODULES = [
     "fem_reference.linear_buckling",
     "fem_reference.vibration",
     "lumped.dynamics.runs.simulation",
-    "lumped.calibration.methods",
+    "lumped.fitting.methods",
     "lumped.statics.buckling",
     "lumped.statics.solver",
     "lumped.vibration",

@@ -20,6 +20,7 @@ from comparisons.models.quantities import checked
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
+from comparisons.models.training import training_scenes
 from lumped import Calibration
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
@@ -27,17 +28,7 @@ from sheetbench.answers.solution import Solution
 from sheetbench.answers.table import Table
 from sheetbench.choices import AUTO, EXTRAPOLATED
 from sheetbench.errors import BadInput, Implausible
-from sheetbench.scenes import (
-    AnyScene,
-    Clamped,
-    Gravity,
-    Material,
-    Scene,
-    SceneError,
-    Sheet,
-    require_static,
-    scene_of,
-)
+from sheetbench.scenes import AnyScene, Material, Scene, SceneError, Sheet, require_static, scene_of
 from sheetbench.scenes.language.toml import dumps
 from sheetbench.scenes.meaning.plausibility import material_slips, sheet_slips
 from sheetbench.scenes.meaning.words import sheet_in_words
@@ -73,10 +64,7 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
         if slip not in known:
             warn(Implausible(slip), stacklevel=3)
     if loaded is None:
-        supports, gravity = (Clamped(edge="x0"),), Gravity(acceleration=(0.0, 0.0, -9.81))
-        return Scene(
-            name="one-edge-clamped", sheet=sheet, material=material, supports=supports, gravity=gravity
-        )
+        return training_scenes(sheet, material)[0]
     probes = loaded.probes if sheet == loaded.sheet else {}
     return loaded.replace(sheet=sheet, material=material, probes=probes)
 
@@ -84,8 +72,9 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
 def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Calibration:
     """Return the springs of a lattice for a scene's sheet and material, whatever [springs] the scene has.
 
-    named: whether the user named the scene: "auto" goes by it, and what is known before solving of how far
-    its answer will be off is among the notes. Raises BadInput for a lattice that cannot be had.
+    named: whether the user named the scene: a fitted method trains on it, "auto" goes by it, and what is
+    known before solving of how far its answer will be off is among the notes. Raises BadInput for a lattice
+    that cannot be had, and for a fit that takes more memory than there is.
     """
     for name, what in (("calibration", lattice.calibration), ("grading", lattice.grading)):
         if what == AUTO and not named:
@@ -93,7 +82,8 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
                 f"{name} = auto: goes by the edges and load of a SCENE; name one, or another {name}"
             )
     found = resolve(scene, lattice, "springs", own=False)
-    return replace(found.springs, remarks=(*choice_notes(found.settings), *found.springs.remarks))
+    springs = found.calibrated([scene] if named else None)
+    return replace(springs, remarks=(*choice_notes(found.settings), *springs.remarks))
 
 
 def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
@@ -146,5 +136,5 @@ def to_toml(springs: Calibration) -> str:
     """Return the [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
     found = springs.document()
     grading = as_settings(springs.grading) if springs.grading else {}
-    keys = {"grid": found["grid"], **grading, **found["springs"]}
+    keys = {"grid": found["grid"], "masses": found["masses"], **grading, **found["springs"]}
     return dumps({"springs": {**keys, "layer_distance": found["layer_distance"]}})

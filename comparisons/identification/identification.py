@@ -246,6 +246,8 @@ def _moving(measured: Measured) -> bool:
 
 def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> None:
     """Raise BadInput for springs that do not depend on the unknowns."""
+    if resolve(scene, lattice, own=False).fitted:
+        raise BadInput(f"calibration = '{lattice.calibration}': its springs do not depend on the unknowns")
     if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
         raise BadInput(
             f"unknown = '{fixed[0]}': with k = {lattice.k:g} N/m given the springs do not depend on it; "

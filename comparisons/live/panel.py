@@ -80,11 +80,11 @@ class Panel:
         own = (
             {OWN: {"said": "the scene's own [springs], on their grid", "takes": []}} if scene.springs else {}
         )
-        self.calibrations = own | {  # the usual one first
+        self.calibrations = own | {  # those that take no fit, the usual one first
             name: {"said": method.summary, "takes": sorted(method.takes)}
             for name in (CALIBRATION, *CALIBRATIONS)
             for method in [CALIBRATIONS[name]]
-            if "cells" in method.takes or scene.uniform
+            if not method.fitted and ("cells" in method.takes or scene.uniform)
         }
         self.start = self._lattice.calibration or next(iter(self.calibrations))
         for slider in self.sliders.values():

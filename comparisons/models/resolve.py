@@ -70,13 +70,22 @@ class Resolved(Generic[S]):
         assert isinstance(self.spec, Lattice)
         return cast(Grid, self.spec.grid)
 
+    @property
+    def fitted(self) -> bool:
+        """Whether a lattice's springs are fitted to targets."""
+        return _fitted(self.spec)
+
+    @cached_property
+    def springs(self) -> Calibration:
+        """The springs of a lattice."""
+        return self.calibrated()
+
     def on(self, scene: Scene) -> Resolved[S]:
         """Return the same choices for another scene of the same sides."""
         return replace(self, scene=scene)
 
-    @cached_property
-    def springs(self) -> Calibration:
-        """The springs of a lattice.
+    def calibrated(self, training: Sequence[Scene] | None = None) -> Calibration:
+        """Return the springs; training: what fitted ones are fitted to, see `comparisons.models.training`.
 
         Raises BadInput for options that a calibration does not take; warns of a layer distance that is hardly
         meant.
@@ -98,12 +107,16 @@ class Resolved(Generic[S]):
         cells = lumped.sections_of(self.scene, self.grid, grading)
         if "cells" in CALIBRATIONS[named].takes:
             own["cells"] = cells
-        elif self.scene.uniform and self.scene.pierced and cells is not None:
+        elif self.scene.uniform and self.scene.pierced and not self.fitted and cells is not None:
             found = lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
             return lumped.with_shares(found, sheet, material, cells)
         else:
             knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
             lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
+        if _fitted(spec):
+            from comparisons.models.training import fitted
+
+            return fitted(sheet, material, self.grid, spec.calibration, training=training, **own)
         return lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
 
 
@@ -133,8 +146,13 @@ def resolve(
         assert isinstance(spec, External)
         _check_external(spec)
         found = Resolved(scene, spec)
-    if not context().large and use != "springs":
-        require_room(scene, found.spec, option)
+    if not context().large:
+        if use != "springs" or _fitted(found.spec):
+            require_room(scene, found.spec, option)
+        if _fitted(found.spec):
+            from comparisons.models.training import ELEMENTS
+
+            require_room(scene, Elements("shell", ELEMENTS), instead="take a calibration that is not fitted")
     if isinstance(spec, Lattice) and found.spec.calibration is None:
         assert found.springs  # tables of other grids are refused
     return cast(Resolved[S], found)
@@ -162,6 +180,12 @@ def resolve_each(
         if why := meant.reasons.get("calibration_reason"):
             methods.append(f"calibration {meant.spec.calibration}: {why}")
     return found, tuple(dict.fromkeys((*methods, *gradings)))
+
+
+def _fitted(spec: Spec) -> bool:
+    """Return whether the springs are fitted to targets."""
+    named = isinstance(spec, Lattice) and spec.k is None and spec.calibration
+    return isinstance(named, str) and named in CALIBRATIONS and CALIBRATIONS[named].fitted
 
 
 def _check_lattice(spec: Lattice) -> None:

@@ -1,15 +1,7 @@
-"""Which k belongs to E: the methods, each in a file of its own, and the one door to them."""
+"""Which k belongs to E: methods that need the sheet and its material alone, each in a file of its own."""
 
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.methods import CALIBRATIONS, CalibrationMethod, calibrate, default, given
+from lumped.calibration.methods import CLOSED, CalibrationMethod, default, given
 from lumped.calibration.report import homogenised
 
-__all__ = [
-    "CALIBRATIONS",
-    "Calibration",
-    "CalibrationMethod",
-    "calibrate",
-    "default",
-    "given",
-    "homogenised",
-]
+__all__ = ["CLOSED", "Calibration", "CalibrationMethod", "default", "given", "homogenised"]

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import tables
 from lumped.sections import CellSection
+from lumped.spring_constants import Springs
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table
 from sheetbench.scenes import Sheet, SpringSet
 from sheetbench.scenes.objects.grading import Graded, as_settings, remark
 from sheetbench.scenes.objects.grid import Grid
+from sheetbench.scenes.objects.springs import Distribution
 
 
 @dataclass(frozen=True, repr=False)
@@ -22,9 +25,10 @@ class Calibration(Answer):
 
     moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
     (A, S [N/m], D [N·m]; the target of S is MacNeal's S* of the grid), of unequal cells that of the one that
-    misses it most; remarks: what the method could not meet; grading: of the grid's lines
-    (`lumped.grid_lines`); cells: their sections, where they differ or have fibres; of_material: whether those
-    are of the material alone, without what a scene has beside.
+    misses it most; remarks: what the method could not meet; masses: how the sheet's mass is shared out
+    (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); cells:
+    their sections, where they differ or have fibres; of_material: whether those are of the material alone,
+    without what a scene has beside.
     """
 
     file_name = "calibration"
@@ -34,6 +38,7 @@ class Calibration(Answer):
     springs: SpringSet
     moduli: tuple[dict[str, Any], ...]
     remarks: tuple[str, ...] = ()
+    masses: Distribution = "tributary"
     grading: Graded = 0.0
     cells: CellSection | None = None
     of_material: bool = False
@@ -60,6 +65,15 @@ class Calibration(Answer):
         grid = "×".join(map(str, self.grid))
         return f"{grid} {self.method}{remark(self.grading)}"
 
+    @cached_property
+    def constants(self) -> Springs:
+        """The springs as arrays."""
+        return Springs.read(self.springs)
+
+    def with_constant(self, name: str, value: float) -> Calibration:
+        """The same with one spring constant changed, by its name (`lumped.spring_constants`)."""
+        return replace(self, springs=self.constants.changed(name, value).table())
+
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
         springs = self.springs.model_dump(exclude_none=True)
@@ -75,6 +89,7 @@ class Calibration(Answer):
             "springs": springs,
             "layer_distance": distance,
             "moduli": [dict(row) for row in self.moduli],
+            "masses": self.masses,
             **as_settings(self.grading),
             "notes": list(self.remarks),
         }

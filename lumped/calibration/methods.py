@@ -1,11 +1,10 @@
-"""All calibration methods by name and the one door to them; springs that a scene brings itself."""
+"""Methods that need nothing but the sheet and its material, by name; springs that a scene brings itself."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
 
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.cell_by_cell import each_cell
@@ -15,16 +14,14 @@ from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.rubber import hyperelastic
 from lumped.calibration.textbook import axial, cauchy, lloyd, uniform, van_gelder
-from lumped.sections import CellSection, sections_of
+from lumped.sections import sections_of
 from lumped.spring_constants import Springs, require_cells
 from sheetbench import choices
-from sheetbench.errors import BadInput, Impossible, require_choice
-from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Cells, Material, Scene, Sheet, SpringTable
+from sheetbench.errors import Impossible
+from sheetbench.scenes import Scene, SpringTable
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import MASSES, grid_of
-from sheetbench.scenes.objects.quantities import require_positive
 
 
 @dataclass(frozen=True)
@@ -33,6 +30,15 @@ class CalibrationMethod(choices.Method):
     make(sheet, material, grid, **options)."""
 
     make: Callable[..., Calibration] = field(kw_only=True)
+
+
+def described(makers: Mapping[str, Callable[..., Calibration]]) -> dict[str, CalibrationMethod]:
+    """These makers as methods by name, in the order of `sheetbench.choices`."""
+    return {
+        name: CalibrationMethod(**vars(choice), make=makers[name])
+        for name, choice in choices.CALIBRATIONS.items()
+        if name in makers
+    }
 
 
 MAKERS: dict[str, Callable[..., Calibration]] = {
@@ -50,52 +56,7 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "van-gelder": van_gelder,
     "lloyd": lloyd,
 }
-CALIBRATIONS = {
-    name: CalibrationMethod(**vars(method), make=MAKERS[name])
-    for name, method in choices.CALIBRATIONS.items()
-}
-UNITS = {"k": "N/m", "layer_distance": "m"}
-
-
-def calibrate(
-    sheet: Sheet,
-    material: Material,
-    grid: int | Sequence[int] = MASSES,
-    method: str = choices.CALIBRATION,
-    k: float | None = None,
-    layer_distance: float | None = None,
-    grading: Graded = 0.0,
-    cells: Cells | CellSection | None = None,
-) -> Calibration:
-    """Springs of a grid for a sheet of this material, by a named method.
-
-    grid: masses along the shorter side, (nx, ny) or (nx, ny, layers), see `sheetbench.scenes.objects.grid`.
-    k [N/m] and layer_distance [m] are for the methods that take them. grading: how much smaller the cells are
-    at the edges, 0 to 1 (`lumped.grid_lines`). cells: what each is made of, where they differ. Raises
-    BadInput for an unknown method, a grid too small, an option that the method does not take or that is out
-    of its bounds.
-
-    >>> import lumped
-    >>> from sheetbench.scenes import load
-    >>> scene = load("two-edges-clamped")
-    >>> springs = lumped.calibrate(scene.sheet, scene.material, grid=9)
-    >>> springs.method, springs.grid, round(springs.layer_distance, 6)
-    ('consistent', (9, 9, 2), 0.003706)
-    """
-    require_choice("calibration", method, CALIBRATIONS)
-    chosen = CALIBRATIONS[method]
-    requested = {"k": k, "layer_distance": layer_distance, "grading": grading or None, "cells": cells}
-    options: dict[str, Any] = {name: value for name, value in requested.items() if value is not None}
-    for name, value in options.items():
-        if name not in chosen.takes:
-            others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
-            unit = f" {UNITS[name]}" if name in UNITS else ""
-            given = "" if name == "cells" else f"{name} = {value:g}{unit}: "
-            raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
-        if name in UNITS:
-            require_positive(name, value, UNITS[name])
-    with one_blas_thread():
-        return chosen.make(sheet, material, grid_of(sheet, grid), **options)
+CLOSED = described(MAKERS)
 
 
 def given(
@@ -132,7 +93,7 @@ def given(
         )
     cells = sections_of(scene, requested, table.graded)
     each = each_cell(scene.sheet, scene.material, requested, table.graded, cells if springs.varies else None)
-    return replace(report("scene", each, springs), cells=cells)
+    return replace(report("scene", each, springs), masses=table.masses, cells=cells)
 
 
 def default(scene: Scene) -> Calibration:

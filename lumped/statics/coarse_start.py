@@ -11,6 +11,8 @@ the lattice's own be.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from lumped.calibration import Calibration
@@ -31,7 +33,8 @@ def halved(scene: Scene, calibration: Calibration) -> Calibration | None:
     grid = (nx // 2 + 1, ny // 2 + 1, layers)
     if min(grid[:2]) < 5:
         return None
-    return consistent(scene.sheet, scene.material, grid, grading=calibration.grading)
+    coarser = consistent(scene.sheet, scene.material, grid, grading=calibration.grading)
+    return replace(coarser, masses=calibration.masses)
 
 
 def refined(coarse: Lattice, u: np.ndarray, fine: Lattice) -> np.ndarray:

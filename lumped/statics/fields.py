@@ -2,9 +2,7 @@
 
 Point data: displacement [m], reaction [N] (force of the supports on each mass), mass share [-]. Cell data,
 one value per link and per quad: tension [N] of the links (0 on quads), strain [-] of the links, family
-number of the links (−1 on quads), elastic_energy [J] of the link or of the quad's area and strain springs,
-cell_energy [J] of all that a plan cell stores, links shared with the cells beside them (0 on links; the quads
-of a plan cell's layers have equal parts).
+number of the links (−1 on quads), elastic_energy [J] of the link or of the quad's area and strain springs.
 """
 
 from __future__ import annotations
@@ -65,11 +63,6 @@ def field_mesh(
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
     elongation = links.elongations(small) / part
-    link_energy = links.energies(small) / part**2
-    per_plan_cell = _links_by_cell(lattice, links.nodes, link_energy)
-    layers = quads // len(per_plan_cell)
-    per_plan_cell += cell_energy.reshape(layers, -1).sum(axis=0)
-    all_energy = np.tile(per_plan_cell / layers, layers)
     return FieldMesh(
         points=lattice.positions,
         cells=[("line", links.nodes), ("quad", layer_cells)],
@@ -83,8 +76,7 @@ def field_mesh(
             "tension": [links.stiffness * elongation, np.zeros(quads)],
             "strain": [elongation / links.rest_length, np.zeros(quads)],
             "family": [links.kind.astype(float), np.full(quads, -1.0)],
-            "elastic_energy": [link_energy, cell_energy],
-            "cell_energy": [np.zeros(len(links)), all_energy],
+            "elastic_energy": [links.energies(small) / part**2, cell_energy],
         },
     )
 

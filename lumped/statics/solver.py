@@ -119,9 +119,11 @@ def build_problem(
     scene: Scene,
     calibration: Calibration,
     weights: Weights = "tributary",
+    same: Problem | None = None,
 ) -> Problem:
-    """The lattice of a scene under its supports and loads. Raises BadInput if no mass is left to move, and
-    for springs of cells that are all alike where the scene's are not."""
+    """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
+    supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
+    move, and for springs of cells that are all alike where the scene's are not."""
     fibres_alone = calibration.of_material and scene.varied_by == FIBRES and not scene.shaped_by
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
@@ -131,12 +133,16 @@ def build_problem(
     lines = assembly.lattice.lines
     if (state := natural_of_cells(scene, *(line.at for line in lines))) is not None:
         assembly.grow(state)
+    size = max(scene.sheet.lengths)
+    alike = same is not None and same.assembly.lattice is assembly.lattice
+    if same is not None and alike and couple is None and assembly.natural is None:
+        return Problem(assembly, same.constraints, same.loads, size, same.items)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
     items = tuple(Contact(scene, assembly, *each) for each in scene.named_obstacles().items())
-    return Problem(assembly, constraints, Loads(scene, assembly), max(scene.sheet.lengths), items)
+    return Problem(assembly, constraints, Loads(scene, assembly), size, items)
 
 
 def flat_step(scene: Scene, problem: Problem) -> Outcome:

@@ -24,31 +24,13 @@ def lowest_modes(
     factor: Callable[[], Factor] | None = None,
     dense: int | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest eigenvalues, rising, and their eigenvectors, scaled to φᵀ M φ = 1.
+    """Return the lowest eigenvalues (count,), rising, and their eigenvectors (n, count), φᵀ M φ = 1.
 
-    Parameters
-    ----------
-    stiffness, mass : sparse matrices (n, n)
-    count : int
-        How many modes, at most n.
-    shift : float
-        σ below the spectrum, or 0 for a positive definite K: Lanczos goes on (K − σM)⁻¹.
-    factor : callable, optional
-        What makes the factors of K − σM, where that is better than `DirectSolver` without fronts.
-    dense : int, optional
-        Unknowns up to which dense matrices are used for several modes, DENSE unless given.
+    stiffness, mass: sparse (n, n); count: at most n; shift: σ below the spectrum, or 0 for a positive
+    definite K: Lanczos goes on (K − σM)⁻¹; factor: what makes its factors, where that is better than
+    `DirectSolver` without fronts; dense: unknowns up to which dense matrices are used for several modes,
+    DENSE unless given. Raises SingularMatrixError where K − σM has no factors.
 
-    Returns
-    -------
-    eigenvalues (count,), eigenvectors (n, count)
-
-    Raises
-    ------
-    SingularMatrixError
-        Where K − σM has no factors.
-
-    Examples
-    --------
     >>> import scipy.sparse as sp
     >>> values, vectors = lowest_modes(sp.diags_array([4.0, 1.0, 9.0]), sp.eye_array(3), 2)
     >>> values

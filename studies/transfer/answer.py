@@ -63,6 +63,7 @@ class Transfer(Answer):
     limits: list[dict[str, Any]] = field(default_factory=list)
     modal: list[dict[str, Any]] = field(default_factory=list)
     aspect: list[dict[str, Any]] = field(default_factory=list)
+    left_out: list[dict[str, Any]] = field(default_factory=list)
     drawn: list[dict[str, Any]] = field(default_factory=list)
     failed: list[str] = field(default_factory=list)
 
@@ -81,6 +82,7 @@ class Transfer(Answer):
         made += [self._limits()] if self.limits else []
         made += map(self._modal, range(len(self.grids))) if self.modal else []
         made += [self._aspect()] if self.aspect else []
+        made += [self._left_out()] if self.left_out else []
         made += [self._drawn()] if self.drawn else []
         return made
 
@@ -163,6 +165,16 @@ class Transfer(Answer):
         )
         return Table.of(Long, rows, "Cells longer than wide, calibrated by `moduli`", "aspect", grouped=True)
 
+    def _left_out(self) -> Table:
+        lines = []
+        for row in self.left_out:
+            misses = [None] * 3 if row["misses"] is None else map(float, row["misses"])
+            errors = {"error": row["error"], **{f"frequency {i}": miss for i, miss in enumerate(misses, 1)}}
+            lines.append(Line({"method": row["method"], "left out": row["left_out"]}, errors))
+        n = self.grids[0]
+        caption = f"Fitted to the other scenes of four, tested on the one left out, {n} × {n} × 2"
+        return Table.of(Line, lines, caption, "left-out", grouped=True)
+
     def _drawn(self) -> Table:
         rows = [Drawn.of(**row) for row in self.drawn]
         return Table.of(Drawn, rows, "Drawn sheets: errors by masses along the shorter side", "drawn")
@@ -170,7 +182,9 @@ class Transfer(Answer):
     def notes(self) -> tuple[str, ...]:
         return (
             "error: the largest component of u − u_shell over 5 × 5 points of the sheet, of the largest "
-            f"component of u_shell there; shell of {self.elements} elements a side. extrapolated: "
+            f"component of u_shell there; shell of {self.elements} elements a side. fit-static and "
+            "fit-modal are trained on the sheet under its own weight with one edge and with two adjacent "
+            "edges clamped, again for every thickness and E; all other methods see no scene. extrapolated: "
             "Richardson's limit, error ~ h². predicted: the shell whose stiffness is the lattice's by its "
             "moduli report; apart: the lattice from that shell. Frequencies: f/f_shell − 1.",
         )

@@ -14,6 +14,7 @@ from sheetbench.scenes import Scene, load
 TRAINING = ("one-edge-clamped", "two-edges-clamped")
 LINEAR = ("one-edge-linear", "two-edges-linear")
 MODAL = (*TRAINING, "opposite-edges-clamped", "three-edges-clamped", "opposite-edges-hinged")
+HELD_OUT = (*TRAINING, "opposite-edges-clamped", "three-edges-clamped")  # of the leave-one-out study
 
 
 def transfer_scenes() -> dict[str, Scene]:

@@ -32,7 +32,7 @@ from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.scenes import Scene
 from studies.transfer.answer import Transfer
 from studies.transfer.drawn_scenes import drawn_sheets
-from studies.transfer.scenes import LINEAR, MODAL, TRAINING, transfer_scenes
+from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from studies.transfer.tasks import FINE, points
 
 # `consistent` has their moduli
@@ -42,7 +42,8 @@ OTHERS = (
     "hyperelastic",
 )
 METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
-PARTS = ("static", "limits", "modal", "aspect", "drawn")
+FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
+PARTS = ("static", "limits", "modal", "aspect", "left-out", "drawn")
 GRIDS = (9, 17, 33)
 MASSES = ("tributary", "gregory", "higher-order")
 LONG = ((9, 9), (9, 13), (9, 17), (9, 25), (25, 9))  # of `moduli` on the training scenes
@@ -109,7 +110,8 @@ class _Study:
 
     def rows(self, parts: Sequence[str]) -> dict[str, list[dict[str, Any]]]:
         """Return the rows by part; before there are outcomes, every run that they need is noted."""
-        return {name: list(getattr(self, name)()) for name in parts}
+        names = [part.replace("-", "_") for part in parts]
+        return {name: list(getattr(self, name)()) for name in names}
 
     def static(self) -> Iterator[dict[str, Any]]:
         for name in self.scenes:
@@ -125,6 +127,7 @@ class _Study:
                     "method": method,
                     **({} if self.grading is None else chosen),
                     **taken,
+                    "trained_on": method in FITTED and name in TRAINING,
                     "errors": [_error(u, truth) for u in fields],
                     "extrapolated": _error(_richardson(fields), truth),
                 }
@@ -141,7 +144,7 @@ class _Study:
         n = self.grids[-1]
         for name in (name for name in self.scenes if name in LIMITS):
             truth = self._reference(name)
-            for method in self.methods:
+            for method in (m for m in self.methods if m not in FITTED):
                 fields = [self._lattice(name, method, (n, n)) for n in self.grids]
                 finest = self._lattice(name, method, (n, n), "homogenised", elements=self.elements)
                 limit = self._lattice(name, method, (FINE, FINE), "homogenised", elements=self.elements)
@@ -178,6 +181,27 @@ class _Study:
                 ratio = (max(grid) - 1) / (min(grid) - 1)
                 yield {"scene": name, "grid": list(grid), "aspect": ratio, "error": error}
 
+    def left_out(self) -> Iterator[dict[str, Any]]:
+        n = self.grids[0]
+        held_out = [name for name in self.scenes if name in HELD_OUT]
+        for method in (m for m in self.methods if m in FITTED):
+            own_masses = "gregory" if method == "fit-modal" else "tributary"
+            for name in held_out:
+                if not (training := [other for other in held_out if other != name]):
+                    continue
+                u = self._lattice(name, method, (n, n), "fitted", training=training)
+                f = self._lattice(
+                    name, method, (n, n), "lattice_frequencies", training=training, masses=own_masses
+                )
+                truth = self._reference(name, "reference_frequencies")
+                yield {
+                    "method": method,
+                    "left_out": name,
+                    "grid": n,
+                    "error": _error(u, self._reference(name)),
+                    "misses": _misses(f, truth),
+                }
+
     def drawn(self) -> Iterator[dict[str, Any]]:
         for scene in drawn_sheets():
             run = Run("studies.transfer.drawn:measure", {"scene": scene.document()}, f"{scene.name} drawn")
@@ -195,13 +219,17 @@ class _Study:
         grid: tuple[int, int],
         task: str = "",
         *,
+        training: Sequence[str] = (),
         grading: float | str = 0.0,
         **more: Any,
     ) -> np.ndarray | None:
-        """What a task finds of a lattice, its displacement at the points without one."""
+        """What a task finds of a lattice, its displacement at the points without one; training: scenes of a
+        fitted method in place of its own."""
         method = self._method(name, method)
         if not task:
             return self._field(name, Lattice((*grid, 2), method, grading=grading))
+        if training:
+            more["training"] = [self.texts[other] for other in training]
         label = f"{method} {grid[0]}×{grid[1]} {task}"
         return self._ask(task, name, label, method=method, grid=[*grid, 2], **more)
 

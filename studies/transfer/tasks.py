@@ -30,6 +30,12 @@ def points(sheet: Sheet) -> np.ndarray:
     return plan_points(plan_grid(sheet.lengths, (POINTS, POINTS)))
 
 
+def fitted(scene: dict[str, Any], **lattice: Any) -> dict[str, Any]:
+    """Return the displacement at the points of a lattice whose springs are fitted to other scenes."""
+    parsed = Scene.model_validate(scene)
+    return _displacement(lumped.solve(parsed, _springs(parsed, **lattice)), parsed)
+
+
 def homogenised(scene: dict[str, Any], elements: int, **lattice: Any) -> dict[str, Any]:
     """Return the displacement at the points of the shell whose section is the lattice's."""
     parsed = Scene.model_validate(scene)
@@ -55,10 +61,15 @@ def reference_frequencies(scene: dict[str, Any], elements: int) -> dict[str, Any
 
 
 def _springs(
-    scene: Scene, method: str, grid: Sequence[int], grading: float | str = 0.0
+    scene: Scene,
+    method: str,
+    grid: Sequence[int],
+    training: Sequence[dict[str, Any]] | None = None,
+    grading: float | str = 0.0,
 ) -> lumped.Calibration:
-    """Return a lattice's springs."""
-    return resolve(scene, Lattice(tuple(grid), method, grading=grading), "springs").springs
+    """Return a lattice's springs. training: scenes of a fitted method, its own unless given."""
+    chosen = None if training is None else [Scene.model_validate(data) for data in training]
+    return resolve(scene, Lattice(tuple(grid), method, grading=grading), "springs").calibrated(chosen)
 
 
 def _displacement(solution: Solution, scene: Scene) -> dict[str, Any]:

@@ -20,6 +20,7 @@ def test_every_name_is_there_and_described():
     assert list(fem_reference.MODELS) == list(choices.REFERENCES) == list(REFERENCES)
     for name, method in lumped.CALIBRATIONS.items():
         assert vars(choices.CALIBRATIONS[name]).items() <= vars(method).items()
+        assert method.fitted == ("targets" in signature(method.make).parameters)
 
 
 def test_the_usual_choices_are_those_of_the_functions():

@@ -131,7 +131,7 @@ def test_every_candidate_is_looked_at_before_the_first_run(store, monkeypatch):
 MOVED = "--duration 0.004 --lumped"
 LINES = [SMALL[name] for name in ("compare", "compare motion", "identify", "modes", "simulate")]
 MORE = [SMALL[name] for name in ("tradeoff", "tradeoff tolerance", "stability")]
-MORE += [f"calibrate {SCENE} --grid 100000 --export out"]
+MORE += [f"calibrate {SCENE} --grid {grid}" for grid in ("3 --calibration fit-modal", "100000 --export out")]
 MORE += [f"tradeoff {SCENE} {MOVED} 3 --plate= --shell 2 --solid="]
 
 

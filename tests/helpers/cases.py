@@ -1,7 +1,6 @@
 """Sheets, materials and shorthands that the tests share; the first sheet is that of Habibi et al.'s
 scenes."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -75,11 +74,6 @@ def equilibrium(
 def with_material(scene: Scene, **changes: float) -> Scene:
     """The scene with E, ν or ρ changed."""
     return scene.model_copy(update={"material": scene.material.model_copy(update=changes)})
-
-
-def with_constants(calibration: lumped.Calibration, **constants: float) -> lumped.Calibration:
-    """A calibration with some spring constants [N/m] changed, by name."""
-    return replace(calibration, springs=calibration.springs.model_copy(update=constants))
 
 
 def relative(u: np.ndarray, reference: np.ndarray) -> float:

@@ -128,7 +128,7 @@ def test_springs_of_a_scene_file_are_the_calibrations(method):
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, (5, 6), method, grading=0.7)
     written = json.loads(json.dumps(springs.document()))
-    kept = {name: written[name] for name in ("grid", "grading", "layer_distance")}
+    kept = {name: written[name] for name in ("grid", "grading", "masses", "layer_distance")}
     table = SpringTable.model_validate(written["springs"] | kept)
     pasted = scene.model_copy(update={"springs": table})
     again = lumped.given(pasted)

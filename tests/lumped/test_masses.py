@@ -1,5 +1,7 @@
 """How the sheet's mass and its payloads are shared out: exact moments, and frequencies on many supports."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from cases import sheet
@@ -96,6 +98,12 @@ def test_edges_that_hold_the_director_share_nothing():
 def test_few_masses_keep_a_positive_inertia(grid):
     lattice = build(SHEET, (*grid, 2), 0.002, twisting=EVERY)
     assert np.linalg.eigvalsh(mass_matrix(SCENE, lattice, "higher-order").toarray())[0] > 0.0
+
+
+def test_springs_fitted_to_frequencies_keep_their_masses():
+    springs = lumped.calibrate(SHEET, SCENE.material, 5)
+    assert lumped.usual_masses(springs) == "higher-order"
+    assert lumped.usual_masses(replace(springs, masses="gregory")) == "gregory"
 
 
 @pytest.mark.parametrize(("supports", "distribution"), [((), "gregory"), (("x0",), "tributary")])

@@ -32,6 +32,29 @@ def assert_close(mine, theirs, within=2e-5):
     assert np.abs(mine - theirs).max() < within * np.abs(theirs).max()
 
 
+@pytest.mark.parametrize("grid", [(7, 7), (5, 9)])
+def test_every_spring_constant(grid):
+    scene = scene_of("two-edges-clamped")
+    springs = calibrated(scene, grid)
+    names = [*springs.constants.names(), "layer_distance"]
+    assert len(names) >= 8
+    found = lumped.sensitivity(scene, springs, names)
+    for name in names:
+        value = springs.constants.value(name)
+
+        up, down = (
+            lumped.solve(scene, springs.with_constant(name, value + h)).displacement(scene.probe_points())
+            for h in (1e-4 * value, -1e-4 * value)
+        )
+        expected = (up - down) / (2e-4 * value)
+        scale = np.abs(found.displacement).max() / abs(value)
+        assert np.abs(found.derivatives[name] - expected).max() < 2e-7 * scale, name
+
+
+def held(tilt):
+    return (Clamped(edge="x0", tilt=tilt),)
+
+
 @pytest.mark.parametrize(
     "base, changes, name, h",
     [

@@ -50,6 +50,12 @@ def test_wrong_limits_are_measured_and_predicted(study):
     assert rows["consistent"]["extrapolated"] < 0.004 and rows["consistent"]["predicted_limit"] < 0.001
 
 
+def test_leave_one_out(study):
+    found = study(methods=["fit-static"], grids=[9], scenes=SEED, parts=["left-out"])
+    assert [row["left_out"] for row in found.left_out] == SEED
+    assert max(row["error"] for row in found.left_out) < 0.03
+
+
 def test_command(tmp_path, in_process, capsys):
     arguments = ["--methods", "uniform", "--scenes", "two-edges-clamped", "--grids", "5,9", "--elements", "4"]
     arguments += ["--part", "static", "--workers", "1", "--json", "--out", str(tmp_path)]

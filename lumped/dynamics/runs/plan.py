@@ -39,7 +39,7 @@ def plan_run(
 
     @cache
     def period() -> float:
-        return 1.0 / float(modes(system.scene, calibration, 1, "tributary").frequencies[0])
+        return 1.0 / float(modes(system.scene, calibration, 1, calibration.masses).frequencies[0])
 
     spacing = every if every is not None else period() / SAMPLES_PER_PERIOD
     if step is not None and every is None:
@@ -67,9 +67,9 @@ def plan_run(
 
 def shortest_period(scene: Scene, springs: Calibration) -> float:
     """Return the lowest mode's period [s] about the flat sheet or about its equilibrium, the shorter."""
-    found = [modes(scene, springs, 1, "tributary")]
+    found = [modes(scene, springs, 1, springs.masses)]
     with suppress(NoEquilibrium, SceneError):  # where there is none, the flat sheet's it is
-        found.append(modes(scene, springs, 1, "tributary", "deformed"))
+        found.append(modes(scene, springs, 1, springs.masses, "deformed"))
     return 1.0 / max(float(one.frequencies[0]) for one in found)
 
 

@@ -191,6 +191,8 @@ class SpringTable(SpringSet):
     """The edges towards which they are smaller, where that is not all four."""
     lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = None
     """x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
+    masses: Distribution = "tributary"
+    """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
 
     @model_validator(mode="before")
     @classmethod

@@ -13,9 +13,13 @@ from verbs import write_inputs
 import fem_reference
 import lumped
 import sheetbench as sb
+from comparisons.calibration.calibrate import calibrate
 from comparisons.cli import console
 from comparisons.cli.app import main
 from comparisons.cli.verb import as_verb
+from comparisons.models.context import running
+from comparisons.models.spec import Lattice
+from comparisons.models.training import training_scenes
 from comparisons.pictures import work
 from comparisons.pictures.work import Work
 from comparisons.sweep.campaign import GOING, Progress
@@ -89,6 +93,15 @@ def test_other_verbs_tell_too(tmp_path):
     sb.identify(SCENE, tmp_path / "measured.csv", model="shell", elements=2, progress=reports.append)
     assert any(isinstance(one, Work) and one.share == 1.0 for one in reports)
     assert any(isinstance(one, str) and one.startswith("young = ") for one in reports)
+
+
+def test_a_fit_tells_what_it_is_trained_on():
+    reports: list[Work] = []
+    seed, spec = sb.load("two-edges-clamped"), Lattice(4, "fit-modal")
+    scene = training_scenes(seed.sheet, seed.material)[0]
+    with running(progress=reports.append):
+        calibrate(scene, spec, named=False)
+    assert [one.doing.split()[0] for one in reports] == ["training", "training", "fitting"]
 
 
 @pytest.mark.parametrize("terminal", [True, False])

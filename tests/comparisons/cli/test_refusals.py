@@ -70,6 +70,7 @@ ROWS = {
     f"{IDENTIFY} --unknown tilt_x1": "tilt_x1|x1|no clamp",
     f"{IDENTIFY} --unknown tilt_x0": "tilt_x0|no tilt|corner|y0",
     f"{IDENTIFY} --model plate": "plate|shell",
+    f"{IDENTIFY} --calibration fit-static": "fit-static",
     f"{IDENTIFY} --offset 0.001": "offset = 0.001 m|cloud",
     f"modes {ONE} --state-space 3 --about moving": "about = 'moving'",
     f"modes {ONE} --reduce balanced:4": "--reduce: no effect without --state-space",

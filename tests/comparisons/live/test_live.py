@@ -23,6 +23,7 @@ from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
+from sheetbench.choices import CALIBRATIONS
 from sheetbench.errors import BadInput
 
 SCENE = sb.load("curved-edge")
@@ -85,6 +86,7 @@ def test_a_given_k_has_a_slider_and_goes_with_the_calibrations_that_take_it():
     lattices = [panel.read(query_of(panel, 1, name, k=600.0)).lattice for name in ("uniform", "consistent")]
     assert [(one.k, one.layer_distance) for one in lattices] == [(600.0, 0.002), (None, 0.002)]
     assert "k" not in Panel(SCENE, 2).sliders
+    assert not any(CALIBRATIONS[name].fitted for name in panel.calibrations)
     with pytest.raises(BadInput, match="near-square"):
         Panel(SCENE, 2, Lattice("3x9"))
 

@@ -58,12 +58,14 @@ def test_springs_of_another_grid_are_refused(tmp_path, capsys):
     assert "springs.grid = 9x9x2" in said and "17x9x2" in said and "calibrate --grid 17x9x2" in said
 
 
-def test_grading_of_pasted_springs():
+def test_masses_and_grading_of_pasted_springs():
     springs = lumped.calibrate(LONG, RUBBER, 3).springs.model_dump()
-    table = {**springs, "grid": (5, 3, 2)}
+    table = {**springs, "grid": (5, 3, 2), "masses": "gregory"}
+    scene = SCENE.model_copy(update={"springs": SpringTable(**table)})
+    assert lumped.given(scene).masses == "gregory"
     graded = SCENE.model_copy(update={"springs": SpringTable(**table, grading=0.5)})
     with pytest.raises(BadInput, match=r"grading = 0\.5"):
         lumped.given(graded)
-    for wrong in ({"grid": (1, 3, 2)}, {"grading": 2.0}):
+    for wrong in ({"grid": (1, 3, 2)}, {"masses": "lumps"}, {"grading": 2.0}):
         with pytest.raises(BadInput, match=next(iter(wrong))):
             SpringTable(**{**table, **wrong})

@@ -1,12 +1,17 @@
 """Which springs a scene gets where the choice is left to it, and how near that brings coarse grids."""
 
 import pytest
+from commands import json_of
 
 import sheetbench as sb
+from comparisons.models import training as targets
 from comparisons.models.method import FAR, MEMBRANE, method_for, resolve_calibration
+from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Lattice
 from comparisons.tradeoff.choices import of_lattices
+from sheetbench import scenes
+from sheetbench.errors import BadInput
 from sheetbench.face import solve
 from sheetbench.scenes import Clamped, Scene, load
 from studies.transfer.scenes import transfer_scenes
@@ -76,3 +81,27 @@ def test_rubber_gets_the_springs_of_its_law():
     for lattice in (Lattice(), Lattice(calibration="auto")):
         assert resolve_calibration(scene, (9, 9, 2), lattice) == chosen
     assert resolve_calibration(scene, (9, 9, 2), Lattice(calibration="uniform"))[0] == "uniform"
+
+
+SCENE = scenes.load("two-edges-clamped")
+
+
+def test_training_scenes_are_the_seeds_sheet_held_by_one_and_two_edges():
+    one, two = targets.training_scenes(SCENE.sheet, SCENE.material)
+    assert [s.edge for s in one.supports] == ["x0"] and [s.edge for s in two.supports] == ["x0", "y0"]
+    assert two.gravity == SCENE.gravity
+
+
+def test_calibrate_trains_on_the_scene_it_is_given(capsys):
+    found = []
+    for scene in ("two-edges-clamped", "one-edge-clamped"):
+        found.append(json_of(capsys, "calibrate", scene, "--calibration", "fit-static", "--grid", "5"))
+    assert found[0]["springs"] != found[1]["springs"]
+    assert found[0]["fit"]["residual"] < 0.01
+    assert set(found[0]["fit"]["half_widths"]) <= set(found[0]["springs"])
+
+
+def test_a_scene_in_which_nothing_moves_is_nothing_to_train_on():
+    still = SCENE.replace(gravity=None)
+    with pytest.raises(BadInput, match="nothing moves"):
+        resolve(SCENE, Lattice(3, "fit-static")).calibrated([still])

@@ -177,7 +177,7 @@ def test_unknown_choices_are_refused():
 def test_the_lowest_period_has_a_hundred_samples(periods):
     scene = make_scene()
     calibration = springs(scene, 3)
-    period = 1.0 / lumped.modes(scene, calibration, 1, "tributary").frequencies[0]
+    period = 1.0 / lumped.modes(scene, calibration, 1, calibration.masses).frequencies[0]
     equations, _ = system(scene, 3)
     plan, _ = plan_run(equations, calibration, None, periods * period, None, "esdirk", None)
     assert plan.samples == round(100 * periods)

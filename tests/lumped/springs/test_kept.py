@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from cases import with_constants
 
 import lumped
 from lumped import lattice, pattern, rest, supports
@@ -29,7 +28,7 @@ def test_what_is_kept_is_what_would_be_found(name):
     """Springs with and without some of their families, by turns, on one lattice."""
     scene = load(name)
     full = lumped.calibrate(scene.sheet, scene.material, grid=(3, 4))
-    several = [full, with_constants(full, vertical=0.0), with_constants(full, edge_shear=0.0), full]
+    several = [full, full.with_constant("vertical", 0.0), full.with_constant("edge_shear", 0.0), full]
     kept = [lumped.build_problem(scene, springs) for springs in several]
     assert kept[0].constraints is kept[3].constraints and kept[0].system is kept[3].system
     for problem, springs in zip(kept, several, strict=True):

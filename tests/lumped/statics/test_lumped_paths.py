@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cases import sheet, with_constants
+from cases import sheet
 
 import fem_reference
 import lumped
@@ -86,7 +86,7 @@ def test_shear_of_the_faces_alone_makes_no_rubber():
     """The springs of a [springs] table with face_shear: the other cells stay linear, and are judged so."""
     scene = scenes.load("one-edge-clamped")
     given = lumped.calibrate(scene.sheet, scene.material, 5)
-    sheared = with_constants(given, face_shear=1e-3)
+    sheared = given.with_constant("face_shear", 1e-3)
     alone, beside = (lumped.solve(scene, each) for each in (given, sheared))
     assert beside.status is alone.status is Status.CONVERGED
     heavy = scene.replace(young=3e4)
@@ -120,7 +120,7 @@ SPRINGS = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(5, 5))
 
 
 def test_threads_do_not_disturb_each_other():
-    several = [with_constants(SPRINGS, diagonal=k) for k in np.linspace(2000.0, 9000.0, 12)]
+    several = [SPRINGS.with_constant("diagonal", k) for k in np.linspace(2000.0, 9000.0, 12)]
     with ThreadPoolExecutor(3) as pool:
         answers = list(pool.map(lambda springs: lumped.solve(SCENE, springs), several))
     for many, springs in zip(answers, several, strict=True):

@@ -1,4 +1,4 @@
-"""References solve, and springs are found, on one BLAS thread whatever is set, which stays as it was."""
+"""References solve, and springs are fitted, on one BLAS thread whatever is set, which stays as it was."""
 
 from dataclasses import replace
 
@@ -7,7 +7,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 import fem_reference
 import lumped
-from lumped.calibration import methods
+from lumped.fitting import methods
 from sheetbench import scenes
 from sheetbench.numerics import direct as linear
 

@@ -57,7 +57,7 @@ class Damping:
             blocks[self._own] += scale * drag.velocity_tangent(self.drag, u, v)
 
 
-class Forces(NamedTuple):
+class MovingForces(NamedTuple):
     """What compiled loops take of a lattice in motion: its springs and dampers, and where their forces are
     computed; the masses' own damping (n,) [kg/s]; the air's drag."""
 
@@ -69,7 +69,7 @@ class Forces(NamedTuple):
 
 @njit(cache=True)
 def add_forces(
-    forces: Forces, u: np.ndarray, v: np.ndarray, elastic: bool, damped: bool, out: np.ndarray
+    forces: MovingForces, u: np.ndarray, v: np.ndarray, elastic: bool, damped: bool, out: np.ndarray
 ) -> tuple[float, float]:
     """Add the springs' force at a displacement (n, 3) [m], if elastic, and if damped what resists a velocity
     (n, 3) [m/s] to `out` (n, 3) [N]; return the energy [J] and the power taken [W]."""
@@ -83,7 +83,7 @@ def add_forces(
 
 
 @njit(cache=True)
-def add_resistance(forces: Forces, u: np.ndarray, v: np.ndarray, out: np.ndarray) -> float:
+def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.ndarray) -> float:
     """Add the forces of the masses' own damping and of the air; return the power taken [W]."""
     power = drag.add_drag(forces.drag, u, v, out)
     for i in range(len(forces.rate)):

@@ -20,7 +20,7 @@ from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
 from lumped.carried import pairs_of, rotary_masses
-from lumped.dynamics.damping import Damping, Forces, add_forces
+from lumped.dynamics.damping import Damping, MovingForces, add_forces
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
 from lumped.items import Placed
@@ -47,10 +47,10 @@ class State:
 
 
 class System:
-    """Forces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
+    """MovingForces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
     its share of the sheet's and the payloads'.
 
-    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia. Forces are
+    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia. MovingForces are
     computed in arrays that it keeps (`forces`), so a system is for one thread at a time; what it answers
     does not depend on the order of calls.
     """
@@ -72,7 +72,7 @@ class System:
         self.packed = self.maxwell is None and self.natural is None and self.assembly.conservative
         self.packing = pack(lattice, self.assembly.springs if self.packed else (), self.damping.dampers)
         room, damping = scratch(self.packing), self.damping
-        self.forces = typed(Forces(self.packing, room, damping.rate, damping.drag))
+        self.forces = typed(MovingForces(self.packing, room, damping.rate, damping.drag))
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
         mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.damping import Forces, add_forces
+from lumped.dynamics.damping import MovingForces, add_forces
 from lumped.dynamics.system import System
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
@@ -26,7 +26,7 @@ class Arrays(NamedTuple):
     band's width; and what the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right
     side in the band's order, padded."""
 
-    forces: Forces
+    forces: MovingForces
     mass: Rows
     free: Rows
     unknowns: int

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.damping import Forces, add_forces
+from lumped.dynamics.damping import MovingForces, add_forces
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import System
 from lumped.mid_surface import MidSurface
@@ -30,10 +30,10 @@ ROUNDED = 1e-9  # of the energy of the flat sheet, of a natural state, below whi
 
 
 class Observed(NamedTuple):
-    """Forces; M; loads with a potential (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and
+    """MovingForces; M; loads with a potential (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and
     forces on masses to those of each support, (3 s, 3 n)."""
 
-    forces: Forces
+    forces: MovingForces
     mass: Rows
     dead: np.ndarray
     probes: Rows

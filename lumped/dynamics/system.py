@@ -47,10 +47,10 @@ class State:
 
 
 class System:
-    """MovingForces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
+    """Forces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
     its share of the sheet's and the payloads'.
 
-    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia. MovingForces are
+    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia. Forces are
     computed in arrays that it keeps (`forces`), so a system is for one thread at a time; what it answers
     does not depend on the order of calls.
     """

@@ -30,7 +30,7 @@ ROUNDED = 1e-9  # of the energy of the flat sheet, of a natural state, below whi
 
 
 class Observed(NamedTuple):
-    """MovingForces; M; loads with a potential (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and
+    """Forces; M; loads with a potential (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and
     forces on masses to those of each support, (3 s, 3 n)."""
 
     forces: MovingForces

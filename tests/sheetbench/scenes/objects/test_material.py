@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from rubbers import LAWS, rubber
-from scene_files import GOOD, refusal
+from scene_files import GOOD, SPRINGS, refusal
 
 import lumped
 from sheetbench import scenes
@@ -55,13 +55,6 @@ def test_constants_follow_young_and_young_follows_constants(law):
     assert rubber(law).replace(law="neo-hookean").energy.c20 == 0.0
 
 
-SPRINGS = """[springs]
-axial = 1.0
-diagonal = 1.0
-vertical = 1.0
-cross = 1.0
-cross_diagonal = 1.0
-layer_distance = 0.001"""
 REFUSED = {
     "material: c1 = 1: law is missing": {"young": 1e6, "c1": 1.0},
     "material: c1 = 1: law = 'gent' takes shear and limit": {"law": "gent", **LAWS["gent"], "c1": 1.0},

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from inspect import signature
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.plate.discrete import DiscretePlate
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.borders import borders_of
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, has_lines, mesh_of
@@ -21,6 +19,10 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
+
+if TYPE_CHECKING:  # of a model that nobody asked for nothing is loaded
+    from fem_reference.plate.discrete import DiscretePlate
+    from fem_reference.solid.discrete import DiscreteSolid
 
 GRADINGS = ("edges", "uniform")
 
@@ -42,6 +44,8 @@ def plate(
     the simple support of the published Mindlin benchmarks. section: stiffness per width, from material and
     thickness unless given; reach: of the grading (`mesh.mesh_of`).
     """
+    from fem_reference.plate.discrete import DiscretePlate
+
     if graded is None:
         graded = not scene.twisting_edges() <= set(hard_edges)
     made = DiscretePlate(mesh_of(scene, elements, graded, reach), scene, section, hard_edges, moving)
@@ -82,6 +86,8 @@ def solid(
     layers: bricks through the thickness; law: a key of `solid.materials.LAWS`; clamp: one of
     `solid.supports.CLAMPS`; grading: one of `GRADINGS`.
     """
+    from fem_reference.solid.discrete import DiscreteSolid
+
     if grading not in GRADINGS:
         raise BadInput(f"grading = {grading!r}: known are {', '.join(GRADINGS)}")
     mesh = mesh_of(scene, elements, graded=grading == "edges" and has_lines(borders_of(scene)))

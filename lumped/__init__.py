@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
+    from lumped.dynamics.runs.plan import explicit_limit, shortest_period
     from lumped.dynamics.runs.simulation import simulate
-    from lumped.dynamics.scales import explicit_limit, shortest_period
     from lumped.dynamics.system import State, System
     from lumped.linearised import Linear, linearise
     from lumped.state_space import Balanced, StateSpace

@@ -10,14 +10,15 @@ import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Scene
+from sheetbench.scenes import EDGES, Scene
 from sheetbench.scenes.meaning.region import off_sheet
 
 Document = dict[str, Any]
-CHANGES = ("mirrored", "turned by 90°", "upside down", "ten times as large")
-_EDGES = {
-    "mirrored": {"x0": "x1", "x1": "x0", "y0": "y0"},
-    "turned by 90°": {"x0": "y0", "y0": "x1", "y1": "x0"},
+CHANGES = {  # what becomes of vectors in space
+    "mirrored": np.diag([-1.0, 1.0, 1.0]),
+    "turned by 90°": np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+    "upside down": np.diag([1.0, 1.0, -1.0]),
+    "ten times as large": np.diag([10.0, 10.0, 10.0]),
 }
 
 
@@ -35,17 +36,14 @@ class _Pen:
         place = low + (high - low) * self.random.random()
         return float(self.either(round(place, 4), round(20.0 * place) / 20.0))
 
-    def box(self, lx: float, ly: float) -> Document:
-        spans = []
-        for length in (lx, ly):
-            low = self.share(0.1, 0.6)
-            spans.append([low * length, (low + self.share(0.15, 0.35)) * length])
-        return {"rectangle": {"x": spans[0], "y": spans[1]}}
+    def span(self, length: float) -> list[float]:
+        low = self.share(0.1, 0.6)
+        return [low * length, (low + self.share(0.15, 0.35)) * length]
 
     def shape(self, lx: float, ly: float) -> Document:
         kind = self.either("box", "circle", "polygon") if self.oblique else "box"
         if kind == "box":
-            return self.box(lx, ly)
+            return {"rectangle": {"x": self.span(lx), "y": self.span(ly)}}
         x, y = self.share(0.3, 0.7) * lx, self.share(0.3, 0.7) * ly
         if kind == "circle":
             return {"circle": {"centre": [x, y], "radius": self.share(0.1, 0.2) * lx}}
@@ -65,7 +63,6 @@ def draw(seed: int, oblique: bool = False) -> Document:
         "material": {"young": 5e6, "poisson": 0.35, "density": 1000.0},
         "gravity": {"acceleration": [0.0, 0.0, -0.02]},
         "supports": [],
-        "loads": [],
     }
     kind = pen.either("hole", "patch", "both", "outline")
     if kind in ("hole", "both"):
@@ -86,75 +83,62 @@ def draw(seed: int, oblique: bool = False) -> Document:
         scene["supports"].append({"kind": "clamped", "edge": "x0"})
     if pen.random.random() < 0.3:
         scene["supports"].append({"kind": "hinged", "edge": "y0"})
-    load = pen.either("pressure", "part", "edge", "none")
-    if load == "pressure":
-        scene["loads"].append({"kind": "pressure", "value": 0.2})
-    if load == "part":
-        pressed = {"rectangle": {"x": [0.7 * lx, 0.95 * lx], "y": [0.05 * ly, 0.35 * ly]}}
-        scene["loads"].append({"kind": "pressure", "value": 0.4, "where": pressed})
-    if load == "edge":
-        scene["loads"].append({"kind": "edge", "edge": "y0", "force_per_length": [0.01, 0.02, -0.005]})
-    return scene
+    pressed = {"rectangle": {"x": [0.7 * lx, 0.95 * lx], "y": [0.05 * ly, 0.35 * ly]}}
+    loads = (
+        [{"kind": "pressure", "value": 0.2}],
+        [{"kind": "pressure", "value": 0.4, "where": pressed}],
+        [{"kind": "edge", "edge": "y0", "force_per_length": [0.01, 0.02, -0.005]}],
+        [],
+    )
+    return {**scene, "loads": pen.either(*loads)}
 
 
 class Change:
     """One of CHANGES of a scene of a sheet with sides lx and ly [m]."""
 
     def __init__(self, kind: str, lx: float, ly: float):
-        self.kind, self.lx, self.ly = kind, lx, ly
-        self.size = 10.0 if kind == "ten times as large" else 1.0
+        self.map = CHANGES[kind]
+        self.plan, self.up, self.size = self.map[:2, :2], np.sign(self.map[2, 2]), abs(self.map[2, 2])
+        corners = np.array([[0.0, 0.0], [lx, ly]]) @ self.plan.T
+        self.corner, self.lengths = corners.min(axis=0), np.ptp(corners, axis=0)
 
-    def place(self, point: Any) -> list[float]:
-        """Where a plan point comes to lie."""
-        x, y = (float(at) for at in point)
-        if self.kind == "mirrored":
-            return [self.lx - x, y]
-        return [self.ly - y, x] if self.kind == "turned by 90°" else [self.size * x, self.size * y]
+    def places(self, points: Any) -> Any:
+        """Where plan points come to lie."""
+        return (np.array(points) @ self.plan.T - self.corner).tolist()
 
-    def vector(self, vector: Any) -> list[float]:
-        """What becomes of a vector in space, but for its size."""
-        x, y, z = (float(part) for part in vector)
-        changed = {"mirrored": [-x, y, z], "turned by 90°": [-y, x, z], "upside down": [x, y, -z]}
-        return changed.get(self.kind, [x, y, z])
+    def edge(self, name: str) -> str:
+        """Which edge becomes of one."""
+        outward = self.map @ EDGES[name].outward
+        return next(each for each, edge in EDGES.items() if outward @ edge.outward > 0.5)
 
-    def _shape(self, shape: Document) -> Document:
+    def shape(self, shape: Document) -> Document:
         if "rectangle" in shape:
-            corners = np.array([self.place(at) for at in zip(*shape["rectangle"].values(), strict=True)])
+            corners = self.places([*zip(*shape["rectangle"].values(), strict=True)])
             return {"rectangle": dict(zip("xy", np.sort(corners, axis=0).T.tolist(), strict=True))}
         if "circle" in shape:
-            centre, radius = shape["circle"]["centre"], self.size * shape["circle"]["radius"]
-            return {"circle": {"centre": self.place(centre), "radius": radius}}
-        return {"polygon": [self.place(at) for at in shape["polygon"]]}
+            (centre,) = self.places([shape["circle"]["centre"]])
+            return {"circle": {"centre": centre, "radius": self.size * shape["circle"]["radius"]}}
+        return {"polygon": self.places(shape["polygon"])}
 
-    def _part(self, part: Document) -> Document:
-        """A support, a load, a patch or a cutout."""
-        new = {**part}
-        for key in {"where", "shape"} & {*part}:
-            new[key] = self._shape(part[key])
-        if "edge" in part:
-            new["edge"] = _EDGES.get(self.kind, {}).get(part["edge"], part["edge"])
-        if "thickness" in part:
-            new["thickness"] = self.size * part["thickness"]
-        if "force_per_length" in part:
-            new["force_per_length"] = [self.size * each for each in self.vector(part["force_per_length"])]
-        if part.get("kind") == "pressure" and self.kind == "upside down":
-            new["value"] = -part["value"]
-        return new
+    def part(self, part: Document) -> Document:
+        """A support, a load, a patch, a cutout or the sheet."""
+        changes = {
+            "where": self.shape,
+            "shape": self.shape,
+            "edge": self.edge,
+            "outline": self.places,
+            "thickness": lambda thickness: self.size * thickness,
+            "force_per_length": lambda force: (self.map @ force).tolist(),
+            "value": lambda pressure: self.up * pressure,
+        }
+        return {key: changes[key](value) if key in changes else value for key, value in part.items()}
 
     def scene(self, scene: Document) -> Document:
         """The scene; enlarged with forces that bend it to a shape ten times as large."""
-        sheet = {**scene["sheet"], "thickness": self.size * scene["sheet"]["thickness"]}
-        sides = (self.ly, self.lx) if self.kind == "turned by 90°" else (self.lx, self.ly)
-        sheet["length_x"], sheet["length_y"] = (self.size * side for side in sides)
-        if "outline" in sheet:
-            sheet["outline"] = [self.place(at) for at in sheet["outline"]]
-        fall = [each / self.size for each in self.vector(scene["gravity"]["acceleration"])]
-        parts = {
-            key: [self._part(part) for part in scene[key]]
-            for key in ("supports", "loads", "patches", "cutouts")
-            if key in scene
-        }
-        return {**scene, **parts, "sheet": sheet, "gravity": {"acceleration": fall}}
+        lists = {key: [*map(self.part, each)] for key, each in scene.items() if isinstance(each, list)}
+        sheet = self.part(scene["sheet"]) | dict(zip(("length_x", "length_y"), self.lengths, strict=True))
+        fall = self.map @ scene["gravity"]["acceleration"] / self.size**2
+        return {**scene, **lists, "sheet": sheet, "gravity": {"acceleration": fall.tolist()}}
 
 
 def points_of(scene: Scene) -> np.ndarray:
@@ -221,8 +205,8 @@ def changed_by(drawn, answer):
     away = {}
     for kind in CHANGES:
         change = Change(kind, *scene.sheet.lengths)
-        found = answer(Scene(**change.scene(drawn))).displacement([change.place(point) for point in points])
-        meant = change.size * np.array([change.vector(u) for u in own])
+        found = answer(Scene(**change.scene(drawn))).displacement(change.places(points))
+        meant = own @ change.map.T
         away[kind] = float(np.abs(found - meant).max() / np.abs(meant).max())
     return away
 

@@ -10,6 +10,7 @@ import fem_reference
 import lumped
 from comparisons.codes.lattice import lattice_files
 from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
 from sheetbench import face
 from sheetbench.answers.balance import dead_force
@@ -134,6 +135,13 @@ def test_springs_alike_in_all_cells_are_shared_out_where_a_sheet_is_cut(tmp_path
     masses = ElementTree.parse(tmp_path / "sofa.scn").find(".//DiagonalMass").attrib["vertexMass"].split()
     assert list(map(float, masses)) == lumped.describe(scene, springs).mass.tolist()
     assert len(masses) < 17 * 11 * 2
+
+
+def test_cells_of_a_lattice_know_their_share_of_the_sheet():
+    scene = load("one-edge-clamped").replace(cutouts=[{"shape": DISC}])
+    mesh = solve(resolve(scene, Lattice(6))).mesh
+    share = mesh.cell_data["share"][1]
+    assert share.sum() * (0.188 / 5) ** 2 == pytest.approx(2.0 * scene.region.area) and share.min() < 0.9
 
 
 SHAPED = {

@@ -30,6 +30,14 @@ def folder(tmp_path, monkeypatch):
         scene.save(f"{name}.toml")
 
 
+def test_files_say_what_each_cell_is_made_of():
+    assert run("compare", "drawn.toml", *SMALL, "--out", "out") == 0
+    for model in ("lumped", "shell"):
+        (file,) = Path("out").rglob(f"{model}*.vtu")
+        young, patch = (np.concatenate(meshio.read(file).cell_data[key]) for key in ("young", "patch"))
+        assert set(young) == {54.5e6, 1e9} and set(patch[young == 1e9]) == {1.0}
+
+
 @pytest.mark.parametrize(("sheet", "key"), [("drawn", "patch"), ("fabric", "material.kind = 'orthotropic'")])
 @pytest.mark.parametrize(
     ("verb", "options", "who"),

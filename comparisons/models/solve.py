@@ -21,10 +21,12 @@ from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice
 from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
-from sheetbench.answers.solution import Iteration, Solution
+from sheetbench.answers.solution import FieldMesh, Iteration, Solution
 from sheetbench.choices import REFERENCES
 from sheetbench.clock import now, stopped
-from sheetbench.scenes import load
+from sheetbench.scenes import Scene, load
+from sheetbench.scenes.meaning.composition import composition_at
+from sheetbench.scenes.meaning.region import share_of
 
 Watch = Callable[[Iteration], None]  # called once an iteration
 EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
@@ -53,8 +55,22 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
     preparing = now() - began
     solution = _solve(model, watch)
     spent = solution.setup_seconds + preparing
+    drawn = solution.mesh
+    if not scene.uniform or scene.pierced:
+        drawn = _with_composition(drawn, scene)
     named = name or solution.model
-    return replace(solution, model=named, setup_seconds=spent, points=dict(scene.probes))
+    return replace(solution, model=named, setup_seconds=spent, points=dict(scene.probes), mesh=drawn)
+
+
+def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
+    """Return the mesh with what each of its cells is made of, as its middle is, and what share of a lattice's
+    lies on the sheet."""
+    places = [mesh.points[nodes, :2] for _, nodes in mesh.cells]
+    found = [composition_at(scene, at.mean(axis=1)) for at in places]
+    of_cells = {name: [one[name] for one in found] for name in found[0]}
+    if scene.pierced and mesh.cells[0][0] == "line":
+        of_cells["share"] = [share_of(scene, at) for at in places]
+    return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **of_cells})
 
 
 def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:

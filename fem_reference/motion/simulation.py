@@ -55,12 +55,12 @@ def simulate(
     (<Status.CONVERGED: 'converged'>, 0.01)
     """
     keeping, options = parted(options)
-    require_moving(scene_of(scene), model)
+    requested = scene_of(scene)
+    require_moving(requested, model)
     for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")
     require_error(error)
     began = now()
-    requested = scene_of(scene)
     if model == "plate":
         require_no_obstacles(requested, "the plate, which is linear,")
     options = with_defaults(requested, model, options)

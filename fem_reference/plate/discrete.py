@@ -137,9 +137,6 @@ class DiscretePlate(DiscreteShell):
             projected(blocks.reshape(-1, 18, 3, 18, 3), self._frame[self.plan.elements])
         )
 
-    def constraining(self, shape: SheetShape, residual: np.ndarray, *stresses: object) -> np.ndarray:
-        return residual
-
     # when a state means nothing
 
     def fault(self, shape: SheetShape) -> Fault | None:

@@ -63,8 +63,7 @@ def rectangle(sheet: Sheet, elements: Elements, graded: bool = False) -> MeshQua
     Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
     a thick sheet has boundary layers: the same number of elements, a far smaller error.
     """
-    x, y = _lines(sheet, divisions(sheet, elements), graded, ())
-    return _tensor(x, y, *sheet.lengths)
+    return _tensor(*_lines(sheet, divisions(sheet, elements), graded, ()), *sheet.lengths)
 
 
 @kept(last=16, most=1 << 14)

@@ -74,18 +74,19 @@ def rows(case: str) -> Iterator[Row]:
     for model in models:
         coarse, found = (scale * modes(scene, model, n, 6).frequencies for n in (ELEMENTS // 2, ELEMENTS))
         mesh = f"{model} {ELEMENTS} × {ELEMENTS}"
-        yield from lowest(f"{unit}], converged", mesh, converged, FINER, found, CONVERGED)
-        yield from lowest(f"{unit}], bound", mesh, bounds, source, found, BOUND)
+        yield from lowest(f"mode {{}} [{unit}], converged", mesh, converged, FINER, found, CONVERGED)
+        yield from lowest(f"mode {{}} [{unit}], bound", mesh, bounds, source, found, BOUND)
         yield mesh_change(mesh, coarse, found, CONVERGED)
 
 
 def lowest(
-    unit: str, mesh: str, published: Values, source: str, found: np.ndarray, tolerance: float
+    quantity: str, mesh: str, published: Values, source: str, found: np.ndarray, tolerance: float
 ) -> Iterator[Row]:
-    """Rows of the lowest frequencies, but for those that are not published."""
+    """Rows of the lowest frequencies, but for those that are not published; quantity: with a place for their
+    number."""
     for number, (expected, computed) in enumerate(zip(published, found, strict=True), 1):
         if expected is not None:
-            yield relatively(f"mode {number} [{unit}", mesh, expected, source, computed, tolerance)
+            yield relatively(quantity.format(number), mesh, expected, source, computed, tolerance)
 
 
 def _coefficient(scene: Scene) -> float:

@@ -70,7 +70,7 @@ def _rows(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]
         middle = moved(scene, (0.5, 0.5), model, ELEMENTS, **hard)[2]
         yield relatively("w D22/qa⁴", mesh, unit * scale, source, middle / load * scale, STATIC)
         found = modes(scene, model, ELEMENTS, count=6).frequencies
-        yield from lowest("Hz]", mesh, exact[:6], "Leissa 1969", found, FREQUENCIES)
+        yield from lowest("mode {} [Hz]", mesh, exact[:6], "Leissa 1969", found, FREQUENCIES)
 
 
 def plate() -> Iterator[Row]:

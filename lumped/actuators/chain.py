@@ -89,6 +89,7 @@ class BoundChain:
         self._stiffness = np.array([c.bending_stiffness / frames.length / frames.share for c in chains])
         self.carried = float(self._stiffness.sum(axis=0).max(initial=0.0) / frames.length)
         self._damping = np.array([c.damping_time for c in chains]) @ self._stiffness
+        self.damped = bool(self._damping.any())
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
         """Weight of the segments: what the mass matrix makes of an acceleration of the points, for in a
@@ -151,7 +152,7 @@ class BoundChain:
     def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the power taken [W] and the force (rows, 3) [N] of c φ̇ on every joint's angles."""
         force = np.zeros_like(y)
-        if not self._damping.any():
+        if not self.damped:
             return 0.0, force
         by_row, count = self._angle_gradient(y), self.frames.coordinates
         rate = by_row @ v[:count].ravel()

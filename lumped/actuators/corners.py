@@ -52,16 +52,13 @@ class Tie:
 def held_ends(scene: Scene, edge: str) -> tuple[int, ...]:
     """Ends of a chain's edge, but for its own base's, at which a support on the neighbouring edge or the base
     of the chain there holds position and director."""
-    own = _chains(scene)[edge].base_ends
-    return tuple(end for end in (0, 1) if end not in own and _corner_is_held(scene, edge, end))
-
-
-def _corner_is_held(scene: Scene, edge: str, end: int) -> bool:
-    beside = _beside(edge, end)
-    moved = any(motion.edge == beside for motion in scene.motions().values())
-    here = [support for support in scene.supports if support.edge == beside and support.motion is None]
-    held = not moved and any(holds_director(support) for support in here)
-    return held or based_beside(scene, edge, end) is not None
+    own, found = _chains(scene)[edge].base_ends, []
+    moved = {motion.edge for motion in scene.motions().values()}
+    still = {s.edge for s in scene.supports if s.motion is None and holds_director(s)}
+    for end in (0, 1):
+        held = _beside(edge, end) in still - moved or based_beside(scene, edge, end)
+        found.extend([end] if held and end not in own else [])
+    return tuple(found)
 
 
 def based_beside(scene: Scene, edge: str, end: int) -> str | None:

@@ -61,9 +61,6 @@ class Coupling:
             first = body.rows - -(-body.multipliers // 3)
             self.algebraic[place][first:] = body.free[first:]
 
-    def __len__(self) -> int:
-        return len(self._all)
-
     @property
     def bodies(self) -> tuple[BoundChain, ...]:
         """The actuators with rows of their own, in the order of these."""
@@ -149,17 +146,25 @@ class Coupling:
         for body, place in self._bodies:
             force[place] += body.average_force(start[place], end[place], drive)
 
-    def add_tangent(self, u: np.ndarray, drive: Drive, slots: np.ndarray, blocks: np.ndarray) -> None:
-        """Add the tangent to the 3×3 blocks at `slots`, one for every pair of `pairs`."""
-        parts = [_at_pairs(a, a.tangent(u[place], drive)) for a, place in self._bodies]
-        if parts:
-            np.add.at(blocks, slots, np.concatenate(parts))
-
-    def add_damping_tangent(self, u: np.ndarray, scale: float, slots: np.ndarray, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the damping force by the velocity."""
-        parts = [_at_pairs(a, scale * a.damping_tangent(u[place])) for a, place in self._bodies]
-        if parts:
-            np.add.at(blocks, slots, np.concatenate(parts))
+    def add_tangent(
+        self,
+        u: np.ndarray,
+        drive: Drive,
+        slots: np.ndarray,
+        blocks: np.ndarray,
+        scale: float = 1.0,
+        damping: float = 0.0,
+    ) -> None:
+        """Add scale × the tangent and damping × the derivative of the damping force by the velocity to the
+        3×3 blocks at `slots`, one for every pair of `pairs`."""
+        parts = [np.empty((0, 3, 3))]
+        for body, place in self._bodies:
+            dense = scale * body.tangent(u[place], drive)
+            if damping and body.damped:
+                dense += damping * body.damping_tangent(u[place])
+            rows, columns = np.nonzero(body.pairs)
+            parts.append(dense[rows, :, columns, :])
+        np.add.at(blocks, slots, np.concatenate(parts))
 
     def constraint_gradient(self, u: np.ndarray) -> np.ndarray:
         """Derivatives (multipliers, rows, 3) of all constraints by the rows after the masses."""
@@ -232,11 +237,6 @@ class Coupling:
             masses = actuator.masses
             positions = self._positions[masses] + u[masses]
             yield actuator, Acting(positions, exerted[masses], exerted[place], u[place])
-
-
-def _at_pairs(body: BoundChain, dense: np.ndarray) -> np.ndarray:
-    rows, columns = np.nonzero(body.pairs)
-    return dense[rows, :, columns, :]
 
 
 def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:

@@ -207,19 +207,15 @@ class Frames:
         touched[self._quantity, self._first] = touched[self._quantity, self._second] = True
         by_row = touched @ (self._map != 0.0)
         joints = by_row[self.constraints :].reshape(-1, 3, self.coordinates).any(axis=1)
-        appear_in_one = np.eye(self.coordinates, dtype=bool)
-        for group in np.concatenate([by_row[: self.constraints], joints]):
-            appear_in_one |= np.outer(group, group)
-        for i in range(self.segments):
-            body = [i, i + 1, self.points + i]
-            appear_in_one[np.ix_(body, body)] = True
-        rows = self.coordinates + self.multiplier_rows
-        whole = np.eye(rows, dtype=bool)
-        whole[: self.coordinates, : self.coordinates] = appear_in_one
-        for c in range(self.constraints):
-            row = self.coordinates + c // 3
-            whole[row, : self.coordinates] |= by_row[c]
-            whole[: self.coordinates, row] |= by_row[c]
+        bodies, i = np.zeros((self.segments, self.coordinates), dtype=bool), np.arange(self.segments)
+        bodies[i, i] = bodies[i, i + 1] = bodies[i, self.points + i] = True
+        together = np.concatenate([by_row[: self.constraints], joints, bodies])
+        multipliers = np.zeros((3 * self.multiplier_rows, self.coordinates), dtype=bool)
+        multipliers[: self.constraints] = by_row[: self.constraints]
+        of_rows = multipliers.reshape(-1, 3, self.coordinates).any(axis=1)
+        count, whole = self.coordinates, np.eye(self.coordinates + self.multiplier_rows, dtype=bool)
+        whole[:count, :count] |= together.T @ together
+        whole[count:, :count], whole[:count, count:] = of_rows, of_rows.T
         return whole
 
     @property

@@ -3,8 +3,8 @@
 from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator
+from lumped.dynamics.runs.plan import explicit_limit, shortest_period
 from lumped.dynamics.runs.simulation import simulate
-from lumped.dynamics.scales import explicit_limit, shortest_period
 from lumped.dynamics.system import State, System
 
 __all__ = [

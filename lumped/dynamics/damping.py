@@ -9,12 +9,17 @@ coefficient is not assembled.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.dynamics import drag
 from lumped.springs.all_families import AllFamilies, table_dampers
+from lumped.springs.all_forces import add_forces as add_spring_forces
 from lumped.springs.families import Family
+from lumped.springs.packing import Packing, Scratch
+from sheetbench.numerics.typed import njit
 from sheetbench.scenes import Scene
 
 
@@ -27,8 +32,6 @@ class Damping:
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
-        self._coupling, self._pattern = assembly.coupling, assembly.pattern
-        self._coupling_slots = assembly.coupling_slots if assembly.coupling is not None else np.empty(0, int)
         self.drag, self._own = drag.of_scene(scene, assembly), assembly.pattern.diagonal[: len(mass)]
         self.rate = scene.material.damping_rate * mass
         self.time = 0.0
@@ -38,30 +41,54 @@ class Damping:
             time = scene.material.dashpot_time
             self.dampers = assembly.all_families.damped(time) if time else []
             self.time = time if assembly.conservative else 0.0
-        self._in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
+        apart = self.dampers and not self.time
+        self._together = AllFamilies(self.dampers, assembly.pattern) if apart else None
+        in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         others = scene.dampers or scene.actuators or self.drag.coefficient
         self.proportional = not others and assembly.conservative
-        self.present = bool(self.dampers or self.rate.any() or self._in_chains or self.drag.coefficient)
-
-    def add_other_forces(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
-        """Add the forces of the mass-proportional damping, of the air and of the chains, signed as internal
-        ones; the power taken [W]."""
-        power = drag.add_drag(self.drag, u, v, force)
-        if self.rate.any():
-            masses = len(self.rate)
-            resisting = self.rate[:, None] * v[:masses]
-            force[:masses] += resisting
-            power += float(np.sum(resisting * v[:masses]))
-        if self._in_chains and self._coupling is not None:
-            power += self._coupling.add_damping_force(u, v, force)
-        return power
+        self.present = bool(self.dampers or self.rate.any() or in_chains or self.drag.coefficient)
 
     def add_velocity_tangent(self, u: np.ndarray, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the force by the velocity to the 3×3 blocks, but for the dampers in
         proportion to the springs (`time`) and to the masses (`rate`)."""
-        if self.dampers and not self.time:
-            blocks += AllFamilies(self.dampers, self._pattern).tangent(u, share=0.0, scale=scale)
+        if self._together is not None:
+            blocks += self._together.tangent(u, share=0.0, scale=scale)
         if self.drag.coefficient:
             blocks[self._own] += scale * drag.velocity_tangent(self.drag, u, v)
-        if self._in_chains and self._coupling is not None:
-            self._coupling.add_damping_tangent(u, scale, self._coupling_slots, blocks)
+
+
+class MovingForces(NamedTuple):
+    """What compiled loops take of a lattice in motion: its springs and dampers, and where their forces are
+    computed; the masses' own damping (n,) [kg/s]; the air's drag."""
+
+    packing: Packing
+    scratch: Scratch
+    rate: np.ndarray
+    drag: drag.LatticeDrag
+
+
+@njit(cache=True)
+def add_forces(
+    forces: MovingForces, u: np.ndarray, v: np.ndarray, elastic: bool, damped: bool, out: np.ndarray
+) -> tuple[float, float]:
+    """Add the springs' force at a displacement (n, 3) [m], if elastic, and if damped what resists a velocity
+    (n, 3) [m/s] to `out` (n, 3) [N]; return the energy [J] and the power taken [W]."""
+    energy, power, resists = 0.0, 0.0, damped and forces.packing.damped
+    if damped:
+        power = add_resistance(forces, u, v, out)
+    if elastic or resists:
+        energy, taken = add_spring_forces(u, v, elastic, resists, forces.packing, forces.scratch, out)
+        power += taken
+    return energy, power
+
+
+@njit(cache=True)
+def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.ndarray) -> float:
+    """Add the forces of the masses' own damping and of the air; return the power taken [W]."""
+    power = drag.add_drag(forces.drag, u, v, out)
+    for i in range(len(forces.rate)):
+        for q in range(3):
+            resisting = forces.rate[i] * v[i, q]
+            out[i, q] += resisting
+            power += resisting * v[i, q]
+    return power

@@ -85,7 +85,8 @@ class Integrator(ABC):
 
     @abstractmethod
     def advance(self, state: State, at_most: float) -> Advance[State]:
-        """Return one step, of `at_most` [s], or one that adapts no longer. Raises StepFailed."""
+        """Return one step, of `at_most` [s], or one that adapts no longer. Raises StepFailed, or
+        SingularMatrixError."""
 
     def go(self, state: State, at_most: float) -> Advance[State]:
         """Return a step that adapts, or steps of one length as near as can be to the integrator's own."""

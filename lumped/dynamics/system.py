@@ -20,15 +20,15 @@ from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
 from lumped.carried import pairs_of, rotary_masses
-from lumped.dynamics.damping import Damping
+from lumped.dynamics.damping import Damping, MovingForces, add_forces
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
 from lumped.items import Placed
 from lumped.masses import masses
-from lumped.springs.all_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.numerics.maps import csr_arrays, product
+from sheetbench.numerics.typed import typed
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import kinks
 
@@ -51,7 +51,7 @@ class System:
     its share of the sheet's and the payloads'.
 
     shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia. Forces are
-    computed in arrays that it keeps (`scratch`), so a system is for one thread at a time; what it answers
+    computed in arrays that it keeps (`forces`), so a system is for one thread at a time; what it answers
     does not depend on the order of calls.
     """
 
@@ -71,7 +71,8 @@ class System:
         # whether the compiled loops over `packing` have the springs' forces
         self.packed = self.maxwell is None and self.natural is None and self.assembly.conservative
         self.packing = pack(lattice, self.assembly.springs if self.packed else (), self.damping.dampers)
-        self.scratch = scratch(self.packing)
+        room, damping = scratch(self.packing), self.damping
+        self.forces = typed(MovingForces(self.packing, room, damping.rate, damping.drag))
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
         own = self.assembly.pattern.diagonal[: lattice.mass_count]
         mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)
@@ -125,19 +126,17 @@ class System:
     ) -> tuple[float, float, np.ndarray]:
         """Elastic energy, power taken by the dampers, and both their forces or one of them: springs with
         their branches, actuators with their multipliers, items."""
-        energy, power, force, at = 0.0, 0.0, np.zeros_like(u), (u, self.drive(time))
-        packed, resists = elastic and self.packed, damped and self.packing.damped
+        energy, force, at = 0.0, np.zeros_like(u), (u, self.drive(time))
+        packed = elastic and self.packed
         if elastic and self.maxwell is not None:
             energy = self.maxwell.add_force(u, force)
         elif elastic and not packed:
             energy, force = self.assembly.at(time=time).force(u)
-        if packed or resists:
-            stored, power = add_forces(u, v, packed, resists, self.packing, self.scratch, force)
-            energy += stored
-        if damped:
-            power += self.damping.add_other_forces(u, v, force)
-        if elastic and self.coupling is not None:
-            energy += self.coupling.add_force(*at, force)
+        stored, power = add_forces(self.forces, u, v, packed, damped, force)
+        energy += stored
+        if self.coupling is not None:
+            energy += self.coupling.add_force(*at, force) if elastic else 0.0
+            power += self.coupling.add_damping_force(u, v, force) if damped else 0.0
         for item in self.items:
             energy += item.add_force(at, force) if elastic else 0.0
             power += item.add_resistance(at, v, force) if damped else 0.0
@@ -219,10 +218,9 @@ class System:
         if self.shared_mass:
             blocks[self._bodies[0]] += mass * self._bodies[1]
         if self.coupling is not None:
-            slots, of_chains = self.assembly.coupling_slots, np.zeros_like(blocks)
-            self.coupling.add_tangent(u, self.drive(time), slots, of_chains)
+            slots = self.assembly.coupling_slots
+            self.coupling.add_tangent(u, self.drive(time), slots, blocks, stiffness, damping)
             np.add.at(blocks, slots, mass * self._chain_mass)
-            blocks += stiffness * of_chains
         self.damping.add_velocity_tangent(u, v, damping, blocks)
         for item in self.items:
             if ends is None:

@@ -205,9 +205,21 @@ respond, stiffness, mean_stress = _of_law("respond"), _of_law("stiffness"), _of_
 extrapolate, of_extrapolated = _of_law("extrapolate"), _of_law("of_extrapolated")
 
 
-def measures(tag: Tag) -> int:
-    """Return 3, or 4 of a law of the corners' s too; compiled, a constant."""
-    return _OF[type(tag)].measures
+def _number_of_law(part: str) -> Any:
+    """Return the function of a tag that gives this number of its law; compiled, a constant."""
+
+    def call(tag: Tag) -> Any:
+        return getattr(_OF[type(tag)], part)
+
+    @overload(call, strict=False)
+    def _(tag: Any) -> Any:
+        number = getattr(_OF[tag.instance_class], part)
+        return lambda tag: number
+
+    return call
+
+
+measures, count = _number_of_law("measures"), _number_of_law("count")
 
 
 def constants(tag: Tag, first: Any, apart: Any) -> Any:
@@ -216,24 +228,13 @@ def constants(tag: Tag, first: Any, apart: Any) -> Any:
     return load_each(0, tag.constants, first, apart, _OF[type(tag)].count)
 
 
-def constants_of(tag: Tag, c: int) -> Any:
-    """Return the constants of cell c where a row of the tag's array has them."""
-    return constants(tag, c * _OF[type(tag)].count, 1)
-
-
-@overload(measures, strict=False)
-def _measures(tag: Any) -> Any:
-    count = _OF[tag.instance_class].measures
-    return lambda tag: count
-
-
 @overload(constants, strict=False)
 def _constants(tag: Any, first: Any, apart: Any) -> Any:
     count = _OF[tag.instance_class].count
     return lambda tag, first, apart: load_each(0, tag.constants, first, apart, count)
 
 
-@overload(constants_of, strict=False)
-def _constants_of(tag: Any, c: Any) -> Any:
-    count = _OF[tag.instance_class].count
-    return lambda tag, c: constants(tag, c * count, 1)
+@inner()
+def constants_of(tag: Tag, c: int) -> Any:
+    """Return the constants of cell c where a row of the tag's array has them."""
+    return constants(tag, c * count(tag), 1)

@@ -84,21 +84,6 @@ def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, V
 
 
 @inner(error_model="numpy")
-def at_rest(sides: np.ndarray, c: int) -> tuple[Vector, Vector]:
-    """The mean sides of cell c at rest."""
-    return (
-        (sides[c, 0, 0], sides[c, 0, 1], sides[c, 0, 2]),
-        (sides[c, 1, 0], sides[c, 1, 1], sides[c, 1, 2]),
-    )
-
-
-@inner(error_model="numpy")
-def products(a: Vector, b: Vector) -> Three:
-    """The measure of sides a and b."""
-    return dot(a, a), dot(b, b), dot(a, b)
-
-
-@inner(error_model="numpy")
 def natural(change: Four, rest: Three, area: np.ndarray, c: int) -> tuple[Four, Three, float]:
     """δg, g and A from where cell c is free of stress (`lumped.natural`); numba compiles one of both ways."""
     if area.ndim == 1:
@@ -113,18 +98,13 @@ def measure(
     u: np.ndarray, cells: CellArrays, c: int
 ) -> tuple[Four, Three, float, tuple[Vector, Vector, Vector]]:
     """δg and s; g and A at rest; a, b and q now, of cell c."""
-    a, b = at_rest(cells.sides, c)
+    sides = cells.sides
+    a, b = (sides[c, 0, 0], sides[c, 0, 1], sides[c, 0, 2]), (sides[c, 1, 0], sides[c, 1, 1], sides[c, 1, 2])
     da, db, q = changes(u, cells.nodes, c)
-    rest = products(a, b)
+    rest = dot(a, a), dot(b, b), dot(a, b)
     now_a, now_b = plus(a, da), plus(b, db)
     change = dot(plus(a, now_a), da), dot(plus(b, now_b), db), dot(da, b) + dot(now_a, db), dot(q, q)
     return *natural(change, rest, cells.area, c), (now_a, now_b, q)
-
-
-@inner(error_model="numpy")
-def rate(a: Vector, b: Vector, va: Vector, vb: Vector) -> Three:
-    """ġ of sides a, b that move with va, vb."""
-    return 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va)
 
 
 @inner(error_model="numpy")
@@ -209,8 +189,8 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
         _, memory, s = respond(cells.law, d, g, area, k)
         va, vb, vq = changes(step, cells.nodes, c)
-        r1, r2, r3 = rate(a, b, va, vb)
-        moved = extrapolate(cells.law, d, g, area, memory, s, k, (r1, r2, r3, 2.0 * dot(q, vq)))
+        rate = 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va), 2.0 * dot(q, vq)
+        moved = extrapolate(cells.law, d, g, area, memory, s, k, rate)
         out[c, 0], out[c, 1], out[c, 2], out[c, 3] = moved
     return out
 

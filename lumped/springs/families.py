@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -59,11 +59,7 @@ class Family(ABC):
     def damped(self, time: float) -> Family:
         """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
         stiffness [N·s/m] in its place, of stress M ġ; they take the power ġ·M ġ."""
-        return self.scaled(time)
-
-    def scaled(self, factor: float) -> Self:
-        """Return the springs or dampers with so many times their stiffness."""
-        return replace(self, stiffness=factor * self.stiffness)
+        return replace(self, stiffness=time * self.stiffness)
 
 
 @dataclass(frozen=True, eq=False)

@@ -183,30 +183,25 @@ def add_tangent(
         if extrapolated:
             s /= np.sqrt(square)
             curved = -0.5 * s / square
-        _add_blocks(flat, links.slots, m, 2.0 * s, times(4.0 * (material + curved), r), r)
-
-
-@inner(error_model="numpy")
-def _add_blocks(flat: np.ndarray, slots: np.ndarray, m: int, across: float, a: Vector, b: Vector) -> None:
-    """Add ± (across I + a bᵀ) to the blocks of link m on and below the diagonal."""
-    xx, xy, xz = a[0] * b[0] + across, a[0] * b[1], a[0] * b[2]
-    yx, yy, yz = a[1] * b[0], a[1] * b[1] + across, a[1] * b[2]
-    zx, zy, zz = a[2] * b[0], a[2] * b[1], a[2] * b[2] + across
-    above = 1 if slots[m, 1] < slots[m, 2] else 2
-    for e in range(4):
-        if e == above:
-            continue
-        block = flat[np.uint64(slots[m, e])]
-        sign = 1.0 if e == 0 or e == 3 else -1.0
-        block[0] += sign * xx
-        block[1] += sign * xy
-        block[2] += sign * xz
-        block[3] += sign * yx
-        block[4] += sign * yy
-        block[5] += sign * yz
-        block[6] += sign * zx
-        block[7] += sign * zy
-        block[8] += sign * zz
+        across, a = 2.0 * s, times(4.0 * (material + curved), r)
+        xx, xy, xz = a[0] * r[0] + across, a[0] * r[1], a[0] * r[2]
+        yx, yy, yz = a[1] * r[0], a[1] * r[1] + across, a[1] * r[2]
+        zx, zy, zz = a[2] * r[0], a[2] * r[1], a[2] * r[2] + across
+        above = 1 if links.slots[m, 1] < links.slots[m, 2] else 2
+        for e in range(4):
+            if e == above:
+                continue
+            block = flat[np.uint64(links.slots[m, e])]
+            sign = 1.0 if e == 0 or e == 3 else -1.0
+            block[0] += sign * xx
+            block[1] += sign * xy
+            block[2] += sign * xz
+            block[3] += sign * yx
+            block[4] += sign * yy
+            block[5] += sign * yz
+            block[6] += sign * zx
+            block[7] += sign * zy
+            block[8] += sign * zz
 
 
 @njit(cache=True)

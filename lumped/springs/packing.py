@@ -114,7 +114,7 @@ def pack(lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family])
     keeping, length = _place_shapes(table, bool(dampers))
     data = np.concatenate(rest)
     return Packing(
-        _planes(lattice.grid),
+        np.arange(plane * layers).reshape(-1, layers).T.ravel(),
         np.uint64(layers),
         np.uint64(plane),
         np.uint64(_in_blocks((layers + 1) * plane + BLOCK - 1) * BLOCK),
@@ -129,11 +129,6 @@ def pack(lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family])
             for kind in (RUBBER_CELLS, FACES)
         ),
     )
-
-
-def _planes(grid: Grid) -> np.ndarray:
-    """The mass at each place, plane by plane."""
-    return np.arange(grid[0] * grid[1] * grid[2]).reshape(-1, grid[2]).T.ravel()
 
 
 def _in_blocks(count: int) -> int:

@@ -169,7 +169,14 @@ def stretch_cells(
         d3 = u[0] * b0[0] + u[1] * b0[1] + u[2] * b0[2] + (a[0] * w[0] + a[1] * w[1] + a[2] * w[2])
         d4 = 0.0
         if measures(law) == 4:
-            q = warp(x, corners, size, i)
+            c0, c1, c2, c3 = corners
+            k0, k1 = load_each(GIVEN, x, c0 + i, size, 3), load_each(GIVEN, x, c1 + i, size, 3)
+            k2, k3 = load_each(GIVEN, x, c2 + i, size, 3), load_each(GIVEN, x, c3 + i, size, 3)
+            q = (
+                k0[0] - k1[0] + k2[0] - k3[0],
+                k0[1] - k1[1] + (k2[1] - k3[1]),
+                k0[2] - k1[2] + (k2[2] - k3[2]),
+            )
             d4 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2]
         k, area = constants(law, t + ROWS[LAW] + i, STRIDE), load(GIVEN, rest, t + R9 + i)
         stored, _, s = respond(law, (d1, d2, d3, d4), g, area, k)
@@ -186,19 +193,6 @@ def stretch_cells(
             if measures(law) == 4:
                 store(ROW, tile, ROWS[15 + e] + i, share * (s[3] + s[3]) * q[e])
     return share * energy
-
-
-@njit(**OPTIONS)
-def warp(x: np.ndarray, corners: Places, size: int, i: int) -> tuple[float, float, float]:
-    """q of the cell whose corners are i places after these."""
-    c0, c1, c2, c3 = corners
-    k, m = load_each(GIVEN, x, c0 + i, size, 3), load_each(GIVEN, x, c1 + i, size, 3)
-    n, o = load_each(GIVEN, x, c2 + i, size, 3), load_each(GIVEN, x, c3 + i, size, 3)
-    return (
-        k[0] - m[0] + n[0] - o[0],
-        k[1] - m[1] + (n[1] - o[1]),
-        k[2] - m[2] + (n[2] - o[2]),
-    )
 
 
 @njit(**OPTIONS)

@@ -1,36 +1,19 @@
 """Drawn sheets over drawn obstacles, solved on the lattice, and what the geometry says of the answer.
 
-    python tests/helpers/drawn_obstacles.py [COUNT] [FIRST]
-
-prints a line a fault; a solver that reports no equilibrium is not judged.
+A solver that reports no equilibrium is not judged.
 """
 
 from __future__ import annotations
 
-import sys
-import traceback
 import warnings
-from collections import Counter
 
 import numpy as np
+from cases import sheet
 
 import lumped
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import (
-    Clamped,
-    Cylinder,
-    Gravity,
-    Hinged,
-    Material,
-    Motion,
-    Plane,
-    PointLoad,
-    Scene,
-    SceneError,
-    Sheet,
-    Sphere,
-)
+from sheetbench.scenes import Clamped, Cylinder, Hinged, Motion, Plane, PointLoad, Scene, SceneError, Sphere
 
 INSIDE = 8  # points a side of a cell, that the sheet is looked at in
 
@@ -41,9 +24,7 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
     lengths = rng.uniform(0.08, 0.3, 2)
     short, long = lengths.min(), lengths.max()
     held = [("x0",), ("x0", "x1"), ("x0", "x1", "y0", "y1"), ("x0", "y0")][rng.integers(4)]
-    kind = Clamped if rng.random() < 0.7 else Hinged
-    if len(held) == 1:
-        kind = Clamped
+    kind = Clamped if rng.random() < 0.7 or len(held) == 1 else Hinged
     depth = rng.uniform(0.0, 0.1) * long
     at = [*(rng.uniform(0.2, 0.9, 2) * lengths), 0.0]
     thickness = 10 ** rng.uniform(-2.7, -1.7) * short
@@ -51,13 +32,12 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
     radius = max(10 ** rng.uniform(-0.6, 1.0) * short / cells, 0.07 * short / cells)
     below = [at[0], at[1], -depth - radius - thickness / 2]
     turn, lean = rng.uniform(0.0, np.pi), rng.uniform(-0.3, 0.3, 2)
+    round_one = {"position": tuple(below), "radius": radius}
     obstacle = [
-        lambda **more: Plane(position=(0.0, 0.0, -depth - 0.3 * long), normal=(*lean, 1.0), **more),
-        lambda **more: Sphere(position=tuple(below), radius=radius, **more),
-        lambda **more: Cylinder(
-            position=tuple(below), axis=(np.cos(turn), np.sin(turn), 0.0), radius=radius, **more
-        ),
-        lambda **more: Cylinder(position=tuple(below), axis=(0.0, 1.0, 0.0), radius=radius, **more),
+        Plane(position=(0.0, 0.0, -depth - 0.3 * long), normal=(*lean, 1.0)),
+        Sphere(**round_one),
+        Cylinder(axis=(np.cos(turn), np.sin(turn), 0.0), **round_one),
+        Cylinder(axis=(0.0, 1.0, 0.0), **round_one),
     ][rng.choice(4, p=(0.1, 0.4, 0.25, 0.25))]
     up = float(depth + rng.uniform(0.0, 0.1) * long)  # into the sheet as it is flat
     rise = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, up)))
@@ -65,18 +45,13 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
         at=tuple(rng.uniform(0.3, 1.0, 2) * lengths), force=(0.0, 0.0, -float(10 ** rng.uniform(-3, -0.5)))
     )
     heavy = 10 ** rng.uniform(0.0, 2.7)  # ρ g h L³/B, that a strip hangs straight down of from 50 on
-    scene = Scene(
-        name=f"drawn {number}",
-        sheet=Sheet(length_x=lengths[0], length_y=lengths[1], thickness=thickness),
-        material=Material(
-            young=12.0 * 1100.0 * 9.81 * long**3 / (heavy * thickness**2),
-            poisson=rng.uniform(0.0, 0.48),
-            density=1100.0,
-        ),
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
+    young = 12.0 * 1100.0 * 9.81 * long**3 / (heavy * thickness**2)
+    scene = sheet(
+        *(*lengths, thickness, young, rng.uniform(0.0, 0.48), 1100.0),
+        weight=9.81,
         supports=tuple(kind(edge=edge) for edge in held),
         loads=(push,) if rng.random() < 0.3 else (),
-        obstacles=(obstacle(**({"motion": rise} if rng.random() < 0.4 else {})),),
+        obstacles=(obstacle.replace(motion=rise) if rng.random() < 0.4 else obstacle,),
     )
     grid = tuple(max(3, round(cells * length / short) + 1) for length in lengths)
     return scene, (min(grid[0], 33), min(grid[1], 33), 2)
@@ -152,30 +127,13 @@ def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
     return ""
 
 
-def judged(number: int) -> tuple[str, str]:
-    """Return how the solve of a drawn scene ended, and its fault, "" for none."""
+def judged(number: int) -> str:
+    """Return the fault of the answer to a drawn scene, "" for none and for a refusal in a line."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             scene, grid = draw(number)
-            springs = lumped.calibrate(scene.sheet, scene.material, grid=grid)
-            solution = lumped.solve(scene, springs)
+            solution = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=grid))
     except (SceneError, BadInput) as error:
-        return "refused", "" if "\n" not in str(error) else str(error)
-    except Exception:  # that is what is looked for
-        return "traceback", traceback.format_exc()
-    return str(solution.status), fault(scene, grid, solution)
-
-
-def main(count: int = 300, first: int = 0) -> None:
-    ended: Counter[str] = Counter()
-    for number in range(first, first + count):
-        status, wrong = judged(number)
-        ended[status] += 1
-        if wrong:
-            print(number, status, wrong, flush=True)
-    print(dict(ended))
-
-
-if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+        return str(error) if "\n" in str(error) else ""
+    return fault(scene, grid, solution)

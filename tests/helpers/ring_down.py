@@ -1,6 +1,17 @@
-"""The damping of a mode that rings down, from even samples."""
+"""Maxwell branches: a strip that is pulled and held, and the damping of a mode that rings down."""
 
 import numpy as np
+
+from sheetbench.scenes import Clamped, Held, Material, Motion, Relaxation, Scene, Sheet
+
+BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
+
+
+def pulled(material: Material, by: float, within: float) -> Scene:
+    """A strip whose end is pulled [m] and then held [s]."""
+    pull = Motion(time=(0.0, within), displacement=((0.0, 0.0, 0.0), (by, 0.0, 0.0)))
+    supports = (Clamped("x0"), Held("x1", ("x", "y", "z"), motion=pull))
+    return Scene("strip", Sheet(0.1, 0.04, 0.002), material, supports=supports, probes={"P": (0.05, 0.0)})
 
 
 def damping_ratio(swing: np.ndarray, per_period: float) -> float:

@@ -64,16 +64,18 @@ def test_steps_are_compiled_once_whether_edges_are_driven_or_not():
     assert layouts == {"C"}
 
 
+def python(*arguments, place=ROOT, **environment):
+    """A process that runs Python in a folder, with variables set or, where None, unset."""
+    env = {name: value for name, value in (os.environ | environment).items() if value is not None}
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, env=env, cwd=place, capture_output=True, text=True, timeout=300)
+
+
 def ask(place, cache):
     """What is said, compiling included, by a process that runs a kernel from a checkout at `place`."""
-    return subprocess.run(
-        [sys.executable, "-c", ASK],
-        env={**os.environ, "NUMBA_CACHE_DIR": str(cache), "PYTHONPATH": str(place)},
-        cwd=place,
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stderr
+    done = python("-c", ASK, place=place, NUMBA_CACHE_DIR=str(cache), PYTHONPATH=str(place))
+    assert done.returncode == 0
+    return done.stderr
 
 
 @pytest.mark.sweep(2)
@@ -85,12 +87,8 @@ def test_a_folder_that_others_may_write_to_is_refused(tmp_path, at):
     opened = cache if at == "the cache" else cache / Locator.get_suitable_cache_subpath(maps.__file__)
     opened.mkdir(exist_ok=True)
     opened.chmod(0o775)
-    done = subprocess.run(
-        [sys.executable, "-m", "sheetbench", "compare", "one-edge-clamped", "--lumped", "3"],
-        env={**os.environ, "NUMBA_CACHE_DIR": str(cache)},
-        capture_output=True,
-        text=True,
-    )
+    small = ("compare", "one-edge-clamped", "--lumped", "3")
+    done = python("-m", "sheetbench", *small, NUMBA_CACHE_DIR=str(cache))
     said = f"{opened}: other users may write here, and what is kept here is run: remove the folder"
     assert (done.returncode, done.stdout) == (2, "")
     assert said in done.stderr and "Traceback" not in done.stderr
@@ -129,25 +127,18 @@ caching.IndexDataCacheFile.save = save
 
 def test_a_kernel_is_kept_by_one_process_at_a_time_in_folders_of_its_user_alone(tmp_path):
     """Else a process would load what another compiled for other arguments, and crash."""
-    said = subprocess.run(
-        ["sh", "-c", 'umask 0 && exec "$0" -c "$1"', sys.executable, ALONE + ASK],
-        env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert set(said.stdout.split("\n")) == {"alone", ""}
+    said = python("-c", f"import os\nos.umask(0)\n{ALONE}{ASK}", NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+    assert said.returncode == 0 and set(said.stdout.split("\n")) == {"alone", ""}
     made = [tmp_path / "cache", *(tmp_path / "cache").iterdir()]
     assert len(made) > 1 and {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o700}
 
 
 def test_the_processor_is_the_common_one_unless_numba_is_there_before():
     show = "import os; print(os.environ.get('NUMBA_CPU_NAME'))"
-    env = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_CPU")}
+    unset = dict.fromkeys(name for name in os.environ if name.startswith("NUMBA_CPU"))
 
     def printed(*lines):
-        command = [sys.executable, "-c", "\n".join([*lines, show])]
-        return subprocess.run(command, env=env, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        return python("-c", "\n".join([*lines, show]), **unset).stdout
 
     common = all(map(get_host_cpu_features().get, X86_64_V3)) and platform.machine() == "x86_64"
     assert printed("import sheetbench.kernels") == f"{'x86-64-v3' if common else None}\n"
@@ -237,10 +228,7 @@ def test_compiling_collects_garbage_again_afterwards_and_counts_an_arrays_memory
 
 @pytest.mark.nightly  # half a minute of Python
 def test_they_give_what_compiled_ones_do():
-    ran = subprocess.run(
-        [sys.executable, "-c", f"{UNCOMPILED}\nprint(json.dumps(numbers()))"],
-        env={**os.environ, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True, timeout=300,
-    )  # fmt: skip
+    ran = python("-c", f"{UNCOMPILED}\nprint(json.dumps(numbers()))", NUMBA_DISABLE_JIT="1")
     assert ran.returncode == 0, ran.stderr[-2000:]
     here: dict[str, Any] = {}
     exec(UNCOMPILED, here)

@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.dynamics.explicit.follower_loads import Followers
-from lumped.dynamics.explicit.steps import ExplicitArrays, MarchWorkspace, march
+from lumped.dynamics.explicit.steps import ExplicitArrays, march
 from lumped.dynamics.system import State, System
-from lumped.springs.packing import scratch
 from sheetbench.numerics.time.method import Advance, StepFailed
 
 CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
@@ -30,12 +29,12 @@ class FlatSystem:
         self._order, self._count, self._stride = packing.order, count, int(packing.size)
         self._place = np.empty(count, dtype=int)
         self._place[packing.order] = np.arange(count)
-        mass = self.flat(self._of_masses(system.lattice_mass))
+        mass = self.flat(np.repeat(system.lattice_mass[:, None], 3, axis=1))
         free, columns = _freedom(system)
         inverse = np.zeros_like(mass)
         moving = self.flat(np.where(free, 1.0, 0.0)) > 0.0
         inverse[moving] = 1.0 / mass[moving]
-        rate = self.flat(self._of_masses(system.damping.rate))
+        rate = self.flat(np.repeat(system.damping.rate[:, None], 3, axis=1))
         self._driven = np.argwhere(system.prescribed.components)
         springs = sum(map(len, assembly.springs))
         self.at_once = max(LEAST, round(CALL / (springs * PER_SPRING)))
@@ -61,9 +60,7 @@ class FlatSystem:
             u, v, a = (self.flat(vector) for vector in (state.u, state.v, state.a))
             times = np.cumsum(np.append(state.time, np.full(count, step)))  # as they add up one by one
             tables = self._factors(times), *self._placed(times)
-            whole, taken, dissipated, work = march(
-                count, step, self.arrays, *tables, u, v, a, self._workspace(u)
-            )
+            whole, taken, dissipated, work = march(count, step, self.arrays, *tables, u, v, a)
             if whole:
                 after = State(float(times[taken]), self.by_mass(u), self.by_mass(v), self.by_mass(a))
                 return Advance(after, dissipated, work, taken)
@@ -75,7 +72,7 @@ class FlatSystem:
         """Compile the steps, or load what was compiled, before there is anything to do."""
         still, at_once = np.zeros(self.size), np.zeros(1)
         tables = self._factors(at_once), *self._placed(at_once)
-        march(0, 1.0, self.arrays, *tables, still, still.copy(), still.copy(), self._workspace(still))
+        march(0, 1.0, self.arrays, *tables, still, still.copy(), still.copy())
 
     def flat(self, vector: np.ndarray) -> np.ndarray:
         """A vector (n, 3) at the places, (3 s,)."""
@@ -88,12 +85,6 @@ class FlatSystem:
         out = np.empty(self._shape)
         out[self._order] = flat.reshape(3, self._stride)[:, : self._count].T
         return out
-
-    def _workspace(self, u: np.ndarray) -> MarchWorkspace:
-        """Where steps of the displacement u (3 s,) are computed."""
-        w, d, force, damping, load, before, moved = (np.zeros(len(u)) for _ in range(7))
-        tile = scratch(self.arrays.packing).tile
-        return MarchWorkspace(w, d, force, damping, tile, load, before, moved, np.zeros(len(self._driven)))
 
     def _factors(self, times: np.ndarray) -> np.ndarray:
         """Factors of the loads' histories at times (k,) [s], (k, parts)."""
@@ -116,9 +107,6 @@ class FlatSystem:
                 rate[at] += system.coupling.driven_velocity(time)
         # in rows, as they are where nothing is driven, or steps are compiled a second time
         return np.ascontiguousarray(place[:, rows, axes]), np.ascontiguousarray(rate[:, rows, axes])
-
-    def _of_masses(self, values: np.ndarray) -> np.ndarray:
-        return np.repeat(values[:, None], 3, axis=1)
 
     def places(self, masses: np.ndarray, axes: np.ndarray) -> np.ndarray:
         """Flat places of components of masses."""

@@ -1,4 +1,4 @@
-"""Steps of velocity Verlet in one compiled call, as `verlet` beside this file has them, nothing allocated.
+"""Steps of velocity Verlet in one compiled call, as `verlet` beside this file has them.
 
 Vectors are flat, at the places of a `lumped.springs.packing.Packing`. With the predicted velocity
 w = v₀ + h a₀ and the damping matrix D at u₁, which is symmetric, what D v₁ is beyond D w comes from one more
@@ -40,22 +40,6 @@ class ExplicitArrays(NamedTuple):
     working: bool
 
 
-class MarchWorkspace(NamedTuple):
-    """What steps are computed in: predicted velocity w, its correction d, force and damping force, a tile;
-    loads at the end of a step and at its start, what the masses moved (3 s,), and what is exerted on the
-    driven places."""
-
-    w: np.ndarray
-    d: np.ndarray
-    force: np.ndarray
-    damping: np.ndarray
-    tile: np.ndarray
-    load: np.ndarray
-    load_before: np.ndarray
-    moved: np.ndarray
-    exerted: np.ndarray
-
-
 @njit(**OPTIONS)
 def march(
     steps: int,
@@ -67,7 +51,6 @@ def march(
     u: np.ndarray,
     v: np.ndarray,
     a: np.ndarray,
-    workspace: MarchWorkspace,
 ) -> tuple[bool, int, float, float]:
     """Take u, v and a (3 s,) `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads' histories;
     place and place_rate: (steps + 1, driven) [m], [m/s].
@@ -76,29 +59,30 @@ def march(
     took and the work done [J].
     """
     packing, driven, rate = arrays.packing, arrays.driven, arrays.rate
-    w, d = workspace.w, workspace.d
-    force, damping, load = workspace.force, workspace.damping, workspace.load
+    w, d, moved = np.zeros_like(u), np.zeros_like(u), np.zeros_like(u)  # predicted velocity, its correction
+    force, damping, load, load_before = np.zeros_like(u), np.zeros_like(u), np.zeros_like(u), np.zeros_like(u)
+    tile, exerted = np.zeros(packing.length), np.zeros(len(driven))
     taken = work = power = 0.0
     external(arrays, factors[0], u, load)
     if arrays.damped or len(driven):
         w[:] = v
         force[:] = 0.0
-        _, power = add_at_places(u, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
+        _, power = add_at_places(u, w, NUMBA_TRUE, packing.damped, packing, force, tile)
         power += resist(rate, w, force)
         for i in range(len(driven)):
-            workspace.exerted[i] = exerted_on(arrays, driven[i], a, force, load)
+            exerted[i] = exerted_on(arrays, driven[i], a, force, load)
     for n in range(steps):
-        _predict(h, arrays, u, v, a, w, workspace.moved)
+        _predict(h, arrays, u, v, a, w, moved)
         for i in range(len(driven)):
             p, jump = driven[i], place[n + 1, i] - place[n, i] - h * place_rate[n, i]
             u[p] += jump
-            workspace.moved[p] += jump
+            moved[p] += jump
             v[p] += place_rate[n + 1, i] - place_rate[n, i]
         if arrays.working:
-            workspace.load_before[:] = load
+            load_before[:] = load
             external(arrays, factors[n + 1], u, load)
         force[:] = 0.0
-        _, now = add_at_places(u, w, NUMBA_TRUE, packing.damped, packing, force, workspace.tile)
+        _, now = add_at_places(u, w, NUMBA_TRUE, packing.damped, packing, force, tile)
         now += resist(rate, w, force)
         if not _accelerate(0.5 * h, arrays, load, force, a, v):
             return False, n, taken, work
@@ -108,17 +92,15 @@ def march(
             damping[:] = 0.0
             beyond = resist(rate, d, damping)
             if packing.damped:
-                beyond += add_damping_again(u, d, packing, damping, workspace.tile)
+                beyond += add_damping_again(u, d, packing, damping, tile)
             now += 2.0 * _correct(arrays, w, damping, force) + beyond
             taken += 0.5 * h * (power + now)
             power = now
             if not _accelerate(0.0, arrays, load, force, a, v):
                 return False, n, taken, work
         if arrays.working:
-            work += work_of_loads(arrays, workspace.load_before, load, workspace.moved)
-        work += work_of_supports(
-            arrays, workspace, driven, (a, force, load), place[n : n + 2], place_rate[n : n + 2]
-        )
+            work += work_of_loads(arrays, load_before, load, moved)
+        work += work_of_supports(arrays, exerted, (a, force, load), place[n : n + 2], place_rate[n : n + 2])
     return True, steps, taken, work
 
 
@@ -209,8 +191,7 @@ def exerted_on(arrays: ExplicitArrays, p: int, a: np.ndarray, force: np.ndarray,
 @njit(**OPTIONS)
 def work_of_supports(
     arrays: ExplicitArrays,
-    workspace: MarchWorkspace,
-    driven: np.ndarray,
+    exerted: np.ndarray,
     at: tuple[np.ndarray, np.ndarray, np.ndarray],
     place: np.ndarray,
     rate: np.ndarray,
@@ -218,16 +199,15 @@ def work_of_supports(
     """Of supports in motion over a step [J]: of what they exert, by the trapezoidal rule, and what the masses
     that they hold gain by their prescribed rates.
 
-    at: accelerations, forces and loads at the step's end; place, rate: of what is driven (2, k), at both
-    ends. What is exerted is kept in `workspace`.
+    exerted: at the step's start (k,) [N], which the end's takes the place of; at: accelerations, forces and
+    loads at the end; place, rate: of what is driven (2, k), at both ends.
     """
-    a, force, load = at
-    work = 0.0
+    (a, force, load), driven, work = at, arrays.driven, 0.0
     for i in range(len(driven)):
-        exerted = exerted_on(arrays, driven[i], a, force, load)
-        work += 0.5 * (workspace.exerted[i] + exerted) * (place[1, i] - place[0, i])
+        now = exerted_on(arrays, driven[i], a, force, load)
+        work += 0.5 * (exerted[i] + now) * (place[1, i] - place[0, i])
         work += 0.5 * arrays.mass[driven[i]] * (rate[1, i] ** 2 - rate[0, i] ** 2)
-        workspace.exerted[i] = exerted
+        exerted[i] = now
     return work
 
 

@@ -11,10 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.drag import LatticeDrag, add_drag
+from lumped.dynamics.damping import MovingForces, add_forces
 from lumped.dynamics.system import System
-from lumped.springs.all_forces import add_forces, power_again
-from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, csr_arrays
@@ -24,23 +22,15 @@ CONVERGED, STALE, LOST = range(3)
 
 
 class Arrays(NamedTuple):
-    """The equations of motion: springs and dampers, mass-proportional damping (n,) [kg/s], the air's drag, M,
-    T with its columns in the band's order, how many they are, and the band's width."""
+    """The equations of motion: forces, M, T with its columns in the band's order, how many they are, and the
+    band's width; and what the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right
+    side in the band's order, padded."""
 
-    packing: Packing
-    scratch: Scratch
-    rate: np.ndarray
-    drag: LatticeDrag
+    forces: MovingForces
     mass: Rows
     free: Rows
     unknowns: int
     width: int
-
-
-class NewtonWorkspace(NamedTuple):
-    """What the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right side in the band's
-    order, padded."""
-
     force: np.ndarray
     velocity: np.ndarray
     base_u: np.ndarray
@@ -58,69 +48,27 @@ class NewtonLimits(NamedTuple):
     corrections: int
 
 
-class CompiledNewton:
-    """The iteration for a system that `serves`. arrays, workspace, factors: what it takes."""
+class Compiled(NamedTuple):
+    """What the compiled iteration takes beside factors in a band; of that, û and v̂ (n, 3)."""
 
-    def __init__(self, system: System):
-        band = system.problem.system.band
-        assert band is not None
-        self._system, self._band = system, band
-        arrays = Arrays(
-            system.packing,
-            system.scratch,
-            system.damping.rate,
-            system.damping.drag,
-            system.mass_rows,
-            csr_arrays(system.transform[:, band.order]),
-            len(band.order),
-            band.width,
-        )
-        self.arrays = typed(arrays)
-        size = system.assembly.pattern.size
-        force, velocity, base_u, base_v = np.zeros((4, size, 3))
-        right = banded.padded_vector(len(band.order), band.width)
-        self.workspace = NewtonWorkspace(force, velocity, base_u, base_v, right)
-        self.factors = np.empty((0, 0))
-
-    @staticmethod
-    def serves(system: System) -> bool:
-        """Whether forces are all compiled, and factors lie in a band."""
-        plain = system.coupling is None and system.packed
-        still = system.problem.conservative and not system.problem.loads.follow
-        return plain and still and not system.items and system.problem.system.band is not None
-
-    def factorise(
-        self, u: np.ndarray, v: np.ndarray, time: float, mass_coefficient: float, damping_coefficient: float
-    ) -> bool:
-        """Keep the factors of K + c₁ C + c₂ M at a state; False where it is not positive definite."""
-        band = self._band
-        blocks = self._system.matrix(u, v, time, mass_coefficient, damping_coefficient, 1.0)
-        factors = banded.stored(blocks, band)
-        definite = banded.factor(factors, len(band.order), band.width)
-        if definite:
-            self.factors = factors
-        return bool(definite)
+    arrays: Arrays
+    base_u: np.ndarray
+    base_v: np.ndarray
+    band: banded.Band
 
 
-@njit(cache=True)
-def add_forces_and_dampers(
-    arrays: Arrays, u: np.ndarray, v: np.ndarray, elastic: bool, force: np.ndarray
-) -> float:
-    """Add the forces (n, 3) [N] of the masses' own damping and of the air at a displacement and velocity
-    (n, 3), and of springs and dampers if `elastic`; return the power [W] that all dampers take, those along
-    springs unless `elastic` at the displacement of the last such call."""
-    power = add_drag(arrays.drag, u, v, force)
-    for i in range(len(arrays.rate)):
-        for q in range(3):
-            resisted = arrays.rate[i] * v[i, q]
-            force[i, q] += resisted
-            power += resisted * v[i, q]
-    damped = arrays.packing.damped
-    if elastic:
-        power += add_forces(u, v, NUMBA_TRUE, damped, arrays.packing, arrays.scratch, force)[1]
-    elif damped:
-        power += power_again(v, arrays.packing, arrays.scratch)
-    return power
+def compiled_of(system: System) -> Compiled | None:
+    """Return the iteration of a system whose forces are all compiled, with its factors in a band."""
+    problem, band = system.problem, system.problem.system.band
+    plain = system.coupling is None and system.packed and not system.items
+    if band is None or not plain or not problem.conservative or problem.loads.follow:
+        return None
+    free = csr_arrays(system.transform[:, band.order])
+    force, velocity, base_u, base_v = np.zeros((4, system.assembly.pattern.size, 3))
+    right = banded.padded_vector(len(band.order), band.width)
+    equation = system.forces, system.mass_rows, free, len(band.order), band.width
+    arrays = Arrays(*equation, force, velocity, base_u, base_v, right)
+    return Compiled(typed(arrays), arrays.base_u, arrays.base_v, band)
 
 
 @njit(cache=True)
@@ -134,13 +82,12 @@ def iterate(
     limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> tuple[int, int]:
     """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has corrections
     `left`: how that ended, and what corrections it has left then."""
     last = np.inf
     while left > 0:
-        length = correct(u, base_u, base_v, by, external, arrays, factors, workspace)
+        length = correct(u, base_u, base_v, by, external, arrays, factors)
         left -= 1
         if length < limits.tolerance:
             return CONVERGED, left
@@ -161,11 +108,10 @@ def correct(
     external: np.ndarray,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> float:
     """Correct u (n, 3) in place; return the largest component of that [m], NaN if it is not finite."""
     mass_coefficient, damping_coefficient = by
-    force, velocity, right = workspace.force, workspace.velocity, workspace.right
+    force, velocity, right = arrays.force, arrays.velocity, arrays.right
     mass, free = arrays.mass, arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
     pull, speed, acting = force.reshape(-1), velocity.reshape(-1), external.reshape(-1)
@@ -175,7 +121,7 @@ def correct(
         for e in range(mass.pointers[row], mass.pointers[row + 1]):
             inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
         pull[row] = mass_coefficient * inertia - acting[row]
-    add_forces_and_dampers(arrays, u, velocity, NUMBA_TRUE, force)
+    add_forces(arrays.forces, u, velocity, NUMBA_TRUE, NUMBA_TRUE, force)
     right[:] = 0.0
     for row in range(len(moved)):
         for e in range(free.pointers[row], free.pointers[row + 1]):
@@ -201,15 +147,14 @@ def excess(
     external: np.ndarray,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> float:
     """Return half the work [J] of what a state (n, 3) leaves of the equation along the correction of that."""
-    corrected, base_u, base_v, work = u.copy(), workspace.base_u, workspace.base_v, 0.0
+    corrected, base_u, base_v, work = u.copy(), arrays.base_u, arrays.base_v, 0.0
     for i in range(len(u)):
         for q in range(3):
             base_u[i, q], base_v[i, q] = u[i, q] - a[i, q] / by[0], v[i, q] - a[i, q] / by[1]
-    correct(corrected, base_u, base_v, by, external, arrays, factors, workspace)
+    correct(corrected, base_u, base_v, by, external, arrays, factors)
     for i in range(len(u)):
         for q in range(3):
-            work += 0.5 * workspace.force[i, q] * (u[i, q] - corrected[i, q])
+            work += 0.5 * arrays.force[i, q] * (u[i, q] - corrected[i, q])
     return work

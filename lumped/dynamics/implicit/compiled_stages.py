@@ -13,15 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from lumped.dynamics.damping import add_resistance
 from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
     Arrays,
     NewtonLimits,
-    NewtonWorkspace,
-    add_forces_and_dampers,
     iterate,
 )
-from lumped.springs.tiles import NUMBA_FALSE
+from lumped.springs.all_forces import power_again
 from sheetbench.numerics.typed import njit
 
 
@@ -62,12 +61,11 @@ def solve_stages(
     limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
-    workspace: NewtonWorkspace,
 ) -> tuple[int, int, int, int]:
     """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
     the stage where it did, what corrections that one has left, and how many were made in all."""
     made, by = 0, (step.mass_coefficient, step.damping_coefficient)
-    bases_u, bases_v = workspace.base_u, workspace.base_v
+    bases_u, bases_v = arrays.base_u, arrays.base_v
     base_u, base_v = bases_u.reshape(-1), bases_v.reshape(-1)
     for i in range(first, len(stages.u)):
         u, v, a = stages.u[i].reshape(-1), stages.v[i].reshape(-1), stages.a[i].reshape(-1)
@@ -78,7 +76,7 @@ def solve_stages(
         at = min(i, len(step.loads) - 1)
         given = left
         status, left = iterate(
-            given, stages.u[i], bases_u, bases_v, by, step.loads[at], limits, arrays, factors, workspace
+            given, stages.u[i], bases_u, bases_v, by, step.loads[at], limits, arrays, factors
         )
         made += given - left
         if status != CONVERGED:
@@ -87,9 +85,13 @@ def solve_stages(
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.damping_coefficient * change
             a[row] = step.mass_coefficient * change
-        stages.power[i, 0] = add_forces_and_dampers(
-            arrays, stages.u[i], stages.v[i], NUMBA_FALSE, workspace.force
+        forces, power = (
+            arrays.forces,
+            add_resistance(arrays.forces, stages.u[i], stages.v[i], arrays.force),
         )
+        if forces.packing.damped:
+            power += power_again(stages.v[i], forces.packing, forces.scratch)
+        stages.power[i, 0] = power
     return CONVERGED, len(stages.u), 0, made
 
 
@@ -126,3 +128,32 @@ def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray
             a = stages.a[j].reshape(-1)
             for row in range(len(u)):
                 u[row] += weight * a[row]
+
+
+@njit(cache=True)
+def polynomials(
+    displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
+) -> np.ndarray:
+    """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h [s], by
+    the polynomial with those of both its ends, the first and last of (s, n, 3) each."""
+    u0, v0, a0 = displacement[0].ravel(), velocity[0].ravel(), acceleration[0].ravel()
+    u1, v1, a1 = displacement[-1].ravel(), velocity[-1].ravel(), acceleration[-1].ravel()
+    curve, out = np.empty((6, len(u0))), np.empty((3, len(theta), len(u0)))
+    for i in range(len(u0)):
+        change = u1[i] - u0[i] - h * v0[i] - 0.5 * h * h * a0[i]
+        speed = h * (v1[i] - v0[i] - h * a0[i])
+        bend = h * h * (a1[i] - a0[i])
+        curve[0, i], curve[1, i], curve[2, i] = u0[i], h * v0[i], 0.5 * h * h * a0[i]
+        curve[3, i] = 10.0 * change - 4.0 * speed + 0.5 * bend
+        curve[4, i] = -15.0 * change + 7.0 * speed - bend
+        curve[5, i] = 6.0 * change - 3.0 * speed + 0.5 * bend
+    rate = 1.0 / h
+    for k in range(len(theta)):
+        for i in range(len(u0)):
+            u = v = a = 0.0
+            for power in range(5, -1, -1):  # Horner's rule, with the derivatives
+                a = a * theta[k] + 2.0 * v
+                v = v * theta[k] + u
+                u = u * theta[k] + curve[power, i]
+            out[0, k, i], out[1, k, i], out[2, k, i] = u, v * rate, a * rate * rate
+    return out.reshape(3, len(theta), -1, 3)

@@ -13,9 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lumped.dynamics.implicit.compiled_stages import Stages
+from lumped.dynamics.implicit.compiled_stages import Stages, polynomials
 from lumped.dynamics.implicit.newton import Newton, StepEquation
-from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, STAGES
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import State, System

@@ -13,7 +13,6 @@ from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import work
-from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
 from sheetbench.numerics.time.rule import generalised, shifted, step_of
@@ -57,12 +56,9 @@ class GeneralisedAlpha(Integrator):
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """Return one step; an adaptive one divides `at_most` evenly and is repeated until its error is small.
-        Raises StepFailed."""
+        Raises StepFailed, or SingularMatrixError."""
         if not self.adapts:
-            try:
-                return self._advance(state, *self._step(state, at_most), at_most)
-            except SingularMatrixError as failure:
-                raise StepFailed(str(failure)) from None
+            return self._advance(state, *self._step(state, at_most), at_most)
         largest = self._largest
 
         def attempt(h: float) -> tuple[tuple[State, np.ndarray], float, float]:

@@ -15,15 +15,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.dynamics.implicit import compiled_newton
-from lumped.dynamics.implicit.compiled_newton import (
-    CONVERGED,
-    CompiledNewton,
-    NewtonLimits,
-    excess,
-    iterate,
-)
+from lumped.dynamics.implicit.compiled_newton import CONVERGED, NewtonLimits, compiled_of, excess, iterate
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import State, System
+from sheetbench.numerics import banded
 from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.reduced import Factor
 from sheetbench.numerics.time.method import StepFailed
@@ -58,8 +53,8 @@ class Newton:
         size = (system.assembly.pattern.size, 3)
         self.algebraic = multipliers
         self._placed = ~np.broadcast_to(multipliers, size)  # multipliers carry the rounding of inertia forces
-        self._compiled = CompiledNewton(system) if CompiledNewton.serves(system) else None
-        self._factored: float | None = None  # c₂ of the compiled iteration's factors
+        self._compiled, self._factors = compiled_of(system), np.empty((0, 0))
+        self._factored: float | None = None  # c₂ of the compiled iteration's factors, where it has some
         self.made = 0  # corrections of the last step's stages
 
     def forget(self) -> None:
@@ -114,10 +109,9 @@ class Newton:
         """u of the equation. tolerance [m]: of the last correction, else the iteration's own.
         Raises StepFailed, or SingularMatrixError."""
         small = self.tolerance if tolerance is None else tolerance
-        if self._compiled is not None:
-            found = self._solve_compiled(self._compiled, equation, guess, small)
-            if found is not None:
-                return found
+        found = self._solve_compiled(equation, guess, small)
+        if found is not None:
+            return found
         return self.solve(
             (equation.mass_coefficient, equation.damping_coefficient),
             lambda u: self._residual(equation, u),
@@ -130,10 +124,9 @@ class Newton:
         """Return the energy [J] that a state has too much by the equation with c₂ and c₁ of a system with its
         branches there, along stiff directions most: half the work of what it leaves along the correction of
         that; infinite where no factors kept serve."""
-        compiled = self._compiled
-        if compiled is not None and self.near(by[0]):
-            given = compiled.arrays, compiled.factors, compiled.workspace
-            return excess(state.u, state.v, state.a, by, system.loads([state.time])[0], *given)
+        if (compiled := self._compiled) is not None and self.near(by[0]):
+            given = system.loads([state.time])[0], compiled.arrays, self._factors
+            return excess(state.u, state.v, state.a, by, *given)
         unbalanced = system.momentum(state.a) - system.unbalanced(state.u, state.v, state.time)
         left = system.problem.reduce(unbalanced)
         factor = self._factor if self._key == by else None
@@ -149,30 +142,23 @@ class Newton:
         done, as where the tangent is not positive definite. tolerance [m]: as in `solve_equation`. Raises
         StepFailed."""
         compiled, first, left = self._compiled, 1, 0
-        small = self.tolerance if tolerance is None else tolerance
-        self.made = 0
+        limits, self.made = self._limits(self.tolerance if tolerance is None else tolerance), 0
         if compiled is None or not self.near(step.mass_coefficient):
             return False
         while True:
             status, first, left, made = solve_stages(
-                first, left, step, stages, self._limits(small), compiled.arrays, compiled.factors,
-                compiled.workspace,
-            )  # fmt: skip
+                first, left, step, stages, limits, compiled.arrays, self._factors
+            )
             self.made += made
             if status == CONVERGED:
                 return True
             self._factored = None
             if status != compiled_newton.STALE or left == 0:
                 raise StepFailed(UNSOLVED)
-            base = compiled.workspace.base_u, compiled.workspace.base_v
-            equation = StepEquation(
-                self._system,
-                float(stages.time[first]),
-                *base,
-                step.mass_coefficient,
-                step.damping_coefficient,
-            )
-            if not self._factorise(compiled, equation, stages.u[first]):
+            by = step.mass_coefficient, step.damping_coefficient
+            base = compiled.base_u, compiled.base_v
+            equation = StepEquation(self._system, float(stages.time[first]), *base, *by)
+            if not self._factorise(equation, stages.u[first]):
                 return False
 
     def _limits(self, small: float) -> NewtonLimits:
@@ -186,17 +172,19 @@ class Newton:
 
     def renew(self, equation: StepEquation, u: np.ndarray) -> None:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
-        if self._compiled is not None and self._factorise(self._compiled, equation, u):
-            return
-        self._factor = self._system.problem.system.factor(self._blocks(equation, u))
-        self._key = (equation.mass_coefficient, equation.damping_coefficient)
+        if not self._factorise(equation, u):
+            self._factor = self._system.problem.system.factor(self._blocks(equation, u))
+            self._key = (equation.mass_coefficient, equation.damping_coefficient)
 
-    def _factorise(self, compiled: CompiledNewton, equation: StepEquation, u: np.ndarray) -> bool:
-        """Make the compiled iteration's factors at u; False where the tangent is not positive definite."""
+    def _factorise(self, equation: StepEquation, u: np.ndarray) -> bool:
+        """Make the compiled iteration's factors at u; False where there is none, or the tangent is not
+        positive definite."""
         self._factored = None
-        v, _ = self.state(equation, u)
-        if compiled.factorise(u, v, equation.time, equation.mass_coefficient, equation.damping_coefficient):
-            self._factored = equation.mass_coefficient
+        if self._compiled is not None:
+            band = self._compiled.band
+            self._factors = banded.stored(self._blocks(equation, u), band)
+            if banded.factor(self._factors, len(band.order), band.width):
+                self._factored = equation.mass_coefficient
         return self._factored is not None
 
     def _blocks(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
@@ -205,18 +193,16 @@ class Newton:
             u, v, equation.time, equation.mass_coefficient, equation.damping_coefficient, 1.0
         )
 
-    def _solve_compiled(
-        self, compiled: CompiledNewton, equation: StepEquation, guess: np.ndarray, small: float
-    ) -> np.ndarray | None:
-        """u of the equation, None where its tangent is not positive definite. Raises StepFailed."""
-        u, left = guess.copy(), CORRECTIONS
+    def _solve_compiled(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray | None:
+        """u of the equation, None where that is not compiled, or its tangent not positive definite. Raises
+        StepFailed."""
+        if (compiled := self._compiled) is None:
+            return None
+        u, left, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
         by = equation.mass_coefficient, equation.damping_coefficient
-        external = self._system.loads([equation.time])[0]
-        while self.near(by[0]) or self._factorise(compiled, equation, u):
-            status, left = iterate(
-                left, u, equation.base_u, equation.base_v, by, external, self._limits(small), compiled.arrays,
-                compiled.factors, compiled.workspace,
-            )  # fmt: skip
+        given = by, self._system.loads([equation.time])[0], self._limits(small), compiled.arrays
+        while self.near(by[0]) or self._factorise(equation, u):
+            status, left = iterate(left, u, *base, *given, self._factors)
             if status == CONVERGED:
                 return u
             self._factored = None

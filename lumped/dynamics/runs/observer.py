@@ -11,12 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.drag import LatticeDrag, add_drag
+from lumped.dynamics.damping import MovingForces, add_forces
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import System
 from lumped.mid_surface import MidSurface
-from lumped.springs.all_forces import add_forces
-from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_TRUE
 from lumped.statics.faults import fastest, inspect
 from lumped.statics.structure import STRETCH
@@ -32,15 +30,11 @@ ROUNDED = 1e-9  # of the energy of the flat sheet, of a natural state, below whi
 
 
 class Observed(NamedTuple):
-    """Springs and dampers; M; mass-proportional damping (n,) [kg/s]; the air's drag; loads with a potential
-    (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and forces on masses to those of each
-    support, (3 s, 3 n)."""
+    """Forces; M; loads with a potential (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and
+    forces on masses to those of each support, (3 s, 3 n)."""
 
-    packing: Packing
-    scratch: Scratch
+    forces: MovingForces
     mass: Rows
-    rate: np.ndarray
-    drag: LatticeDrag
     dead: np.ndarray
     probes: Rows
     supports: Rows
@@ -74,11 +68,8 @@ class LatticeObserver:
         if system.packed and system.coupling is None and not system.items:
             masses = system.assembly.pattern.size
             observed = Observed(
-                system.packing,
-                system.scratch,
+                system.forces,
                 system.mass_rows,
-                system.damping.rate,
-                system.damping.drag,
                 system.problem.loads.dead,
                 csr_arrays(self._probes.matrix(masses)),
                 system.problem.constraints.summed,
@@ -149,15 +140,11 @@ def observe(
 ) -> None:
     """Fill the rows of states (k, n, 3) under loads (k, n, 3), or (1, n, 3) if they stay the same [N]: the
     kinetic, elastic and potential energy [J], the probes' displacements [m], the supports' forces [N]."""
-    mass, dead, damped = observed.mass, observed.dead.ravel(), observed.packing.damped
+    mass, dead = observed.mass, observed.dead.ravel()
     first, last = 6, 5 + len(observed.probes.pointers)
     for k in range(len(u)):
         exerted = np.zeros_like(u[k])
-        elastic, _ = add_forces(u[k], v[k], NUMBA_TRUE, damped, observed.packing, observed.scratch, exerted)
-        add_drag(observed.drag, u[k], v[k], exerted)
-        for i in range(len(observed.rate)):
-            for q in range(3):
-                exerted[i, q] += observed.rate[i] * v[k, i, q]
+        elastic, _ = add_forces(observed.forces, u[k], v[k], NUMBA_TRUE, NUMBA_TRUE, exerted)
         forces, speed, gained = exerted.ravel(), v[k].ravel(), a[k].ravel()
         place, acting = u[k].ravel(), loads[min(k, len(loads) - 1)].ravel()
         kinetic = potential = 0.0

@@ -1,8 +1,8 @@
-"""How samples divide a run, and steps the time between samples."""
+"""How samples divide a run, and steps the time between samples; the times of a motion before it runs."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from contextlib import suppress
 from functools import cache
 
 import numpy as np
@@ -11,21 +11,14 @@ from lumped.calibration import Calibration
 from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.integrators import INTEGRATORS
 from lumped.dynamics.system import System
+from lumped.statics.solver import build_problem
 from lumped.vibration import modes
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, sample_count
+from sheetbench.scenes import Scene, SceneError
 
 MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
 MOST_STEPS = 10**10  # that any run takes: weeks
-
-
-@dataclass(frozen=True)
-class StepPlan(Schedule):
-    """A schedule with so many steps between two samples, of which the first one's is only the first tried
-    where the integrator `adapts` them."""
-
-    steps: int
-    adapts: bool
 
 
 def plan_run(
@@ -36,9 +29,9 @@ def plan_run(
     step: float | None,
     integrator: str,
     every: float | None,
-) -> StepPlan:
-    """How a run that begins is sampled and stepped; see `lumped.simulate` for the defaults. limit: of
-    stability, of an explicit integrator.
+) -> tuple[Schedule, float]:
+    """Return how a run is sampled, and the length of its steps [s], or of the first to be tried where the
+    integrator adapts them; see `lumped.simulate` for the defaults. limit: of stability, of an explicit one.
 
     Raises BadInput for a step above the limit of an explicit one, too many of them, or too many samples.
     """
@@ -69,4 +62,21 @@ def plan_run(
             f"step = {wanted:g} s: {duration / wanted:.1e} steps to {duration:g} s; {MOST_STEPS:.0e} at most"
         )
     steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    return StepPlan(samples, spacing, steps, kind.adaptive and step is None)
+    return Schedule(samples, spacing), spacing / steps
+
+
+def shortest_period(scene: Scene, springs: Calibration) -> float:
+    """Return the lowest mode's period [s] about the flat sheet or about its equilibrium, the shorter."""
+    found = [modes(scene, springs, 1, springs.masses)]
+    with suppress(NoEquilibrium, SceneError):  # where there is none, the flat sheet's it is
+        found.append(modes(scene, springs, 1, springs.masses, "deformed"))
+    return 1.0 / max(float(one.frequencies[0]) for one in found)
+
+
+def explicit_limit(integrator: str, scene: Scene, springs: Calibration) -> float:
+    """Return the stability limit [s] of an explicit integrator about the flat sheet."""
+    problem = build_problem(scene, springs)
+    flat = np.zeros_like(problem.loads.dead)
+    limit = INTEGRATORS[integrator].limit(System(scene, problem), flat)
+    assert limit is not None
+    return limit.step

@@ -81,7 +81,7 @@ def simulate(
     integrator, why = resolve_integrator(integrator, system, options)
     start = initial_state(system, calibration, weights, scene)
     limit = INTEGRATORS[integrator].limit(system, start.u)
-    plan = plan_run(system, calibration, limit, duration, step, integrator, every)
+    schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
     nx, ny, layers = calibration.grid
     settings: dict[str, Any] = {
         "grid": [nx, ny, layers],
@@ -101,15 +101,15 @@ def simulate(
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
     kind = INTEGRATORS[integrator]
-    extra: dict[str, Any] = {"fixed": not plan.adapts} if kind.adaptive else {}
+    extra: dict[str, Any] = {"fixed": step is not None} if kind.adaptive else {}
     recipe = Recipe(
         scene=scene,
         label=f"lumped {calibration.title}",
         integrator=integrator,
         settings=settings,
         key=key,
-        schedule=plan,
-        method=kind(system, plan.every / plan.steps, **options, **extra),
+        schedule=schedule,
+        method=kind(system, length, **options, **extra),
         observer=LatticeObserver(system, drawn),
         start=lambda: Advance(start, 0.0, 0.0),
         rows=len(drawn),

@@ -46,7 +46,8 @@ class MotionMethod(Protocol[AnyState]):
     def kinks(self) -> np.ndarray: ...
 
     def go(self, state: AnyState, at_most: float) -> Advance[AnyState]:
-        """Return a step, or several of one length, no longer than `at_most` [s]. Raises StepFailed."""
+        """Return a step, or several of one length, no longer than `at_most` [s]. Raises StepFailed, or
+        SingularMatrixError."""
 
     def at(self, times: np.ndarray, last: Advance[AnyState]) -> Any:
         """Return the states at times (k,) [s] within the last step, as an observer takes them: `time`, and

@@ -57,6 +57,16 @@ def constants_at(scene: SceneFields, points: np.ndarray) -> Constants:
     return constants
 
 
+def composition_at(scene: SceneFields, points: np.ndarray) -> dict[str, np.ndarray]:
+    """Return what the sheet is made of at plan points (…, 2) [m]: the number of its patch, 0 for none, and
+    the constants by their names, (…) each."""
+    patch = np.zeros(points.shape[:-1])
+    for number, each in enumerate(scene.patches, start=1):
+        patch[each.shape.contains(points)] = number
+    constants = constants_at(scene, points).arrays(points.shape[:-1]).by_name()
+    return {"patch": patch, **constants} if scene.patches else constants
+
+
 def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
     """Write a patch's own constants into arrays."""
     for name, value in own.items():

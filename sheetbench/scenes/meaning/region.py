@@ -89,6 +89,16 @@ def marked(scene: SceneFields) -> dict[str, PlanPoint]:
     return {f"probes.{name}": point for name, point in scene.probes.items()} | loads | payloads | pins
 
 
+def share_of(scene: SceneFields, corners: np.ndarray) -> np.ndarray:
+    """What share of quadrilaterals with corners (n, 4, 2) [m] is on the sheet, (n,); 1 of other cells."""
+    import shapely
+
+    if corners.shape[1] != 4:
+        return np.ones(len(corners))
+    cells = shapely.polygons(corners)
+    return np.asarray(shapely.area(shapely.intersection(cells, scene.region)) / shapely.area(cells))
+
+
 def off_sheet(scene: SceneFields, point: PlanPoint) -> bool:
     """Whether there is no sheet at a plan point [m]."""
     from shapely import Point

@@ -128,10 +128,8 @@ class Chain(Frozen):
     @property
     def joints(self) -> int:
         """Joints between segments, and the half-length joints that a held base carries."""
-        between = self.segments - 1
-        if self.base in ("start", "end"):
-            return between + 1
-        return between + 1 if self.base == "middle" and self.segments % 2 == 0 else between
+        held = self.base in ("start", "end") or (self.base == "middle" and self.segments % 2 == 0)
+        return self.segments - 1 + held
 
 
 class EdgeMotion(OverTime):

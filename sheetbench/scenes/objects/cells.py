@@ -51,6 +51,14 @@ class Constants:
         values = {name: full(getattr(self, name)) for name in NUMBERS}
         return replace(self, plies=plies, **values)
 
+    def by_name(self) -> dict[str, Any]:
+        """Return every constant by its name; of several plies those that all of the sheet has."""
+        if not self.plies:
+            return {name: getattr(self, name) for name in NUMBERS}
+        own = self.plies[0]._asdict() if len(self.plies) == 1 else {}
+        kept = {name: value for name, value in own.items() if name not in ("low", "high", "density")}
+        return {"thickness": self.thickness, "density": self.per_area / self.thickness, **kept}
+
     def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some constants."""
         return replace(self, **values)

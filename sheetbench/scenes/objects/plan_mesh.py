@@ -118,7 +118,7 @@ def read_mesh(value: Any) -> Any:
 def read_cells(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Return points (n, 2 or 3) [m], and corners of triangles (k, 3) and quadrilaterals (m, 4) by kind.
 
-    The points that cells name are there and finite. Raises ValueError with a clause that says what is wrong.
+    Raises ValueError with a clause that says what is wrong.
     """
     kind = FORMATS.get(path.suffix.lower())
     if kind is None:
@@ -139,12 +139,12 @@ def read_cells(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         raise ValueError(f"it cannot be read: {ended.fault}")
     with np.load(BytesIO(ended.answer)) as archive:
         arrays = dict(archive)
-    points = arrays.pop("points")
-    _check(points, arrays)
-    return points, arrays
+    return arrays.pop("points"), arrays
 
 
-def _check(points: np.ndarray, cells: dict[str, np.ndarray]) -> None:
+def _mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
+    """The mesh of points (n, 2 or 3) [m] and of polygons of 3 and of 4 corners. Raises ValueError where these
+    name points that are not there or not finite."""
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise ValueError("a point has two or three coordinates")
     for kind, corners in cells.items():
@@ -157,10 +157,6 @@ def _check(points: np.ndarray, cells: dict[str, np.ndarray]) -> None:
             )
         if not np.isfinite(points[corners]).all():
             raise ValueError(f"a corner of a {kind} is no finite number")
-
-
-def _mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
-    """The mesh of points (n, 2 or 3) [m] and of polygons of 3 and of 4 corners."""
     used = np.unique(np.concatenate([one.ravel() for one in cells.values()]))
     points, every = points[used], {kind: np.searchsorted(used, one) for kind, one in cells.items()}
     size = np.ptp(points, axis=0).max()

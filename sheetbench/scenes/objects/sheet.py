@@ -69,20 +69,16 @@ class Sheet(Frozen):
 
     @model_validator(mode="after")
     def _thinner_than_wide(self) -> Sheet:
-        if self.thickness > min(self.lengths):
-            raise ValueError(
-                f"thickness = {self.thickness:g} m is more than the shorter side, {min(self.lengths):g} m; "
-                "lengths are in metres"
-            )
-        for name in ("taper_x", "taper_y"):
-            ends = getattr(self, name)
-            if ends is not None and not min(ends) <= self.thickness <= max(ends):
-                raise ValueError(
-                    f"{name} = [{ends[0]:g}, {ends[1]:g}] m: thickness = {self.thickness:g} m is not "
-                    "between the two"
-                )
-            if ends is not None and max(ends) > min(self.lengths):
-                raise ValueError(f"{name} = [{ends[0]:g}, {ends[1]:g}] m is more than the shorter side")
+        thickness, shorter = f"thickness = {self.thickness:g} m", min(self.lengths)
+        if self.thickness > shorter:
+            more = f"is more than the shorter side, {shorter:g} m; lengths are in metres"
+            raise ValueError(f"{thickness} {more}")
+        for name, ends in (("taper_x", self.taper_x), ("taper_y", self.taper_y)):
+            given = f"{name} = [{ends[0]:g}, {ends[1]:g}] m" if ends else ""
+            if ends and not min(ends) <= self.thickness <= max(ends):
+                raise ValueError(f"{given}: {thickness} is not between the two")
+            if ends and max(ends) > shorter:
+                raise ValueError(f"{given} is more than the shorter side")
         if self.outline is not None and self.mesh is not None:
             raise ValueError("outline and mesh: give one of them; the outline of a mesh is its boundary")
         drawn = {"outline": self.outline, "mesh": None if self.mesh is None else self.mesh.points}

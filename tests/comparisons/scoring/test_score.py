@@ -129,6 +129,7 @@ def test_an_error_is_that_of_the_design(write):
         f"you rank {between + 1} of {len(models)}; nearest neighbour {near.model}, {100 * near.score:.3g} %"
     )
     assert found.notes()[-1] == said
+    assert repr(found).startswith("score 2 %") and models[0] in repr(found)  # the place is a table of its own
 
 
 @pytest.mark.parametrize(("suite", "change", "said"), [

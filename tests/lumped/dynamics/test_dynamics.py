@@ -11,8 +11,9 @@ from lumped.dynamics import INTEGRATORS
 from lumped.dynamics.explicit.step_limit import step_limit, turn_limit
 from lumped.dynamics.implicit.esdirk import ERROR
 from lumped.dynamics.integrator import StepFailed
-from lumped.dynamics.runs.plan import StepPlan, plan_run
+from lumped.dynamics.runs.plan import plan_run
 from sheetbench.answers.solution import Status
+from sheetbench.runs.schedule import Schedule
 from sheetbench.scenes import DamperSet
 
 
@@ -178,12 +179,12 @@ def test_the_lowest_period_has_a_hundred_samples(periods):
     calibration = springs(scene, 3)
     period = 1.0 / lumped.modes(scene, calibration, 1, calibration.masses).frequencies[0]
     equations, _ = system(scene, 3)
-    plan = plan_run(equations, calibration, None, periods * period, None, "esdirk", None)
+    plan, _ = plan_run(equations, calibration, None, periods * period, None, "esdirk", None)
     assert plan.samples == round(100 * periods)
     assert plan.every == pytest.approx(period / 100, rel=1e-9)
 
 
 def test_frames_are_the_first_and_the_last_sample_and_evenly_between():
-    plan = StepPlan(samples=10, every=1e-3, steps=1, adapts=False)
+    plan = Schedule(samples=10, every=1e-3)
     assert plan.shown(0) == [] and plan.shown(1) == [0] and plan.shown(2) == [0, 10]
     assert plan.shown(3) == [0, 5, 10] and plan.shown(4) == [0, 3, 7, 10]

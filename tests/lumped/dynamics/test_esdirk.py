@@ -8,9 +8,9 @@ from dynamic_cases import ROD, make_scene, run, springs, system
 
 import lumped
 from lumped.dynamics.implicit import esdirk
+from lumped.dynamics.implicit.compiled_stages import polynomials
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.implicit.newton import Newton
-from lumped.dynamics.implicit.polynomial import polynomials
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GUESSES, STAGES, WEIGHTS
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput

@@ -1,4 +1,4 @@
-"""Maxwell branches of the lattice in motion: relaxation, tangent, energy, the shell's motion."""
+"""Maxwell branches of the lattice in motion: tangent, energy, the shell's motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from dynamic_cases import run, springs
-from ring_down import damping_ratio
+from ring_down import BRANCHES, damping_ratio, pulled
 
 import fem_reference
 import lumped
@@ -15,33 +15,7 @@ from comparisons.modes.damping import mode_damping
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.runs.initial import initial_state
 from sheetbench import scenes
-from sheetbench.answers.solution import Status
-from sheetbench.scenes import Clamped, Held, Material, Motion, PerDirection, Relaxation, Scene, Sheet
-
-BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
-
-
-def pulled(material, by, within):
-    """A strip whose end is pulled and then held."""
-    pull = Motion(time=(0.0, within), displacement=((0.0, 0.0, 0.0), (by, 0.0, 0.0)))
-    supports = (Clamped("x0"), Held("x1", ("x", "y", "z"), motion=pull))
-    return Scene("strip", Sheet(0.1, 0.04, 0.002), material, supports=supports, probes={"P": (0.05, 0.0)})
-
-
-@pytest.mark.parametrize("name", ["generalised-alpha", "esdirk"])
-def test_a_held_strain_relaxes_as_its_prony_series(name):
-    """A strip of next to no mass, beside its own force at rest: R = R∞ (1 + Σ a g e^(−(t−T)/τ)), g of the
-    ramp. Generalised-α damps what rings by then; midpoint and verlet, held to esdirk below, never do."""
-    ramp = 0.01
-    strip = pulled(Material(1e6, 0.0, 1e-3, relaxation=BRANCHES), 1e-9, ramp)
-    lattice = lumped.calibrate(strip.sheet, strip.material, (4, 3))
-    run = lumped.simulate(strip, lattice, 0.2, integrator=name, step=1e-3, every=0.01)
-    assert run.status is Status.CONVERGED
-    held, material = run.time > 4.5 * ramp, strip.material.branches
-    fading = [t / ramp * -np.expm1(-ramp / t) * np.exp(-(run.time - ramp) / t) for t in material.times]
-    series = 1.0 + np.array(material.stiffness) @ fading
-    at_rest = lumped.solve(strip, lattice).reactions["x1"][0]
-    assert run.reactions["x1"][held, 0] == pytest.approx(at_rest * series[held], rel=1e-6)
+from sheetbench.scenes import Material, PerDirection
 
 
 @pytest.mark.parametrize("law", [None, "neo-hookean"])

@@ -3,12 +3,12 @@
 import re
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
 import pytest
-from fake_solutions import solution
+from fake_solutions import history, solution
 from matplotlib.figure import Figure
 
 import fem_reference
@@ -18,7 +18,6 @@ from fem_reference import statics
 from fem_reference.shell.validity import STRETCHED
 from sheetbench import scenes
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.report import NoPicture, Picture
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, Column, Table
@@ -108,11 +107,10 @@ def test_pandas_files_a_figure_and_a_prompt_follow_from_it(tmp_path):
     assert "… and 12 more rows" in repr(Pair())
 
 
-HISTORY = sb.History(
-    "lumped", "verlet", {}, sb.Status.CONVERGED, "", np.linspace(0.0, 1.0, 5),
-    {"P1": np.ones((5, 3)), "P2": np.zeros((5, 3))}, {name: np.ones(5) for name in ENERGIES},
-    {"x0": np.ones((5, 3))}, {}, 4, 0.1, 2.0,
-)  # fmt: skip
+HISTORY = replace(
+    history(np.linspace(0.0, 1.0, 5), {"P1": np.ones((5, 3)), "P2": np.zeros((5, 3))}),
+    reactions={"x0": np.ones((5, 3))},
+)
 
 
 def test_a_history_goes_on_to_pandas_and_xarray(monkeypatch):

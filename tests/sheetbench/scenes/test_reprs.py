@@ -8,6 +8,7 @@ from typing import Any
 import meshio
 import numpy as np
 import pytest
+from fake_solutions import history
 
 import fem_reference
 import lumped
@@ -19,17 +20,11 @@ from comparisons.sweep.solved import Ask
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
-from sheetbench.answers.history import ENERGIES, History
 from sheetbench.answers.modes import NaturalModes
-from sheetbench.answers.solution import Status
 from sheetbench.scenes.language import summary
 
 SCENE = scenes.load("two-edges-clamped")
-HISTORY = History(
-    "lumped 5×5×2", "verlet", {}, Status.CONVERGED, "", np.linspace(0.0, 1.0, 500),
-    {f"P{i}": np.full((500, 3), -1e-3) for i in range(40)}, {name: np.ones(500) for name in ENERGIES},
-    {"x0": np.ones((500, 3))}, {}, 1000, 0.1, 2.0,
-)  # fmt: skip
+HISTORY = history(np.linspace(0.0, 1.0, 500), {f"P{i}": np.full((500, 3), -1e-3) for i in range(40)})
 FREQUENCIES = np.arange(1.0, 60.0)
 
 

@@ -1,4 +1,7 @@
-"""Meshes of one's own from files: what they cover, what is refused, and that a scene keeps them."""
+"""Meshes of one's own from files: what they cover, what is refused, and that a scene keeps them; files of
+another person: formats that have ends, nothing read but the file, numbers that hold."""
+
+from time import perf_counter
 
 import meshio
 import numpy as np
@@ -7,11 +10,12 @@ import pytest
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, SceneError, Sheet, load
 from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects import plan_mesh
 from sheetbench.scenes.objects.grid import elements_of
 
 SCENE = """
 name = "own"
-sheet = {{ length_x = 0.3, length_y = {width}, thickness = 0.002, mesh = "{file}" }}
+sheet = {{ length_x = {length}, length_y = {width}, thickness = 0.002, mesh = "{file}" }}
 material = {{ young = 1e6, poisson = 0.3, density = 1000.0 }}
 gravity = {{ acceleration = [0.0, 0.0, -9.81] }}
 [[support]]
@@ -41,7 +45,14 @@ def written(folder, points, cells, file="own.msh", width=0.3):
     points = points if points.shape[1] == 3 else np.column_stack([points, np.zeros(len(points))])
     kind = "gmsh22" if file.endswith(".msh") else None
     meshio.write(folder / file, meshio.Mesh(points, list(cells.items())), kind)
-    (folder / "own.toml").write_text(SCENE.format(width=width, file=file))
+    return beside(folder, file, width=width)
+
+
+def beside(folder, file, text="", length=0.3, width=0.3):
+    """A scene beside a mesh file of another's, or of this text."""
+    if text:
+        (folder / file).write_text(text)
+    (folder / "own.toml").write_text(SCENE.format(length=length, width=width, file=file))
     return folder / "own.toml"
 
 
@@ -123,3 +134,67 @@ def test_a_cutout_beside_a_mesh_is_refused(tmp_path):
     path.write_text(path.read_text() + cutout)
     with pytest.raises(SceneError, match=r"cutout 1: beside sheet\.mesh"):
         load(path)
+
+
+NODES = "4 3 0 0\n0 0 0 0\n1 .12 0 0\n2 .12 .08 0\n3 0 .08 0\n"
+OBJ = "v 0 0 0\nv .12 0 0\nv .12 .08 0\nv 0 .08 0\n"
+OFF = "OFF\n4 1 0\n0 0 0\n.12 0 0\n.12 .08 0\n0 .08 0\n"
+ENDLESS = "*NODE\n1,0.,0.,0.\n*INCLUDE, INPUT=/dev/zero\n"
+FAR = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+1
+2000000000 0 0 0
+$EndNodes
+$Elements
+1
+1 2 0 2000000000 2000000000 2000000000
+$EndElements
+"""
+KNOWN = r"a mesh file's name ends in one of \.bdf, .*, \.vtu"
+
+
+@pytest.mark.sweep(2)
+@pytest.mark.parametrize(
+    ("file", "text", "said"),
+    [
+        ("m.ele", "# x\n", KNOWN),  # TetGen, Tecplot, WKT: meshio's readers do not end
+        ("m.tec", 'VARIABLES = "X", "Y"\nZONE NODES=4, ELEMENTS=1', KNOWN),
+        ("m.wkt", "TIN (((0 0 0, 0 0 1", KNOWN),
+        ("m.inp", ENDLESS, r"\*INCLUDE: other files are not read"),
+        ("m.inp", ENDLESS.replace("*INCLUDE, ", " include,"), r"\*INCLUDE: other files are not read"),
+        ("m.inp", "*NODE\n1,0.\n*ELEMENT,TYPE=S3\n1,1,1,1\n", "a point has two or three coordinates"),
+        ("m.inp", "*NODE\n1,0.,0.\n*ELEMENT,TYPE=S3\n1,1,7,8\n", "it names 7, which the file does not have"),
+        ("m.obj", OBJ + "f 1 2 3 99\n", "a quad has point 98, counted from 0; the file has 4 points"),
+        ("m.obj", OBJ + "f 1 2 3 -1\n", "a quad has point -2, counted from 0"),
+        ("m.obj", OBJ.replace(".08", "nan") + "f 1 2 3 4\n", "a corner of a quad is no finite number"),
+        ("m.off", OFF + "3 0 1 -3\n", "a triangle has point -3"),
+        ("m.off", OFF + "3 0 1 999999999999\n", "a triangle has point 999999999999"),
+    ],
+)
+def test_a_damaged_mesh_file_is_refused_by_name_and_fault(tmp_path, file, text, said):
+    (tmp_path / "m.node").write_text(NODES)
+    with pytest.raises(SceneError, match=rf"own\.toml: sheet\.mesh: .*{file}: {said}"):
+        load(beside(tmp_path, file, text))
+
+
+def test_reading_has_limits_of_time_and_memory(tmp_path, monkeypatch):
+    (tmp_path / "m.node").write_text(NODES)
+    endless = beside(tmp_path, "m.ele", "# x\n")
+    monkeypatch.setitem(plan_mesh.FORMATS, ".ele", "tetgen")
+    monkeypatch.setattr(plan_mesh, "SECONDS", 1.0)
+    started = perf_counter()
+    with pytest.raises(SceneError, match=r"m.ele: it cannot be read: no answer within 1 s"):
+        load(endless)
+    assert perf_counter() - started < 30.0
+    monkeypatch.setattr(plan_mesh, "SECONDS", 20.0)
+    with pytest.raises(SceneError, match=r"m\.msh: reading it takes more memory than a mesh may"):
+        load(beside(tmp_path, "m.msh", FAR))
+
+
+def test_a_sound_file_is_read_beside_modules_of_other_names(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "numpy.py").write_text("raise SystemExit('not the one')")
+    read = load(beside(tmp_path, "m.obj", OBJ + "f 1 2 3 4\n", 0.12, 0.08))
+    assert len(read.sheet.mesh.quads) == 1

@@ -24,14 +24,6 @@ GB = 10**9
 SCENE = "two-edges-clamped"
 
 
-@pytest.fixture
-def strip():
-    """A sheet 4672 times as long as wide."""
-    scene = scenes.load("one-edge-clamped")
-    sheet = scene.sheet.model_copy(update={"length_x": 0.01, "length_y": 46.72, "thickness": 1e-4})
-    return scene.model_copy(update={"sheet": sheet, "probes": {"tip": (0.0, 46.72)}})
-
-
 def room(monkeypatch, amount):
     monkeypatch.setattr(memory, "available", lambda: amount)
 
@@ -106,8 +98,10 @@ def test_a_grid_of_six_gigabytes_needs_a_machine_that_has_them(monkeypatch):
         require(fitting + 1)
 
 
-def test_a_long_thin_sheet_is_refused_with_what_fits(strip, monkeypatch):
-    """Four elements across are 75 000 in all."""
+def test_a_long_thin_sheet_is_refused_with_what_fits(monkeypatch):
+    """4672 times as long as wide: four elements across are 75 000 in all."""
+    sizes_ = {"length_x": 0.01, "length_y": 46.72, "thickness": 1e-4}
+    strip = scenes.load("one-edge-clamped").replace(**sizes_, probes={"tip": (0.0, 46.72)})
     room(monkeypatch, 4 * GB)
     with pytest.raises(BadInput, match=r"shell 4x18688: .* --elements 2 would fit"):
         sb.compare(strip, grid=(3, 9), elements=4)
@@ -135,16 +129,12 @@ MORE += [f"calibrate {SCENE} --grid {grid}" for grid in ("3 --calibration fit-mo
 MORE += [f"tradeoff {SCENE} {MOVED} 3 --plate= --shell 2 --solid="]
 
 
-@pytest.fixture
-def little(tmp_path, monkeypatch):
-    """Next to nothing is free."""
+@pytest.mark.parametrize("line", LINES + MORE)
+def test_every_verb_refuses_what_does_not_fit(line, tmp_path, monkeypatch, capsys):
+    """Where next to nothing is free."""
     monkeypatch.chdir(tmp_path)
     write_inputs(tmp_path)
     room(monkeypatch, 1000.0)
-
-
-@pytest.mark.parametrize("line", LINES + MORE)
-def test_every_verb_refuses_what_does_not_fit(line, little, capsys):
     assert run(*line.split()) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert "of memory, and 0.001 MB are free here" in said and "--large" in said

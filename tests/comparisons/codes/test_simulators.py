@@ -1,26 +1,22 @@
 """Files for named simulators: SOFA's scene holds our lattice; readers in NumPy, C++, MATLAB."""
 
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from cases import CLAMP, GRAVITY, OBLONG, SILICONE
 from commands import run
+from exported import HINGED
+from exported import READERS as SCRIPTS
 
 import lumped
 from comparisons.codes.files import to_sofa
 from comparisons.codes.lattice import CODES, READERS
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Hinged, PointLoad, Pressure, Scene, Symmetric
+from sheetbench.scenes import PointLoad, Pressure, Symmetric
 
-SCRIPTS = Path(__file__).parents[3] / "comparisons" / "codes" / "scripts"
 CORNER = scenes.load("two-edges-clamped").replace(
     loads=(PointLoad(at=(0.188, 0.188), force=(0.05, 0.0, 0.1)),), gravity=None
-)
-HINGED = Scene(
-    name="hinged", sheet=OBLONG, material=SILICONE, gravity=GRAVITY, support=(CLAMP, Hinged(edge="x1"))
 )
 
 

@@ -1,10 +1,13 @@
-"""Measured displacements and surfaces from files: as people write them, and what is refused."""
+"""Measured displacements and surfaces from files, as people and cameras write them, and what is refused."""
+
+import sys
 
 import numpy as np
 import pytest
 import pyvista
 from commands import run
 
+from comparisons.identification import point_files as c3d
 from comparisons.identification.measurements import Displacements, Surface, read
 from sheetbench import scenes
 from sheetbench.scenes import BadInput
@@ -144,3 +147,64 @@ def test_ply_files_with_more_than_positions(form, tmp_path):
     path = tmp_path / "scan.ply"
     path.write_bytes(header.encode() + body)
     np.testing.assert_array_equal(read(path, SCENE).points, points)
+
+
+@pytest.fixture
+def reader(tmp_path, monkeypatch):
+    """Puts a module in the place of ezc3d, for the program that reads with it too; a function of its text."""
+    folder = tmp_path / "modules"
+    folder.mkdir()
+    monkeypatch.syspath_prepend(folder)
+    monkeypatch.setenv("PYTHONPATH", str(folder))
+    (tmp_path / "capture.c3d").write_bytes(b"")
+
+    def put(text):
+        (folder / "ezc3d.py").write_text(text)
+        return tmp_path / "capture.c3d"
+
+    return put
+
+
+def capture(labels):
+    """An ezc3d whose files have frames of markers that sink by a millimetre each."""
+    return f"""
+import numpy as np
+print("as ezc3d prints")
+def c3d(path):
+    points = np.zeros((4, {len(labels)}, 5))
+    points[2] = -1.0 * np.arange(5)
+    value = dict(LABELS={labels}, RATE=[100.0], UNITS=["mm"])
+    point = dict((key, dict(value=content)) for key, content in value.items())
+    return dict(parameters=dict(POINT=point), data=dict(points=points))
+"""
+
+
+def test_markers_with_names_of_probes_are_displacements(reader, monkeypatch):
+    file = reader(capture(["Base", "p 4"]))
+    found = read(file, SCENE)
+    assert isinstance(found, Displacements) and found.time is not None
+    assert found.time == pytest.approx([0.0, 0.01, 0.02, 0.03, 0.04])
+    assert found.displacement[:, 2] == pytest.approx([0.0, -1e-3, -2e-3, -3e-3, -4e-3])
+    assert found.points[0].tolist() == list(SCENE.probes["P4"])
+    reader(capture(["Base"]) + "# other than before, to Python's cache too")
+    with pytest.raises(BadInput, match=r"markers Base; none has the name of a probe.*P1, P2, P3, P4"):
+        read(file, SCENE)
+    monkeypatch.setitem(sys.modules, "ezc3d", None)
+    with pytest.raises(BadInput, match="need ezc3d"):
+        read(file, SCENE)
+
+
+@pytest.mark.parametrize(
+    ("does", "message"),
+    [
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "ended by SIGSEGV"),
+        ("import time; time.sleep(60)", "no answer within 1 s"),
+        ("raise ValueError('access the frame 0 of 0')", "cannot be read as C3D: access the frame 0 of 0"),
+        ("return dict(parameters={}, data={})", "cannot be read as C3D: 'POINT'"),
+    ],
+)
+def test_a_damaged_capture_is_refused_whatever_ezc3d_does(reader, monkeypatch, does, message):
+    """Of 200 damaged files ezc3d ended by a signal on 7, did not end on 2, raised ValueError on 15."""
+    monkeypatch.setattr(c3d, "SECONDS", 1.0 if "sleep" in does else 20.0)
+    with pytest.raises(BadInput, match=message):
+        read(reader(f"def c3d(path): {does}"), SCENE)

@@ -125,7 +125,8 @@ def test_one_rule_says_what_a_tolerance_is_held_against():
     advice = advise("two-edges-clamped", 0.01)
     assert advice.tolerance == 0.01 and advice.model is not None and advice.choice is not None
     assert advice.heading()[0] == "two-edges-clamped"
-    rows = advice.document()["tried"]
+    rows, predicted = (advice.document()[key] for key in ("tried", "predicted"))
+    assert 0.0 < predicted["model"] == pytest.approx(sum(predicted["model_parts"].values()), rel=1e-12)
     for row in rows:
         assert row["total"] == pytest.approx(row["error"] + advice.bar + advice.model.value)
     (table,) = advice.tables()

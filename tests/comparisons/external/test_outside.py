@@ -1,10 +1,11 @@
-"""Models that are programs: their input and answer; one that ends badly costs its own row and no other."""
+"""Models from outside, plug-ins and programs: the docs' examples in our tables, faulty ones in a row."""
 
 import json
 import os
 import shutil
 import signal
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +13,150 @@ import pytest
 from campaigns import alive, wait_for
 from commands import json_of, one_line, run
 
+from comparisons.external import plugins
+from comparisons.external.answer import ExternalCode
+from comparisons.models import solve as solvers
 from comparisons.models.spec import parse
+from comparisons.sweep import task
+from comparisons.sweep.solved import Ask
 from sheetbench import face, scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
+from sheetbench.scenes import Clamped, EdgeLoad
 
-STRIP = Path(__file__).parents[3] / "docs" / "strip.sh"
 SCENE = scenes.load("one-edge-clamped")
+DOCS = Path(__file__).parents[3] / "docs"
+PLUG_INS = DOCS.parent / "examples" / "plug-ins"
+ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
+
+
+def tip_of_the_beam():
+    """The deflection [m] of the strip's tip under its weight, of a cantilever that is free to narrow."""
+    sheet, material = SCENE.sheet, SCENE.material
+    rigidity = material.young * sheet.thickness**3 / 12
+    return -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
+
+
+@pytest.fixture
+def installed(tmp_path, monkeypatch):
+    """docs/plugin.py as an installed package would offer it, beside two that are broken."""
+    metadata = tmp_path / "outside-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: outside\nVersion: 1.0\n")
+    (metadata / "entry_points.txt").write_text(ENTRY)
+    monkeypatch.setattr(sys, "path", [str(tmp_path), str(DOCS), *sys.path])
+    plugins._found.cache_clear()
+    solvers.warm.cache_clear()
+    yield
+    plugins._found.cache_clear()
+    solvers.warm.cache_clear()
+
+
+def test_the_plug_in_of_the_docs_answers_like_a_beam(installed):
+    solution = face.solve(SCENE, "strip", plane_strain=True)
+    assert (solution.model, solution.settings) == ("strip", {"plane_strain": True})
+    wide = tip_of_the_beam() * (1 - SCENE.material.poisson**2)
+    assert solution.displacement(SCENE.probe_points())[3, 2] == pytest.approx(wide)
+    assert face.solve(SCENE, "strip").settings == {"plane_strain": False}
+
+
+@pytest.mark.usefixtures("in_process")
+def test_a_plugin_stands_in_the_same_table_and_on_the_same_front(installed, capsys):
+    arguments = ("--lumped", "5", "--calibration", "consistent", "--plate", "", "--shell", "2", "--solid", "")
+    options = ("--model", "strip", "--model", "strip:plane_strain=true", "--elements", "4", "--repeats", "1")
+    document = json_of(capsys, "tradeoff", "one-edge-clamped", *arguments, *options)
+    rows = {row["series"]: row for row in document["rows"]}
+    assert set(rows) == {"lumped consistent", "shell", "strip", "strip plane_strain"}
+    assert rows["strip"]["error"] == pytest.approx(0.32, abs=0.02)  # it is linear
+    assert rows["lumped consistent"]["error"] < rows["strip"]["error"]
+    quickest = document["rows"][document["front"][0]]
+    assert quickest["model"] == "strip"
+
+
+def test_what_is_wrong_with_a_plugin_is_said_in_a_line(installed, capsys):
+    assert plugins.names()[:1] == ["absent"]
+    for name, said in (
+        ("absent", "cannot be loaded.*no_such_module"),
+        ("half", "lacks a name"),
+        ("none", "unknown, choose one of lumped, .*plate, shell, solid, absent, .*half"),
+    ):
+        with pytest.raises(BadInput, match=f"model = '{name}': .*{said}"):
+            face.solve(SCENE, name)
+    with pytest.raises(BadInput, match="no setting 'grid'; it has plane_strain"):
+        face.solve(SCENE, "strip", grid=9)
+    assert run("tradeoff", "one-edge-clamped", "--model", "strip:grid=9") == 2
+    assert "no setting 'grid'" in one_line(capsys)
+
+
+@pytest.mark.parametrize("where", ["when it is loaded", "when it solves"])
+def test_one_that_ends_the_program_is_refused(tmp_path, capsys, where):
+    """The exit status was 0, and nothing was said."""
+    file, text = tmp_path / f"{where[-5:].strip()}.py", "raise SystemExit(0)\n"
+    if where == "when it solves":
+        example = (DOCS / "plugin.py").read_text()
+        text = f"{example}\n\nclass Ends(Strip):\n    def solve(self, *_):\n        {text}"
+    file.write_text(text)
+    few = ("--lumped", "3", "--elements", "2", "--no-uncertainty")
+    assert run("compare", "one-edge-clamped", *few, "--model", f"{file}:Ends") == 2
+    assert "plug-in" in (said := capsys.readouterr().err) and "Traceback" not in said
+
+
+def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_path):
+    """Rows of an edited plug-in were read as if nothing had changed."""
+    file, beside = tmp_path / "own.py", tmp_path / "constants.py"
+    example = (DOCS / "plugin.py").read_text()
+    file.write_text(f"from constants import UNIT\n{example}")
+    beside.write_text("UNIT = 1\n")
+    (tmp_path / "elsewhere.py").write_text("x = 1\n")
+    name = f"{file}:Strip"
+
+    def key():
+        return Ask(SCENE, parse(name)).task.key
+
+    first = key()
+    (tmp_path / "elsewhere.py").write_text("x = 2\n")
+    assert key() == first
+    beside.write_text("UNIT = 2\n")
+    second = key()
+    file.write_text(f"from constants import UNIT\n{example}\n")
+    assert len({first, second, key()}) == 3
+    with pytest.raises(RuntimeError, match="changed since this run was requested"):
+        task.solve(SCENE.document(), name, {}, digest=plugins.digest("lumped"))
+
+
+@pytest.fixture
+def shipped(monkeypatch):
+    """The plug-ins of examples/plug-ins, by the entry points that their package has."""
+    known = tomllib.loads((PLUG_INS / "pyproject.toml").read_text(encoding="utf-8"))["project"][
+        "entry-points"
+    ]
+    monkeypatch.setattr(plugins, "OURS", {**plugins.OURS, **known[plugins.GROUP]})
+    plugins._found.cache_clear()
+    yield known[plugins.GROUP]
+    plugins._found.cache_clear()
+
+
+def test_the_plug_ins_of_the_examples_are_models_by_their_names(shipped):
+    assert shipped.keys() == {"felupe", "mujoco"} <= set(plugins.names())
+    for name in shipped:
+        assert plugins.plugin(name).name == name
+        file = f"{PLUG_INS}/sheetbench_{name}.py:MODEL"
+        assert plugins.plugin(file).settings == plugins.plugin(name).settings
+    assert isinstance(plugins.plugin("felupe"), ExternalCode)
+
+
+def test_mujoco_refuses_what_it_does_not_have(shipped):
+    pulled = SCENE.replace(loads=(EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),))
+    tilted = SCENE.replace(supports=(Clamped(edge="x0", tilt=0.1),))
+    for scene in (scenes.load("curved-edge"), pulled, tilted):
+        solution = face.solve(scene, "mujoco")
+        assert solution.status is Status.REFUSED and solution.message
+    for name, value in (("elastic2d", "none"), ("grid", 2)):
+        with pytest.raises(BadInput, match=f"{name} = "):
+            face.solve(SCENE, "mujoco", **{name: value})
+
+
+# ---- programs
 ANSWER = {"status": "converged", "probes": {name: [0.0, 0.0, -0.04] for name in SCENE.probes}}
 
 
@@ -40,16 +178,14 @@ def says(answer):
 
 
 @pytest.mark.skipif(shutil.which("jq") is None, reason="needs jq: install the Debian package jq")
-def test_the_example_of_the_docs_answers_like_a_beam(capsys):
-    assert len(STRIP.read_text(encoding="utf-8").splitlines()) <= 10
-    solution = face.solve(SCENE, f"exec:{STRIP}")
-    sheet, material = SCENE.sheet, SCENE.material
-    rigidity = material.young * sheet.thickness**3 / 12
-    tip = -material.density * sheet.thickness * 9.81 * sheet.length_x**4 / (8 * rigidity)
+def test_the_program_of_the_docs_answers_like_a_beam(capsys):
+    program = DOCS / "strip.sh"
+    assert len(program.read_text(encoding="utf-8").splitlines()) <= 10
+    solution = face.solve(SCENE, f"exec:{program}")
     assert (solution.model, solution.status) == ("strip", Status.CONVERGED)
-    assert solution.displacement(SCENE.probe_points())[3] == pytest.approx([0.0, 0.0, tip])
+    assert solution.displacement(SCENE.probe_points())[3] == pytest.approx([0.0, 0.0, tip_of_the_beam()])
     assert np.isnan(solution.displacement([[0.01, 0.01]])).all()  # it is requested the probes alone
-    arguments = ["two-edges-clamped", "--lumped", "3", "--elements", "2", "--model", f"exec:{STRIP}"]
+    arguments = ["two-edges-clamped", "--lumped", "3", "--elements", "2", "--model", f"exec:{program}"]
     assert run("compare", *arguments) == 2
     assert "strip: knows a sheet clamped at x0" in capsys.readouterr().err
 

@@ -32,6 +32,7 @@ BAD = {
         GOOD.replace("[probes]", '[[support]]\nedge = "x0"\nkind = "hinged"\n[probes]'),
         ["x0", "two supports"],
     ),
+    "degrees": (GOOD.replace('"clamped"', '"clamped"\ntilt = 5.0'), ["tilt: 5 rad is more than π/2"]),
     "not TOML": ("thickness: 3", ["not a TOML file"]),
 }
 LOOSE = {

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rubbers import LAWS, rubber
+from rubbers import LAWS, rubber, stored
 from scene_files import GOOD, SPRINGS, refusal
 
 import lumped
@@ -10,18 +10,6 @@ from sheetbench import scenes
 from sheetbench.scenes import Material, Relaxation, Scene, SceneError, Sheet
 from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.words import in_words
-
-
-def stored(material, stretches):
-    """The energy that the docstring of the module says, of principal stretches (…, 3)."""
-    squares = stretches**2
-    first, third = squares.sum(-1) - 3.0, np.log(stretches).sum(-1)
-    second = 0.5 * (squares.sum(-1) ** 2 - (squares**2).sum(-1)) - 3.0
-    e, x = material.energy, first
-    f = e.c10 * x + e.c20 * x**2 + e.c30 * x**3
-    if e.limit:
-        f = -e.c10 * e.limit * np.log(1.0 - x / e.limit)
-    return f + e.c01 * second - (2 * e.c10 + 4 * e.c01) * third + 0.5 * e.volume(material.poisson) * third**2
 
 
 @pytest.mark.parametrize("law", LAWS)

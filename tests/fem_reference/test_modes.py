@@ -122,11 +122,3 @@ def test_shapes_are_orthonormal_and_sampled():
     w = got.shapes[0, :, 2]
     mass = 1678.0 * 0.003 * 0.188**2
     assert 0.1 / mass < np.mean(w**2) < 1.0 / mass * 4
-
-
-def test_misuse():
-    scene = scenes.load("one-edge-clamped")
-    with pytest.raises(ValueError, match="beam"):
-        modes(scene, "beam")
-    with pytest.raises(ValueError, match="count = 0"):
-        modes(scene, "plate", 2, count=0)

@@ -1,22 +1,24 @@
 """Edges and supports that are moved: without strain where nothing holds; at corners, with what holds them."""
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 from cases import CLAMP, GRAVITY, OBLONG, SILICONE, equilibrium, sheet
 from numpy.testing import assert_allclose
+from rod_cases import chain as rod
 from rod_cases import driven
 
 import fem_reference
 import lumped
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Chain, Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Symmetric
+from sheetbench.scenes import Clamped, Curved, EdgeMotion, Held, Hinged, Scene, Symmetric
 from sheetbench.scenes.objects.supports import Motion
 
 WEIGHT = 9.81 * 1200.0 * 0.005 * 0.2 * 0.1
 CORNER = (0.2, 0.0)
+chain = partial(rod, edge="y0", segments=8, bending_stiffness=0.02, radius=2e-3)
 
 
 REST = (0.0, 0.0, 0.0)
@@ -27,11 +29,6 @@ def motion(edge="x1", displacement=REST, rotation=REST, time=None):
     moved = {"displacement": displacement, "rotation": rotation}
     moved = {key: at if time else (at,) for key, at in moved.items() if not time or at != REST}
     return EdgeMotion(kind="motion", edge=edge, time=time or (0.0,), **moved)
-
-
-def chain(**changes):
-    data = dict(edge="y0", segments=8, bending_stiffness=0.02, line_density=0.05, radius=2e-3)
-    return Chain(**{**data, **changes})
 
 
 def make_scene(supports, *actuators, gravity=GRAVITY):

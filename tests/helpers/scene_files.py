@@ -35,10 +35,6 @@ BAD = {
     "degrees": (GOOD.replace('"clamped"', '"clamped"\ntilt = 5.0'), ["tilt: 5 rad is more than π/2"]),
     "not TOML": ("thickness: 3", ["not a TOML file"]),
 }
-LOOSE = {
-    "no support": GOOD.replace('[[support]]\nedge = "x0"\nkind = "clamped"', ""),
-    "a hinge": GOOD.replace('"clamped"', '"hinged"'),
-}
 
 
 def written(folder: Path, text: str) -> Path:

@@ -144,11 +144,14 @@ def test_energy_is_kept_in_account(settling):
     assert np.ptp(motion.balance) < 1e-3 * largest
 
 
-def test_what_does_not_move_yet_is_refused(settling):
+def test_what_does_not_move_is_refused(settling):
     with pytest.raises(BadInput, match="duration"):
         fem_reference.simulate(settling, "shell", -1.0)
-    with pytest.raises(BadInput, match="beam"):
-        fem_reference.simulate(settling, "beam", 0.1)
+    for refused in (fem_reference.simulate, fem_reference.modes):
+        with pytest.raises(BadInput, match="beam"):
+            refused(settling, "beam", 1)
+    with pytest.raises(BadInput, match="count = 0"):
+        fem_reference.modes(settling, "plate", 2, count=0)
 
 
 def test_a_run_keeps_the_frames_asked_for():

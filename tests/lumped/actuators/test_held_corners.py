@@ -1,19 +1,18 @@
 """A chain on an edge whose end is a corner that another support holds: closed form, the shell, forces."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from cases import CLAMP, GRAVITY, RUBBER, SHEET, WEIGHT, equilibrium, sheet
 from numpy.testing import assert_allclose
+from rod_cases import chain as rod
 
-from sheetbench.scenes import Chain, Clamped, Curved, Scene
+from sheetbench.scenes import Clamped, Curved, Scene
 
 OWN = 0.05 * 0.188 * 9.81  # N, of a chain
+chain = partial(rod, edge="y0", segments=8, bending_stiffness=0.02)
 POINTS = np.random.default_rng(0).uniform(0.0, 0.188, (60, 2))
-
-
-def chain(**settings):
-    data = dict(edge="y0", segments=8, bending_stiffness=0.02, line_density=0.05, radius=1.5e-3)
-    return Chain(**{**data, **settings})
 
 
 RIGIDITY = 0.02 + 1e6 * 0.01 * 0.002**3 / 12.0  # N·m², of the chain and of the strip, which has 3e-4 of it

@@ -64,7 +64,7 @@ def test_without_the_token_nothing_is_answered_and_no_path_leads_to_a_file(addre
     assert {path: got(address, own + path).status for path in NO_FILE} == dict.fromkeys(NO_FILE, 404)
 
 
-def test_a_foreign_host_or_origin_is_refused(address):
+def test_a_foreign_host_or_origin_is_refused(address, panel):
     place = urlsplit(address)
     assert got(address, place.path, Host="evil.example").status == 421
     assert got(address, place.path, Host=f"evil.example:{place.port}").status == 421
@@ -75,10 +75,7 @@ def test_a_foreign_host_or_origin_is_refused(address):
     connection = http.client.HTTPConnection(place.netloc, timeout=600)
     connection.request("POST", lattice, question)  # without an origin
     assert connection.getresponse().status == 403
-
-
-def test_it_listens_on_the_loopback_alone(panel):
-    with server.Server(panel) as one:
+    with server.Server(panel) as one:  # which only this machine sees
         assert one.socket.getsockname()[0] == "127.0.0.1"
 
 

@@ -137,11 +137,8 @@ def test_what_a_figure_may_be():
             parse_figure(wrong)
 
 
-NAMES = ("history", "tradeoff", "modes")
-
-
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", ["history", "tradeoff", "modes"])
 def test_a_paper_has_its_columns_width_units_and_no_title(composed, name):
     with matplotlib.rc_context(STYLE):
         titled, paper = composed[name](PLAIN), composed[name](*parse_figure("pdf:single"))

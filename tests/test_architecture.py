@@ -40,6 +40,10 @@ ALLOWED = {
 }
 
 
+def files_of(*packages):
+    return sorted(path for package in packages for path in (ROOT / package).rglob("*.py"))
+
+
 def text_of(path):
     return path.read_text(encoding="utf-8")
 
@@ -55,7 +59,7 @@ WORDS = {"interp", "sinc", "from_rotvec"}  # of values over time and of the kine
 
 @pytest.mark.parametrize("package", ["lumped", "fem_reference"])
 def test_what_a_scenes_words_mean_is_left_to_the_scenes(package):
-    for path in sorted((ROOT / package).rglob("*.py")):
+    for path in files_of(package):
         named = {node.attr for node in nodes_of(path) if isinstance(node, ast.Attribute)}
         assert not named & WORDS or path.parent.name == "verification", f"{path} has {named & WORDS}"
 
@@ -94,9 +98,8 @@ def circles(graph):
 
 @pytest.mark.parametrize("package", ALLOWED)
 def test_imports_run_one_way(package):
-    files = sorted((ROOT / package).rglob("*.py"))
-    assert files
-    for path in files:
+    assert files_of(package)
+    for path in files_of(package):
         if path == ROOT / "sheetbench/scenes/__init__.py":
             continue  # it names answers that are imported from there too
         forbidden = imported(path) - ALLOWED[package]
@@ -195,7 +198,7 @@ def test_rooms_of_the_scenes_import_from_lower_floors_and_in_no_circle():
 
 def test_every_figure_is_there():
     """Figures are named by module and function, and loaded when they are drawn."""
-    text = "".join(text_of(path) for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
+    text = "".join(map(text_of, files_of(*PACKAGES)))
     named = set(re.findall(r'"((?:sheetbench|comparisons|fem_reference|studies)[\w.]*figure):(\w+)"', text))
     assert len(named) > 10
     for module, function in named:
@@ -216,7 +219,7 @@ AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "__init_
 
 
 def test_imports_within_functions_are_for_a_quick_start_alone():
-    for path in sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py")):
+    for path in files_of(*PACKAGES):
         place = path.relative_to(ROOT).as_posix()
         if place.startswith(AT_ONCE):
             continue
@@ -240,23 +243,21 @@ def names_from(path):
 
 
 def test_the_lattice_is_used_through_its_public_names():
-    for path in sorted([*(ROOT / "comparisons").rglob("*.py"), *(ROOT / "studies").rglob("*.py")]):
+    for path in files_of("comparisons", "studies"):
         for module, name in names_from(path):
             inside = module.startswith("lumped.") or (module == "lumped" and name not in lumped.__all__)
             assert not inside, f"{path.relative_to(ROOT)} imports {name} from {module}"
 
 
-@pytest.mark.parametrize("package", ["lumped"])
-def test_what_is_private_stays_in_its_file(package):
-    for path in sorted((ROOT / package).rglob("*.py")):
+def test_what_is_private_stays_in_its_file():
+    for path in files_of("lumped"):
         for module, name in names_from(path):
             assert not name.startswith("_"), f"{path.relative_to(ROOT)} imports {name} from {module}"
 
 
-@pytest.mark.parametrize("package", ["lumped", "fem_reference", "comparisons", "studies"])
-def test_misuse_is_refused_by_an_error_of_its_own(package):
+def test_misuse_is_refused_by_an_error_of_its_own():
     """Whoever reads BadInput knows that the input is to blame, and of any other error that the program is."""
-    for path in sorted((ROOT / package).rglob("*.py")):
+    for path in files_of("lumped", "fem_reference", "comparisons", "studies"):
         for node in nodes_of(path):
             if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
                 raised = ast.unparse(node.exc.func)
@@ -265,30 +266,29 @@ def test_misuse_is_refused_by_an_error_of_its_own(package):
 
 def test_tests_share_by_modules_of_their_own_and_stay_short():
     """No test module imports another: what two need is in conftest.py or a module without tests."""
-    for path in sorted((ROOT / "tests").rglob("*.py")):
+    for path in files_of("tests"):
         assert len(text_of(path).splitlines()) <= 350, path
         shared = re.findall(r"^ *(?:from|import) (test_\w+)", text_of(path), re.M)
         assert not shared, f"{path.relative_to(ROOT)} imports {', '.join(shared)}"
 
 
+CORE = ("lumped", "fem_reference", "sheetbench")
+
+
 def test_a_class_name_means_one_thing_in_the_core():
     files = {}
-    for package in ("lumped", "fem_reference", "sheetbench"):
-        for path in sorted((ROOT / package).rglob("*.py")):
-            for node in ast.parse(text_of(path)).body:
-                if isinstance(node, ast.ClassDef):
-                    files.setdefault(node.name, []).append(path.relative_to(ROOT).as_posix())
+    for path in files_of(*CORE):
+        for node in ast.parse(text_of(path)).body:
+            if isinstance(node, ast.ClassDef):
+                files.setdefault(node.name, []).append(path.relative_to(ROOT).as_posix())
     twice = {name: where for name, where in files.items() if len(where) > 1}
     assert not twice
 
 
 def test_functions_of_the_core_take_nine_parameters_at_most():
     """But compiled ones, which take no objects."""
-    for package in ("lumped", "fem_reference", "sheetbench"):
-        for path in sorted((ROOT / package).rglob("*.py")):
-            for node in nodes_of(path):
-                if not isinstance(node, ast.FunctionDef):
-                    continue
-                if "jit" not in "".join(map(ast.unparse, node.decorator_list)):
-                    names = [a.arg for a in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)]
-                    assert len({*names} - {"self", "cls"}) <= 9, f"{path.relative_to(ROOT)}: {node.name}"
+    for path in files_of(*CORE):
+        for node in (node for node in nodes_of(path) if isinstance(node, ast.FunctionDef)):
+            if "jit" not in "".join(map(ast.unparse, node.decorator_list)):
+                names = [a.arg for a in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)]
+                assert len({*names} - {"self", "cls"}) <= 9, f"{path.relative_to(ROOT)}: {node.name}"

@@ -1,13 +1,11 @@
 """The catalogue's answers are the table's and in balance, on one thread, on two and in every process."""
 
 import json
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 from catalogue import CASES, FILE, MODELS, OTHERS, ROUNDED, WITHIN, answer, document, scene_of
+from commands import python
 from threadpoolctl import threadpool_limits
 
 pytestmark = pytest.mark.smoke
@@ -44,18 +42,13 @@ def test_the_answers_are_those_of_the_table(name, model):
 def test_threads_and_processes_change_nothing():
     name, models = "two-edges-clamped", ("lattice", "shell")
     found = {}
-    for threads in (1, 2):
-        with threadpool_limits(threads):
-            found[threads] = [places(answer(name, model)) for model in models]
+    for count in (1, 2):
+        with threadpool_limits(count):
+            found[count] = [places(answer(name, model)) for model in models]
     code = "import json; from catalogue import answer; "
     code += f"print(json.dumps([answer({name!r}, model) for model in {models}]))"
-    environment = {
-        **os.environ,
-        "PYTHONPATH": str(FILE.parent),
-        "OMP_NUM_THREADS": "1",
-        "NUMBA_NUM_THREADS": "1",
-    }
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, check=True)
+    threads = dict.fromkeys(("OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+    done = python("-c", code, PYTHONPATH=str(FILE.parent), **threads)
     elsewhere = [places(one) for one in json.loads(done.stdout)]
     for one, two, other in zip(*found.values(), elsewhere, strict=True):
         within = {"rtol": 0.0, "atol": 1e-10 * np.abs(one).max()}

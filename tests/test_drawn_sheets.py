@@ -4,7 +4,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from cases import relative
+from cases import relative, sheet
 
 import fem_reference
 import lumped
@@ -16,7 +16,7 @@ from sheetbench import face
 from sheetbench.answers.balance import dead_force
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, SceneError
-from sheetbench.scenes import Gravity, Material, Point, Scene, Sheet, free_rigid_motions, load
+from sheetbench.scenes import Point, Scene, Sheet, free_rigid_motions, load
 
 LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
 TIP = [[LENGTH, WIDTH / 2.0]]
@@ -194,12 +194,8 @@ THREE = (
 )
 
 
-def scene(supports=THREE, weight=0.02, natural=None):
-    return Scene(
-        name="on-three-points", sheet=Sheet(length_x=0.2, length_y=0.2, thickness=0.002),
-        material=Material(young=1e6, poisson=0.3, density=1e3), supports=supports, natural=natural,
-        gravity=Gravity(acceleration=(0.0, 0.0, -weight)) if weight else None, probes={"corner": [0.2, 0.2]},
-    )  # fmt: skip
+def scene(supports=THREE):
+    return sheet(0.2, 0.2, 0.002, weight=0.02, supports=supports, probes={"corner": [0.2, 0.2]})
 
 
 def solved(of, model):

@@ -93,12 +93,3 @@ def die() -> dict[str, Any]:
 
 def threads() -> dict[str, Any]:
     return {"threads": os.environ.get("OMP_NUM_THREADS")}
-
-
-def die_once(x: int, folder: str, victim: int) -> dict[str, Any]:
-    """The victim takes its process down the first time, and leaves its number."""
-    died = Path(folder) / "died"
-    if x == victim and not died.exists():
-        died.write_text(str(os.getpid()), encoding="utf-8")
-        os.kill(os.getpid(), signal.SIGKILL)
-    return {"x": x, "process": os.getpid()}

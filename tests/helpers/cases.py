@@ -59,14 +59,14 @@ def sheet(
 
 
 def equilibrium(
-    scene: Scene, model: str, grid: int | tuple[int, int], elements: int | tuple[int, int]
+    scene: Scene, model: str, grid: int | tuple[int, int], elements: int | tuple[int, int], **options: Any
 ) -> Solution:
-    """The converged answer of a `consistent` lattice of a grid, or of a reference of elements."""
+    """The converged answer of a `consistent` lattice of a grid, or of a reference of elements and options."""
     if model == "lumped":
         springs = lumped.calibrate(scene.sheet, scene.material, grid, "consistent")
         found = lumped.solve(scene, springs)
     else:
-        found = fem_reference.solve(scene, model, elements=elements)
+        found = fem_reference.solve(scene, model, elements=elements, **options)
     assert found.status is Status.CONVERGED, found.message
     return found
 

@@ -10,23 +10,11 @@ from sheetbench import scenes
 from sheetbench.scenes import EdgeLoad, Held, Hinged, PointLoad, Pressure, Scene, Symmetric
 
 READERS = Path(__file__).parents[2] / "comparisons" / "codes" / "scripts"
-HINGED = Scene(
-    name="hinged",
-    sheet=OBLONG,
-    material=SILICONE,
-    gravity=GRAVITY,
-    support=(Hinged(edge="x0"), Hinged(edge="x1"), Held(edge="y0", components=("z",))),
-)
-HALF = Scene(
-    name="half",
-    sheet=OBLONG,
-    material=SILICONE,
-    support=(CLAMP, Symmetric(edge="y1")),
-    load=(
-        PointLoad(at=(0.2, 0.05), force=(0.0, 0.0, 0.05)),
-        EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0)),
-    ),
-)
+HINGES = (Hinged(edge="x0"), Hinged(edge="x1"), Held(edge="y0", components=("z",)))
+HINGED = Scene("hinged", OBLONG, SILICONE, GRAVITY, HINGES)
+PULL = EdgeLoad(edge="x1", force_per_length=(1.0, 0.0, 0.0))
+PUSHED = (PointLoad(at=(0.2, 0.05), force=(0.0, 0.0, 0.05)), PULL)
+HALF = Scene("half", OBLONG, SILICONE, None, (CLAMP, Symmetric(edge="y1")), PUSHED)
 CUT = {"shape": {"rectangle": {"x": (0.09, 0.2), "y": (0.045, 0.1)}}}
 ROOT = {"rectangle": {"x": (0.0, 0.02), "y": (0.0, 0.1)}}
 DRAWN = HALF.replace(
@@ -43,13 +31,8 @@ SKEW = HALF.replace(  # an oblique rim
     outline=[(0.0, 0.0), (0.12, 0.0), (0.2, 0.1), (0.0, 0.1)],
 )
 WOVEN = DRAWN.replace(material={"kind": "orthotropic", "density": 1000.0, **FIBRES}, patches=())
-BLOWN = Scene(
-    name="blown",
-    sheet=OBLONG,
-    material=SILICONE,
-    support=(CLAMP,),
-    load=(Pressure(value=40.0), EdgeLoad(edge="x1", moment_per_length=0.02, force_per_length=(0, 0, 0))),
-)
+MOMENT = EdgeLoad(edge="x1", moment_per_length=0.02, force_per_length=(0, 0, 0))
+BLOWN = Scene("blown", OBLONG, SILICONE, None, (CLAMP,), (Pressure(value=40.0), MOMENT))
 NATURAL = {"strain": (0.1, 0.02, 0.03), "curvature": (5.0, -2.0, 3.0)}  # of sides not at right angles
 BARRED = scenes.load("finger-on-cylinder")
 BALL = scenes.Sphere(position=(0.045, 0.01, -0.02), radius=0.018)

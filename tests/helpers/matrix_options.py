@@ -2,7 +2,11 @@
 
 from pathlib import Path
 
+from cases import sheet
+
 from sheetbench.choices import CALIBRATIONS
+from sheetbench.scenes import Clamped, Hinged
+from sheetbench.scenes.language.toml import to_toml
 
 SCENES = (
     *(("two-edges-clamped",), ("one-edge-clamped",), ("curved-edge",), ("actuated-edge",)),
@@ -37,23 +41,6 @@ FILES = {
     "touching": '[[obstacle]]\nkind = "plane"\nposition = [0.0, 0.0, -0.003]\n',
     "weightless": "",
 }
-SHEET = """name = "{name}"
-[sheet]
-length_x = 0.12
-length_y = 0.1
-thickness = 0.003
-[material]
-young = 1e6
-poisson = 0.4
-density = 1000.0
-{weight}
-[[support]]
-edge = "x0"
-kind = "{kind}"
-[[support]]
-edge = "x1"
-kind = "clamped"
-"""
 TABLES = {  # what was measured: rows of numbers below the header, and headers alone
     "heights": "x,y,uz\n0.05,0.05,-0.001\n0.1,0.05,-0.003\n0.11,0.1,-0.004\n0.08,0.03,-0.002\n",
     "displacements": "x,y,ux,uy,uz\n0.05,0.05,0,0,-0.001\n0.1,0.05,-1e-4,,-0.003\n0.11,0.1,-2e-4,0,-0.004\n",
@@ -61,16 +48,16 @@ TABLES = {  # what was measured: rows of numbers below the header, and headers a
     "0.008,0.1,0.05,-2e-4\n",
     "empty": "x,y,uz\n",
 }
-WEIGHT = "[gravity]\nacceleration = [0.0, 0.0, -9.81]\n"
 
 
 def scene_files(folder: Path) -> dict[str, str]:
     """Write scenes that the catalogue lacks, and measurements, into a folder; their paths by name."""
     found = {}
     for name, more in FILES.items():
-        weight, kind = ("" if name == "weightless" else WEIGHT), ("hinged" if more else "clamped")
-        text = SHEET.format(name=name, weight=weight, kind=kind) + more
-        (folder / f"{name}.toml").write_text(text, encoding="utf-8")
+        held = (Hinged if more else Clamped)(edge="x0"), Clamped(edge="x1")
+        weight = 0.0 if name == "weightless" else 9.81
+        scene = sheet(0.12, 0.1, 0.003, 1e6, 0.4, name=name, supports=held, weight=weight, probes={})
+        (folder / f"{name}.toml").write_text(to_toml(scene) + more, encoding="utf-8")
         found[name] = str(folder / f"{name}.toml")
     for name, text in TABLES.items():
         (folder / f"{name}.csv").write_text(text, encoding="utf-8")

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import numpy as np
+
 from sheetbench.scenes import Material
 
 LAWS: dict[str, dict[str, float]] = {
@@ -30,3 +32,15 @@ def material(law: str, poisson: float = 0.3, young: float = 2.0) -> Material:
         return Material(young=young, poisson=poisson, density=1.0)
     found = Material(law=law, poisson=max(poisson, LEAST), density=1.0, **CONSTANTS[law])
     return found.replace(young=young)
+
+
+def stored(material: Material, stretches: np.ndarray) -> Any:
+    """W [Pa] of principal stretches (…, 3), as `scenes.objects.material` writes it."""
+    squares = stretches**2
+    first, third = squares.sum(-1) - 3.0, np.log(stretches).sum(-1)
+    second = 0.5 * (squares.sum(-1) ** 2 - (squares**2).sum(-1)) - 3.0
+    e, x = material.energy, first
+    f = e.c10 * x + e.c20 * x**2 + e.c30 * x**3
+    if e.limit:
+        f = -e.c10 * e.limit * np.log(1.0 - x / e.limit)
+    return f + e.c01 * second - (2 * e.c10 + 4 * e.c01) * third + 0.5 * e.volume(material.poisson) * third**2

@@ -8,6 +8,13 @@ from sheetbench import scenes
 
 GOOD = scenes.catalogue()["one-edge-clamped"].read_text(encoding="utf-8")
 
+SPRINGS = """[springs]
+axial = 1.0
+diagonal = 1.0
+vertical = 1.0
+cross = 1.0
+cross_diagonal = 1.0
+layer_distance = 0.001"""
 BAD = {
     "unknown table": (GOOD + "[moon]\nspeed = 3.0\n", ["moon", "unknown key"]),
     "millimetres": (GOOD.replace("0.003", "3.0"), ["thickness", "metres"]),
@@ -25,6 +32,7 @@ BAD = {
         GOOD.replace("[probes]", '[[support]]\nedge = "x0"\nkind = "hinged"\n[probes]'),
         ["x0", "two supports"],
     ),
+    "degrees": (GOOD.replace('"clamped"', '"clamped"\ntilt = 5.0'), ["tilt: 5 rad is more than π/2"]),
     "not TOML": ("thickness: 3", ["not a TOML file"]),
 }
 LOOSE = {

@@ -51,10 +51,6 @@ def test_every_spring_constant(grid):
         assert np.abs(found.derivatives[name] - expected).max() < 2e-7 * scale, name
 
 
-def held(tilt):
-    return (Clamped(edge="x0", tilt=tilt),)
-
-
 @pytest.mark.parametrize(
     "base, changes, name, h",
     [

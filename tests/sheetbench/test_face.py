@@ -1,13 +1,11 @@
 """The face in Python: quick to import, one name for everything, and a scene is a scene, a name or a path."""
 
-import os
-import subprocess
-import sys
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
+from commands import python
 
 import fem_reference
 import lumped
@@ -18,17 +16,17 @@ HEAVY = ["numpy", "scipy", "pydantic", "numba", "skfem", "meshio", "pyvista", "v
 HEAVY += ["rich", "typer", "lumped", "fem_reference", "comparisons", "sheetbench.scenes"]
 
 
-def python(*arguments, **environment):
+def printed(*arguments, **environment):
     """What a fresh interpreter prints."""
-    around = {**os.environ, **environment}
-    command = [sys.executable, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=True, env=around).stdout.strip()
+    done = python(*arguments, **environment)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
 
 
 def test_importing_sheetbench_imports_nothing_heavy_and_a_scene_is_read_without_any_solver():
     code = "import sys, sheetbench as sb; print([m for m in sys.argv[1:] if m in sys.modules])"
     code += f"; sb.load('{NAME}'); print([m for m in sys.argv[1:] if m in sys.modules])"
-    imported, read = python("-c", code, *HEAVY).splitlines()
+    imported, read = printed("-c", code, *HEAVY).splitlines()
     assert imported == "[]" and read == str(["numpy", "pydantic", "sheetbench.scenes"])
 
 
@@ -46,7 +44,7 @@ def test_a_users_own_modules_do_not_shadow_ours(tmp_path):
         (tmp_path / taken).write_text("raise SystemExit('mine')\n")
     script = tmp_path / "run.py"
     script.write_text(f"import sheetbench as sb\nprint(sb.load('{NAME}').name)\n")
-    assert python(str(script)) == NAME
+    assert printed(str(script)) == NAME
 
 
 def test_compiled_kernels_are_kept_outside_the_packages(tmp_path):
@@ -54,9 +52,9 @@ def test_compiled_kernels_are_kept_outside_the_packages(tmp_path):
     forget = "import os; os.environ.pop('NUMBA_CACHE_DIR', None); "
     quick = {"NUMBA_DISABLE_JIT": "1"}
     ours = tmp_path / "sheetbench" / "numba"
-    assert python("-c", forget + ask, XDG_CACHE_HOME=str(tmp_path), **quick) == str(ours)
+    assert printed("-c", forget + ask, XDG_CACHE_HOME=str(tmp_path), **quick) == str(ours)
     theirs = str(tmp_path / "theirs")
-    assert python("-c", ask, NUMBA_CACHE_DIR=theirs, **quick) == theirs
+    assert printed("-c", ask, NUMBA_CACHE_DIR=theirs, **quick) == theirs
 
 
 VERBS: dict[str, Callable[[Any], Any]] = {

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from commands import python
 from dynamic_cases import make_scene, springs
 from llvmlite.binding import get_host_cpu_features
 from numba import njit, typeof, types
@@ -62,13 +63,6 @@ def test_steps_are_compiled_once_whether_edges_are_driven_or_not():
     lumped.simulate(driven, springs(driven, 3), 1e-4, integrator="verlet")
     layouts = {getattr(kind, "layout", "C") for signature in march.signatures for kind in signature}
     assert layouts == {"C"}
-
-
-def python(*arguments, place=ROOT, **environment):
-    """A process that runs Python in a folder, with variables set or, where None, unset."""
-    env = {name: value for name, value in (os.environ | environment).items() if value is not None}
-    command = [sys.executable, *arguments]
-    return subprocess.run(command, env=env, cwd=place, capture_output=True, text=True, timeout=300)
 
 
 def ask(place, cache):
@@ -138,7 +132,7 @@ def test_the_processor_is_the_common_one_unless_numba_is_there_before():
     unset = dict.fromkeys(name for name in os.environ if name.startswith("NUMBA_CPU"))
 
     def printed(*lines):
-        return python("-c", "\n".join([*lines, show]), **unset).stdout
+        return python("-c", "\n".join([*lines, show]), place=ROOT, **unset).stdout
 
     common = all(map(get_host_cpu_features().get, X86_64_V3)) and platform.machine() == "x86_64"
     assert printed("import sheetbench.kernels") == f"{'x86-64-v3' if common else None}\n"

@@ -1,12 +1,16 @@
-"""The shell on Habibi et al.'s sheet: converged values, convergence, symmetry, balance, statuses,
+"""Shell (and solid) on Habibi et al.'s sheet: converged values, convergence, symmetry, balance, statuses,
 sampling."""
+
+from functools import partial
 
 import numpy as np
 import pytest
 from cases import CONVERGED
 
 import fem_reference
-from fem_reference.shell import coarse_start, statics
+from fem_reference import statics
+from fem_reference.discrete.answer import traced
+from fem_reference.shell import coarse_start
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
@@ -28,11 +32,18 @@ def converged():
     return probes(scenes.load("one-edge-clamped"), 40)
 
 
-@pytest.mark.parametrize("name", CONVERGED)
-def test_seed_scenes_at_the_default_mesh(name):
+@pytest.mark.parametrize(
+    ("name", "model", "elements"),
+    [
+        *((name, "shell", 16) for name in CONVERGED),
+        ("two-edges-clamped", "solid", 8),
+        pytest.param("one-edge-clamped", "solid", 8, marks=pytest.mark.nightly),
+    ],
+)
+def test_seed_scenes(name, model, elements):
     scene = scenes.load(name)
-    solution = fem_reference.solve(scene, model="shell")
-    assert solution.status is Status.CONVERGED and solution.load_factor == 1.0
+    solution = fem_reference.solve(scene, model, elements=elements)
+    assert solution.status is Status.CONVERGED and solution.load_factor == 1.0 and solution.iterations < 12
     at = dict(zip(scene.probes, solution.displacement(scene.probe_points()) * 1e3, strict=True))
     for (probe, axis), value in CONVERGED[name].items():
         assert at[probe][axis] == pytest.approx(value, rel=3e-3), (probe, axis)
@@ -155,7 +166,11 @@ def test_a_sheet_with_a_hole_begins_at_a_coarse_mesh_without_rows_along_the_rim(
     [
         (coarse_start, "plain", lambda path: False),  # it does not go straight
         (coarse_start, "LIMITS", Limits(factorisations=2)),  # it takes long
-        (statics, "LIMITS", Limits(same_branch=1e-3)),  # the fine one's equilibrium is far away
+        (
+            statics,
+            "traced",
+            partial(traced, limits=Limits(same_branch=1e-3)),
+        ),  # far from it
     ],
 )
 def test_where_the_coarse_one_is_no_good_the_path_begins_at_rest(where, name, value, monkeypatch):

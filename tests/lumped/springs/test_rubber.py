@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rubbers import LAWS, rubber
+from rubbers import LAWS, rubber, stored
 from scipy.optimize import brentq
 
 import fem_reference
@@ -26,14 +26,8 @@ SHEET = Sheet(*SIDES, THICKNESS)
 
 
 def slopes(material, stretches):
-    """∂W/∂λ of the three principal stretches [Pa], from W as `scenes.objects.material` writes it."""
-    e, s = material.energy, np.asarray(stretches) ** 2
-    x = s.sum() - 3.0
-    first = e.c10 + 2.0 * e.c20 * x + 3.0 * e.c30 * x * x
-    if e.limit:
-        first = e.c10 / (1.0 - x / e.limit)
-    pressure = e.volume(material.poisson) * np.log(np.prod(stretches)) - 2.0 * e.c10 - 4.0 * e.c01
-    return (2.0 * s * (first + e.c01 * (s.sum() - s)) + pressure) / np.asarray(stretches)
+    """∂W/∂λ of the three principal stretches [Pa], by a complex step."""
+    return np.imag(stored(material, np.asarray(stretches) + 1e-30j * np.eye(3))) / 1e-30
 
 
 def thickness(material, one, other):

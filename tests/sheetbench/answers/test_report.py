@@ -8,7 +8,7 @@ import warnings
 
 import pytest
 from commands import one_line, run
-from scene_files import written
+from scene_files import GOOD, written
 
 from comparisons.cli.messages import in_lines
 from comparisons.cli.output import OutputOptions
@@ -63,26 +63,11 @@ def test_csv_cells_are_no_formulas_and_numbers_stay_numbers():
     )
 
 
-HOSTILE_SCENE = """
-name = "=cmd<script>"
-title = "\\u001b[2J <img src=x> | `$\\\\foo$"
-[sheet]
-length_x = 0.188
-length_y = 0.188
-thickness = 0.003
-[material]
-young = 54.5e6
-poisson = 0.48
-density = 1678.0
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
-[[support]]
-edge = "x0"
-kind = "clamped"
-[probes]
-"=HYPERLINK(1)" = [0.1, 0.1]
-"a|b<i>" = [0.188, 0.1]
-"""
+HOSTILE_SCENE = (
+    'name = "=cmd<script>"\ntitle = "\\u001b[2J <img src=x> | `$\\\\foo$"\n'
+    + GOOD[GOOD.index("[sheet]") : GOOD.index("P1")]
+    + '"=HYPERLINK(1)" = [0.1, 0.1]\n"a|b<i>" = [0.188, 0.1]\n'
+)
 
 
 @pytest.mark.usefixtures("quick")

@@ -1,32 +1,20 @@
 """[[mass]] as it is written, read back and refused."""
 
 import pytest
+from cases import sheet
 from scene_files import written
 
 import sheetbench as sb
 from sheetbench.errors import SceneError
 from sheetbench.scenes import PointLoad, load
+from sheetbench.scenes.language.toml import to_toml
 from sheetbench.scenes.meaning.composition import weights
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.meaning.plausibility import slips
 from sheetbench.scenes.meaning.words import in_words
 
 DISC = "where = {{ circle = {{ centre = [{}, 0.05], radius = 0.01 }} }}".format
-BASE = """name = "tip"
-[sheet]
-length_x = 0.2
-length_y = 0.1
-thickness = 0.003
-[material]
-young = 1e7
-poisson = 0.3
-density = 1000.0
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
-[[support]]
-edge = "x0"
-kind = "clamped"
-"""
+BASE = to_toml(sheet(0.2, 0.1, 0.003, 1e7, weight=9.81))
 TIP = BASE + '[[mass]]\nat = ["20 cm", 0.05]\nmass = "5 g"\n'
 
 

@@ -6,21 +6,14 @@ from pathlib import Path
 
 import pytest
 from commands import run
-from scene_files import GOOD, written
+from scene_files import GOOD, SPRINGS, written
 
 import sheetbench as sb
 from sheetbench import scenes
 from sheetbench.scenes import Implausible
 from sheetbench.scenes.meaning.plausibility import slips
 
-SPRINGS = """[springs]
-axial = 1.0
-diagonal = 1.0
-vertical = 1.0
-cross = 1.0
-cross_diagonal = 1.0
-layer_distance = 2.0
-[probes]"""
+FAR = SPRINGS.replace("0.001", "2.0") + "\n[probes]"
 LOAD = '[[load]]\nkind = "point"\nat = [0.1, 0.1]\nforce = [0.0, 0.0, 1.0e5]\n'
 SLIPS = {
     "E in MPa": ("54.5e6", "54.5", ["young = 54.5 Pa", "54.5 MPa is written 54.5e6"]),
@@ -30,7 +23,7 @@ SLIPS = {
     "a thick sheet": ("0.003", "0.05", ["thickness = 0.05 m", "0.188 m", "metres"]),
     "gravity in mm/s²": ("-9.81", "-9810.0", ["9810 m/s²", "9810 mm/s² is written 9.81"]),
     "another planet": ("-9.81", "-1.0", ["gravity.acceleration = [0.0, 0.0, -1.0]", "9.81", "m/s²"]),
-    "layers far apart": ("[probes]", SPRINGS, ["springs.layer_distance = 2 m", "667 times the thickness"]),
+    "layers far apart": ("[probes]", FAR, ["springs.layer_distance = 2 m", "667 times the thickness"]),
     "too heavy": ("54.5e6", "2.0e4", ["ρ g a/E = 0.155", "0.05"]),
     "loads in mN": ("[probes]", f"{LOAD}[probes]", ["the loads are 3.25 times", "N/m"]),
     "no load": ("[0.0, 0.0, -9.81]", "[0.0, 0.0, 0.0]", ["nothing moves the sheet"]),

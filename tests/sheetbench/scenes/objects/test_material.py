@@ -2,26 +2,14 @@
 
 import numpy as np
 import pytest
-from rubbers import LAWS, rubber
-from scene_files import GOOD, refusal
+from rubbers import LAWS, rubber, stored
+from scene_files import GOOD, SPRINGS, refusal
 
 import lumped
 from sheetbench import scenes
 from sheetbench.scenes import Material, Relaxation, Scene, SceneError, Sheet
 from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.words import in_words
-
-
-def stored(material, stretches):
-    """The energy that the docstring of the module says, of principal stretches (…, 3)."""
-    squares = stretches**2
-    first, third = squares.sum(-1) - 3.0, np.log(stretches).sum(-1)
-    second = 0.5 * (squares.sum(-1) ** 2 - (squares**2).sum(-1)) - 3.0
-    e, x = material.energy, first
-    f = e.c10 * x + e.c20 * x**2 + e.c30 * x**3
-    if e.limit:
-        f = -e.c10 * e.limit * np.log(1.0 - x / e.limit)
-    return f + e.c01 * second - (2 * e.c10 + 4 * e.c01) * third + 0.5 * e.volume(material.poisson) * third**2
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -55,13 +43,6 @@ def test_constants_follow_young_and_young_follows_constants(law):
     assert rubber(law).replace(law="neo-hookean").energy.c20 == 0.0
 
 
-SPRINGS = """[springs]
-axial = 1.0
-diagonal = 1.0
-vertical = 1.0
-cross = 1.0
-cross_diagonal = 1.0
-layer_distance = 0.001"""
 REFUSED = {
     "material: c1 = 1: law is missing": {"young": 1e6, "c1": 1.0},
     "material: c1 = 1: law = 'gent' takes shear and limit": {"law": "gent", **LAWS["gent"], "c1": 1.0},

@@ -127,7 +127,7 @@ MUJOCO = Code(
     ),
     (_damper("damping"),),
     cannot=HINGED + "; its bending energy is quadratic in the positions",
-    source="forces of the wheel 4.0.0, measured (tests/comparisons/codes/test_codes.py): E, ν and "
+    source="forces of the wheel 4.0.0, measured (tests/comparisons/codes/test_simulators.py): E, ν and "
     "thickness make plane stress, and hinges ½ D L²/(A₁ + A₂) θ². Before, google-deepmind/mujoco at "
     "a725507, src/user/user_mesh.cc: λ of a solid (ComputeStiffness), «3 * mu * pow(thickness, 3) / "
     "(24 * volume)» in place of D/(A₁ + A₂) (ComputeBending)",

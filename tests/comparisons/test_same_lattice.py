@@ -124,11 +124,8 @@ def test_the_same_words_are_the_same_lattice(name):
         if not words >= options.keys() or not set(UNABLE.get(name, ())).isdisjoint(options.values()):
             continue
         usual = {**LISTS, **({"calibration": "uniform"} if "k" in options else {})} if name in NAMED else {}
-        meant = Lattice(**{**usual, **options})
-        with pytest.raises(Used) as used:
-            ask(SCENE, **{**usual, **options})
-        expected = resolve(scene, meant).springs
-        assert constants(used) == constants(expected), options
+        meant = Lattice(**usual | options)
+        assert springs_of(ask, SCENE, **usual | options) == constants(resolve(scene, meant).springs), options
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
@@ -142,15 +139,19 @@ def test_so_are_a_scene_s_own_springs(name):
     scene.save("own.toml")
     for options in ({}, {"calibration": "van-gelder"}, {"k": 550.0}):
         if words >= options.keys() and not (name == "live" and options):  # whose grid is the slider's
-            with pytest.raises(Used) as used:
-                ask("own.toml", **options)
             expected = resolve(scene, Lattice(**options), own=name not in ANEW).springs
-            assert constants(used) == constants(expected), options
+            assert springs_of(ask, "own.toml", **options) == constants(expected), options
             assert tuple(expected.grid) == (4, 6, 2)
 
 
-def constants(found):
+def constants(springs):
     """What a lattice is made of."""
-    springs = found.value.args[0] if isinstance(found, pytest.ExceptionInfo) else found
     document = springs.document()
     return {key: document.get(key) for key in ("method", "grid", "grading", "springs", "layer_distance")}
+
+
+def springs_of(ask, scene, **options):
+    """The constants that a solver is given."""
+    with pytest.raises(Used) as used:
+        ask(scene, **options)
+    return constants(used.value.args[0])

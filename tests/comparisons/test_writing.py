@@ -29,16 +29,6 @@ def test_a_file_is_whole_or_as_it_was(tmp_path):
     assert [found.name for found in tmp_path.iterdir()] == ["file.txt"]
 
 
-def stand(path, kind):
-    """Put something that is no regular file in a file's place."""
-    if kind == "link":
-        path.symlink_to(path.with_name("victim"))
-    elif kind == "folder":
-        path.mkdir()
-    else:
-        os.mkfifo(path)
-
-
 def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path):
     victim = tmp_path / "victim"
     victim.write_text("mine")
@@ -48,22 +38,28 @@ def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path):
     assert victim.read_text() == "mine" and (tmp_path / "file.txt").read_text() == "ours"
 
 
-@pytest.mark.parametrize("kind", ["link", "folder", "pipe"])
-@pytest.mark.parametrize(
-    "arguments",
-    [("report", "{folder}", "--out", "{file}"), ("new", "{file}", "--overwrite")],
-    ids=lambda arguments: arguments[0],
-)
-def test_verbs_that_write_one_file_replace_no_other_kind(tmp_path, capsys, arguments, kind):
-    name = "page.html" if arguments[0] == "report" else "page.toml"
-    studies, path = tmp_path / "studies", tmp_path / "pages" / name
+OTHERS = {
+    "link": lambda path: path.symlink_to(path.with_name("victim")),
+    "folder": Path.mkdir,
+    "pipe": os.mkfifo,
+}
+
+
+@pytest.mark.parametrize("kind", OTHERS)
+@pytest.mark.parametrize("verb", ["report", "new"])
+def test_verbs_that_write_one_file_replace_no_other_kind(tmp_path, capsys, verb, kind):
+    studies, path = (
+        tmp_path / "studies",
+        tmp_path / "pages" / f"page.{'html' if verb == 'report' else 'toml'}",
+    )
     Folder(studies, "modes", ["sheetbench", "modes"]).report(Report("modes", "t", {}))
     path.parent.mkdir()
-    stand(path, kind)
+    OTHERS[kind](path)
     before = path.lstat()
-    assert run(*(word.format(folder=studies, file=path) for word in arguments)) == 2
+    words = (str(studies), "--out", str(path)) if verb == "report" else (str(path), "--overwrite")
+    assert run(verb, *words) == 2
     assert f"{path}: cannot be written, a " in one_line(capsys)
-    assert path.lstat() == before and [found.name for found in path.parent.iterdir()] == [name]
+    assert path.lstat() == before and [*path.parent.iterdir()] == [path]
 
 
 def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(tmp_path):

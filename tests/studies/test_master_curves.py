@@ -7,9 +7,8 @@ from studies.master_curves.twist import tip
 
 
 def test_a_lattice_lies_on_the_curve(monkeypatch):
-    monkeypatch.setattr(study, "LOADS", (1.0,))
-    monkeypatch.setattr(study, "WIDTHS", ())
-    monkeypatch.setattr(study, "TWISTING", ())
+    for name, value in (("LOADS", (1.0,)), ("WIDTHS", ()), ("TWISTING", ())):
+        monkeypatch.setattr(study, name, value)
     drops = {drop.model: drop.error for drop in study.measure(lambda _: None).drops}
     assert abs(drops["lattice 9"]) < 0.01 > 10 * abs(drops["shell 16"])
 

@@ -3,10 +3,8 @@
 import json
 
 import pytest
-from campaigns import FEW
 from commands import json_of, run
 
-from comparisons.stability import extremes
 from studies.stability import limit, study
 from studies.stability.scenes import sheet
 
@@ -25,10 +23,8 @@ def test_other_units_of_force_change_nothing(model):
     assert row["status"] == "converged" and row["error"] < (1e-8 if model == "plate" else 1e-12)
 
 
-@pytest.mark.usefixtures("in_process")
+@pytest.mark.usefixtures("few")
 def test_command_writes_maps_and_tables_and_resumes(tmp_path, capsys, monkeypatch):
-    for name, value in FEW.items():
-        monkeypatch.setattr(extremes, name, value)
     monkeypatch.setattr(study, "TURNS", (0.1,))
     monkeypatch.setattr(study.maps, "__defaults__", (study.PARTS, (0.1,)))
     few = {name: (task, cells[:1]) for name, (task, cells) in study.TASKS.items()}

@@ -1,20 +1,23 @@
 """What every verb does with --json, --out, a terminal of any width and Python, by one kept run of each."""
 
-import inspect
 import json
 import re
 from collections import Counter
 from collections.abc import Callable
+from inspect import Parameter, signature
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 from commands import one_line, run
 from verbs import SMALL, WITHOUT_ANSWER, few_runs, in_python, undraw, values_of, write_inputs
 
+import fem_reference
+import lumped
 import sheetbench as sb
 from comparisons.cli import console
 from comparisons.cli.app import VERBS, verb_group
+from sheetbench import choices
 from sheetbench.answers.report import Picture
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, catalogue
@@ -230,13 +233,13 @@ def test_the_same_call_from_python_gives_the_same_answer(kept, name, here):
 def test_an_option_has_one_name_and_one_default_in_command_and_function():
     of_terminal = {"json", "quiet", "verbose", "help", "progress", "lattice"}
     for verb in set(VERBS) - {"live", "study"}:
-        known = inspect.signature(getattr(sb, verb)).parameters
+        known = signature(getattr(sb, verb)).parameters
         options = {one.name: one for one in verb_group().commands[verb].params}
         hidden = {name for name, one in options.items() if getattr(one, "hidden", False)}
         assert set(known) - of_terminal == set(options) - of_terminal - hidden
         for name in set(known) - of_terminal:
             usual = known[name].default
-            assert usual is inspect.Parameter.empty or usual in (options[name].default, None, False), name
+            assert usual is Parameter.empty or usual in (options[name].default, None, False), name
 
 
 def test_scenes_of_the_catalogue_are_copied(kept):
@@ -244,3 +247,35 @@ def test_scenes_of_the_catalogue_are_copied(kept):
     copied = kept("check catalogue").folder / "one-edge-clamped.toml"
     assert sb.load(copied) == sb.load("one-edge-clamped")
     assert sb.load(kept("check").folder / "two-edges-clamped.toml") == sb.load("two-edges-clamped")
+
+
+# ---- names of choices
+def test_every_name_is_there_and_described():
+    assert list(lumped.CALIBRATIONS) == list(choices.CALIBRATIONS)
+    assert set(lumped.INTEGRATORS) == set(choices.INTEGRATORS)
+    given, more = get_args(lumped.Inertia)
+    assert {*get_args(given), *get_args(more)} == set(choices.MASSES)
+    assert list(fem_reference.MODELS) == list(choices.REFERENCES)
+    for name, method in lumped.CALIBRATIONS.items():
+        assert vars(choices.CALIBRATIONS[name]).items() <= vars(method).items()
+        assert method.fitted == ("targets" in signature(method.make).parameters)
+
+
+def test_the_usual_choices_are_those_of_the_functions():
+    assert signature(lumped.calibrate).parameters["method"].default == choices.CALIBRATION
+    assert signature(lumped.simulate).parameters["integrator"].default == choices.INTEGRATOR == choices.AUTO
+    assert signature(fem_reference.solve).parameters["model"].default == choices.REFERENCE
+
+
+NAMES = {
+    "calibration": choices.CALIBRATIONS,
+    "reference": choices.REFERENCES,
+    "masses": choices.MASSES,
+    "integrator": choices.INTEGRATORS,
+}
+
+
+@pytest.mark.parametrize("verb", ["compare", "calibrate", "identify", "modes", "simulate", "tradeoff"])
+def test_help_names_every_choice(verb):
+    known = [(one.help, NAMES[one.name]) for one in verb_group().commands[verb].params if one.name in NAMES]
+    assert known and all(name in said for said, names in known for name in names)

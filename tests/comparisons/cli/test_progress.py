@@ -122,9 +122,9 @@ def test_a_campaign_shows_the_run_that_goes_on(monkeypatch, terminal):
 SMALL = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
 
 
-@pytest.fixture
-def chatty(monkeypatch):
-    """A command that says all that there is to say."""
+@pytest.mark.parametrize("quiet", [False, True])
+def test_quiet_leaves_results_and_warnings(monkeypatch, quiet, capsys):
+    """Of a command that says all that there is to say."""
     monkeypatch.setattr(console, "QUIET", 0.0)
 
     def command():
@@ -134,12 +134,7 @@ def chatty(monkeypatch):
         console.note("the result")
         console.warn("a warning")
 
-    return as_verb("any", command)
-
-
-@pytest.mark.parametrize("quiet", [False, True])
-def test_quiet_leaves_results_and_warnings(chatty, quiet, capsys):
-    chatty(quiet=quiet, verbose=False, no_pictures=False)
+    as_verb("any", command)(quiet=quiet, verbose=False, no_pictures=False)
     printed = capsys.readouterr()
     assert printed.out == "the result\n"
     progress = [] if quiet else ["1/2 a run: converged", "kernels are compiled first"]

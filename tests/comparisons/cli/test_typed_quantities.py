@@ -16,22 +16,15 @@ def test_options_take_units(capsys):
     assert json_of(capsys, *common, *units)["springs"] == json_of(capsys, *common, *plain)["springs"]
 
 
-@pytest.mark.parametrize(
-    ("text", "lengths"),
-    [
-        ("120x80 mm", (0.12, 0.08)),
-        ("12 × 8cm", (0.12, 0.08)),
-        ("1.2e2X80mm", (0.12, 0.08)),
-        ("12cmx80mm", (0.12, 0.08)),
-        ("0.12x80 mm", (0.12e-3, 0.08)),  # refused or warned of as a sheet, not guessed
-        ("0.12x0.08", (0.12, 0.08)),
-        ("80 mm", (0.08, 0.08)),
-        (0.12, (0.12, 0.12)),
-        ([0.12, "80 mm"], (0.12, 0.08)),
-    ],
-)
-def test_a_unit_at_the_end_is_that_of_both_sides(text, lengths):
-    assert tuple(sides(text).values()) == pytest.approx(lengths, rel=1e-12)
+OBLONG = ("120x80 mm", "12 × 8cm", "1.2e2X80mm", "12cmx80mm", "0.12x0.08", [0.12, "80 mm"])
+
+
+def test_a_unit_at_the_end_is_that_of_both_sides():
+    """Of 0.12x80 mm too, which is refused or warned of as a sheet, not guessed."""
+    for text in OBLONG:
+        assert tuple(sides(text).values()) == pytest.approx((0.12, 0.08), rel=1e-12), text
+    for text, lengths in (("0.12x80 mm", (0.12e-3, 0.08)), ("80 mm", (0.08, 0.08)), (0.12, (0.12, 0.12))):
+        assert tuple(sides(text).values()) == pytest.approx(lengths, rel=1e-12)
 
 
 def test_the_version_and_the_help_of_a_verb_have_short_ways(capsys):

@@ -29,16 +29,20 @@ def table(path):
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """Habibi et al.'s test 1 on 4 × 4 × 2 masses, edge twist and all."""
-    made = tmp_path_factory.mktemp("lattice")
-    scene = scenes.load("two-edges-clamped")
-    export(made, scene, calibrated(scene, 4, method="consistent"))
-    return made
+def folders(tmp_path_factory):
+    """Folders by the scene that is in them; the first is Habibi et al.'s test 1, edge twist and all."""
+    made = tmp_path_factory.mktemp("lattices")
+    seed = scenes.load("two-edges-clamped")
+    export(made / "seed", seed, calibrated(seed, 4, method="consistent"))
+    for name in ("graded", "mooney-rivlin", "gent", "hinged", "woven", "skew", "muscles", "table", "napkin"):
+        scene, settings = SCENES[name]
+        export(made / name, scene, calibrated(scene, **settings))
+    export(made / "blown", BLOWN, calibrated(BLOWN, 3))
+    return {path.name: path for path in made.iterdir()}
 
 
-def test_the_tables_hold_what_the_lattice_is(folder):
-    scene = scenes.load("two-edges-clamped")
+def test_the_tables_hold_what_the_lattice_is(folders):
+    folder, scene = folders["seed"], scenes.load("two-edges-clamped")
     solution = lumped.solve(scene, calibrated(scene, 4, method="consistent"))
     nodes, links, cells = (table(folder / f"{name}.csv") for name in ("nodes", "links", "cells"))
     assert [*nodes[0]] == ["number", "i", "j", "k", "x", "y", "z", "mass"]
@@ -67,7 +71,8 @@ def test_the_page_says_what_a_drawn_sheet_is_made_of(tmp_path):
     assert "patch 1: rectangle" in page and "left out" in page
 
 
-def test_matlab_and_numpy_files_hold_the_same(folder):
+def test_matlab_and_numpy_files_hold_the_same(folders):
+    folder = folders["seed"]
     arrays, other = dict(np.load(folder / "lattice.npz")), loadmat(folder / "lattice.mat")
     assert set(arrays) == set(NAMES)
     for name, values in arrays.items():
@@ -187,17 +192,6 @@ def described(name):
     scene, settings = SCENES[name]
     lattice = arrays(lumped.describe(scene, calibrated(scene, **settings)))
     return lattice, NUMPY["differences"](lattice)
-
-
-@pytest.fixture(scope="module")
-def folders(tmp_path_factory):
-    """Folders by the scene that is in them."""
-    made = tmp_path_factory.mktemp("lattices")
-    for name in ("graded", "mooney-rivlin", "gent", "hinged", "woven", "skew", "muscles", "table", "napkin"):
-        scene, settings = SCENES[name]
-        export(made / name, scene, calibrated(scene, **settings))
-    export(made / "blown", BLOWN, calibrated(BLOWN, 3))
-    return {path.name: path for path in made.iterdir()}
 
 
 @pytest.mark.parametrize("name", SCENES)

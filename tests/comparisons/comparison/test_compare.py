@@ -25,10 +25,8 @@ from sheetbench.scenes import Scene
 
 pytestmark = pytest.mark.smoke
 
-
-@pytest.fixture(scope="module")
-def scene():
-    return scenes.load("two-edges-clamped")
+SCENE = scenes.load("two-edges-clamped")
+HELD = SCENE.replace(probes={"held": (0.0, 0.1), "free": (0.188, 0.188)})
 
 
 def test_error_is_the_largest_component_over_the_probes_and_none_where_nothing_moves_or_is_finite():
@@ -42,9 +40,9 @@ def test_error_is_the_largest_component_over_the_probes_and_none_where_nothing_m
 
 
 @pytest.mark.parametrize("status", [Status.DIVERGED, Status.STEP_LIMIT, Status.REFUSED])
-def test_a_partial_answer_is_kept_but_not_measured(scene, status):
-    partial = fake_solutions.solution(scene, "lumped", status=status, load_factor=0.4)
-    both = Comparison(scene, (partial, fake_solutions.solution(scene, "shell")))
+def test_a_partial_answer_is_kept_but_not_measured(status):
+    partial = fake_solutions.solution(SCENE, "lumped", status=status, load_factor=0.4)
+    both = Comparison(SCENE, (partial, fake_solutions.solution(SCENE, "shell")))
     assert both.error(partial) is None
     assert [d.relative for d in both.differences] == [None] * 4
     assert not both.succeeded
@@ -54,32 +52,27 @@ def test_a_partial_answer_is_kept_but_not_measured(scene, status):
     assert partial.status.advice in said
 
 
-@pytest.fixture(scope="module")
-def held(scene):
-    return scene.replace(probes={"held": (0.0, 0.1), "free": (0.188, 0.188)})
-
-
-def test_a_probe_on_a_clamped_edge_has_no_relative_difference(held):
-    truth = fake_solutions.solution(held, "shell")
+def test_a_probe_on_a_clamped_edge_has_no_relative_difference():
+    truth = fake_solutions.solution(HELD, "shell")
 
     def round_off(points):
         return truth.sample(points) + 1e-18
 
-    lattice = fake_solutions.solution(held, "lumped", sample=round_off)
-    first, second = Comparison(held, (lattice, replace(truth, sample=round_off))).differences
+    lattice = fake_solutions.solution(HELD, "lumped", sample=round_off)
+    first, second = Comparison(HELD, (lattice, replace(truth, sample=round_off))).differences
     assert (first.relative, second.relative) == (None, 0.0)
 
 
-def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent(held):
+def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent():
     """The bar of rounding over rounding is no number that says anything."""
     rounding = np.array([[1e-18], [0.0]])
-    meshes = [fake_solutions.solution(held, "shell", size).sample for size in (-0.01, -0.0101, -0.0103)]
-    answers = [sample(held.probe_points()) + i * rounding for i, sample in enumerate(meshes, start=1)]
+    meshes = [fake_solutions.solution(HELD, "shell", size).sample for size in (-0.01, -0.0101, -0.0103)]
+    answers = [sample(HELD.probe_points()) + i * rounding for i, sample in enumerate(meshes, start=1)]
 
     def shown(answers):
         bar = ErrorBar(estimate(answers, [1.0, 4.0 / 3.0, 2.0]), ("held", "free"), (16, 12, 8), 0.0)
-        truth = fake_solutions.solution(held, "shell", sample=lambda points: answers[0])
-        table, *_ = Comparison(held, (fake_solutions.solution(held), truth), bar).tables()
+        truth = fake_solutions.solution(HELD, "shell", sample=lambda points: answers[0])
+        table, *_ = Comparison(HELD, (fake_solutions.solution(HELD), truth), bar).tables()
         names = [column.name for column in table.columns]
         rows = [dict(zip(names, row, strict=True)) for row in table.rows]
         return {row["probe"]: row["±"] for row in rows if row["model"] == "shell"}

@@ -26,6 +26,7 @@ from sheetbench.scenes import Clamped, EdgeLoad
 
 SCENE = scenes.load("one-edge-clamped")
 DOCS = Path(__file__).parents[3] / "docs"
+COMPARE = ("compare", "one-edge-clamped", "--lumped", "3", "--elements", "2", "--no-uncertainty")
 PLUG_INS = DOCS.parent / "examples" / "plug-ins"
 ENTRY = "[sheetbench.models]\nstrip = plugin:MODEL\nabsent = no_such_module:MODEL\nhalf = plugin:np\n"
 
@@ -96,8 +97,7 @@ def test_one_that_ends_the_program_is_refused(tmp_path, capsys, where):
         example = (DOCS / "plugin.py").read_text()
         text = f"{example}\n\nclass Ends(Strip):\n    def solve(self, *_):\n        {text}"
     file.write_text(text)
-    few = ("--lumped", "3", "--elements", "2", "--no-uncertainty")
-    assert run("compare", "one-edge-clamped", *few, "--model", f"{file}:Ends") == 2
+    assert run(*COMPARE, "--model", f"{file}:Ends") == 2
     assert "plug-in" in (said := capsys.readouterr().err) and "Traceback" not in said
 
 
@@ -260,8 +260,7 @@ def test_what_is_no_answer_is_told(program, lines, said):
 
 
 def test_a_comparison_goes_on_without_it(program, capsys):
-    few = ["--lumped", "3", "--elements", "2", "--no-uncertainty", "--json"]
-    assert run("compare", "one-edge-clamped", *few, "--model", program("crash", "exit 9")) == 0
+    assert run(*COMPARE, "--json", "--model", program("crash", "exit 9")) == 0
     printed = capsys.readouterr()
     assert "crash: failed at 0 % of the load: exit status 9" in " ".join(printed.err.split())
     assert json.loads(printed.out)["solutions"][3]["status"] == "failed"

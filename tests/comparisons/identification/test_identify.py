@@ -1,5 +1,4 @@
-"""The inverse question: known parameters found again, intervals that hold what they promise, and what it does
-where a plain least squares fit from one start goes wrong without a word."""
+"""The inverse question: parameters found again, intervals that hold, and where least squares mislead."""
 
 from dataclasses import replace
 from math import log

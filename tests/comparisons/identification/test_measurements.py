@@ -97,15 +97,12 @@ def test_bad_file_leaves_with_2_and_one_line(fault, tmp_path, capsys):
 
 @pytest.mark.parametrize("suffix", [".ply", ".vtp"])
 def test_bad_clouds(suffix, tmp_path):
-    path = tmp_path / f"cloud{suffix}"
-    with pytest.raises(BadInput, match="no such file"):
-        read(path, SCENE)
-    path.write_text("not a point cloud")
-    with pytest.raises(BadInput, match="cloud"):
-        read(path, SCENE)
-    pyvista.PolyData(np.array([[94.0, 94.0, -6.0]])).save(path)
-    with pytest.raises(BadInput, match="in metres"):
-        read(path, SCENE)
+    path, millimetres = tmp_path / f"cloud{suffix}", pyvista.PolyData(np.array([[94.0, 94.0, -6.0]]))
+    makers = (lambda path: None, lambda path: path.write_text("not a point cloud"), millimetres.save)
+    for make, said in zip(makers, ("no such file", "cloud", "in metres"), strict=True):
+        make(path)
+        with pytest.raises(BadInput, match=said):
+            read(path, SCENE)
 
 
 HEADER = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cases import CLAMP, RUBBER, SHEET, with_material
+from dynamic_cases import springs
 from scipy.io import loadmat
 from scipy.signal import lsim
 
@@ -19,17 +20,13 @@ TAU, RATE = 2e-3, 0.5  # s, 1/s
 DAMPED = with_material(scenes.load("two-edges-clamped"), damping_time=TAU, damping_rate=RATE)
 
 
-def springs_of(scene, grid=4):
-    return lumped.calibrate(scene.sheet, scene.material, grid=grid)
-
-
 @pytest.fixture(scope="module")
 def flat():
-    return lumped.linearise(DAMPED, springs_of(DAMPED), "flat")
+    return lumped.linearise(DAMPED, springs(DAMPED, 4), "flat")
 
 
 def test_poles_are_those_of_the_modes_with_their_damping(flat):
-    omega = 2.0 * np.pi * lumped.modes(DAMPED, springs_of(DAMPED), 10, "gregory").frequencies
+    omega = 2.0 * np.pi * lumped.modes(DAMPED, springs(DAMPED, 4), 10, "gregory").frequencies
     drag = TAU * omega**2 + RATE
     wanted = -drag / 2.0 + 1j * np.sqrt(omega**2 - drag**2 / 4.0 + 0j)
     for modes in (None, 12):
@@ -44,9 +41,9 @@ def test_a_moved_edge_answers_as_the_simulation_does(flat):
     rise = Motion(time=(0.0, 0.02), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 1e-6)))
     held, probes = (Clamped(edge="x0", motion=rise),), {"P": (0.188, 0.188)}
     scene = Scene(name="shaken", sheet=SHEET, material=DAMPED.material, support=held, probes=probes)
-    springs = springs_of(scene, 3)
-    history = lumped.simulate(scene, springs, 0.05, every=0.001, step=1e-4, integrator="midpoint")
-    linear = lumped.linearise(scene, springs, "flat")
+    own = springs(scene, 3)
+    history = lumped.simulate(scene, own, 0.05, every=0.001, step=1e-4, integrator="midpoint")
+    linear = lumped.linearise(scene, own, "flat")
     space, moved = linear.state_space(None), [linear.inputs.index("x0 z")]
     of_edge = space.a, space.b[:, moved], space.c, space.d[:, moved]
     steps = lsim(of_edge, np.ones(len(history.time)), history.time)[1][:, 2]
@@ -66,13 +63,13 @@ def test_jacobians_are_slopes_of_statics(edge):
     scene = scenes.load("curved-edge")
     if edge == "x1":
         scene = scenes.load("one-edge-clamped").replace(actuators=(Chain(edge="x1", **rod),))
-    springs, name = springs_of(scene), f"curvature_{edge}"
-    linear = lumped.linearise(scene, springs)
+    own, name = springs(scene, 4), f"curvature_{edge}"
+    linear = lumped.linearise(scene, own)
     found = linear.jacobian[:, linear.inputs.index(f"{edge} curvature")]
     value, points = parameter(scene, name).value, scene.probe_points()
 
     def slope(step):
-        ends = (lumped.solve(put(scene, name, value + side * step), springs) for side in (1.0, -1.0))
+        ends = (lumped.solve(put(scene, name, value + side * step), own) for side in (1.0, -1.0))
         more, less = (end.displacement(points).ravel() for end in ends)
         return (more - less) / (2.0 * step)
 
@@ -81,9 +78,9 @@ def test_jacobians_are_slopes_of_statics(edge):
 
 
 def test_inputs_at_rest_are_what_statics_do(flat):
-    loaded = lumped.linearise(DAMPED, springs_of(DAMPED))
+    loaded = lumped.linearise(DAMPED, springs(DAMPED, 4))
     more, less = (
-        lumped.solve(DAMPED.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81 * by))), springs_of(DAMPED))
+        lumped.solve(DAMPED.replace(gravity=Gravity(acceleration=(0.0, 0.0, -9.81 * by))), springs(DAMPED, 4))
         for by in (1.0005, 0.9995)
     )
     points = DAMPED.probe_points()
@@ -95,7 +92,7 @@ def test_inputs_at_rest_are_what_statics_do(flat):
     forced = loaded.jacobian[:, at]
     np.testing.assert_allclose(forced, forced.T, atol=1e-9 * np.abs(forced).max())
     alone = DAMPED.replace(supports=(CLAMP,), gravity=None)
-    linear = lumped.linearise(alone, springs_of(alone))
+    linear = lumped.linearise(alone, springs(alone, 4))
     moved = linear.jacobian[:, linear.inputs.index("x0 z")].reshape(-1, 3)
     np.testing.assert_allclose(moved, np.tile([0.0, 0.0, 1.0], (len(moved), 1)), atol=1e-7)
 
@@ -110,7 +107,7 @@ def test_few_modes_answer_slow_inputs_exactly_and_others_nearly(flat):
 
 def test_a_chain_moves_as_its_constraints_allow():
     scene = scenes.load("actuated-edge")
-    linear = lumped.linearise(scene, springs_of(scene))
+    linear = lumped.linearise(scene, springs(scene, 4))
     assert np.linalg.eigvalsh(linear.mass.toarray()).min() > 0.0
     space = linear.state_space(8)
     assert space.poles.real.max() < 0.0 and space.frequencies[0] > 1.0
@@ -120,13 +117,13 @@ def test_a_chain_moves_as_its_constraints_allow():
 def test_what_has_no_linear_form_is_refused():
     blown = Scene(name="b", sheet=SHEET, material=RUBBER, support=(CLAMP,), load=(Pressure(value=1.0),))
     with pytest.raises(BadInput, match="unsymmetric tangents"):
-        lumped.linearise(blown, springs_of(blown))
+        lumped.linearise(blown, springs(blown, 4))
     with pytest.raises(BadInput, match="nothing stops"):
         free = Scene(name="f", sheet=SHEET, material=RUBBER, support=(Hinged(edge="x0"),))
-        lumped.linearise(free, springs_of(free))
+        lumped.linearise(free, springs(free, 4))
     with pytest.raises(BadInput, match="flat sheet has no actuators"):
         scene = scenes.load("actuated-edge")
-        lumped.linearise(scene, springs_of(scene), "flat")
+        lumped.linearise(scene, springs(scene, 4), "flat")
 
 
 def test_the_verb_leaves_matrices_for_numpy_and_matlab(kept):

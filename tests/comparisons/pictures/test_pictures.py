@@ -27,6 +27,7 @@ from sheetbench.answers.style import STYLE, plain, save
 from sheetbench.errors import BadInput
 from sheetbench.scenes import load
 
+SCENE = load("two-edges-clamped")
 HOSTILE = "T $\\foo$ \x1b[31m _x^y\n$"
 
 
@@ -104,25 +105,20 @@ def test_check_draws_the_plan_of_any_scene():
 
 
 @pytest.fixture(scope="module")
-def scene():
-    return load("two-edges-clamped")
-
-
-@pytest.fixture(scope="module")
-def composed(scene):
+def composed():
     time = np.linspace(0.0, 1.0, 5)
     moved = {"tip": np.outer(time, [0.0, 0.0, 1e-3])}
     rows = [
         TradeoffRow(
-            Ask(scene, Lattice((n, n, 2), "consistent")), "converged", error=0.1 / n,
+            Ask(SCENE, Lattice((n, n, 2), "consistent")), "converged", error=0.1 / n,
             row={"cost": {"samples": [1e-3 * n]}},
         )
         for n in (3, 5, 9)
     ]  # fmt: skip
-    trade = Tradeoff(scene, tuple(rows), rows[-1], 1e-3, 1e-3)
-    swings = spectra(scene, Lattice(3), count=4, reference="plate", elements=2)
+    trade = Tradeoff(SCENE, tuple(rows), rows[-1], 1e-3, 1e-3)
+    swings = spectra(SCENE, Lattice(3), count=4, reference="plate", elements=2)
     return {
-        "history": partial(moving.compose, history(time, moved), scene.title),
+        "history": partial(moving.compose, history(time, moved), SCENE.title),
         "tradeoff": partial(trading.compose, trade),
         "modes": partial(swinging.compose, swings),
     }
@@ -141,18 +137,15 @@ def test_what_a_figure_may_be():
             parse_figure(wrong)
 
 
-NAMES = ("history", "tradeoff", "modes")
-
-
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("name", NAMES)
-def test_a_paper_has_its_columns_width_units_and_no_title(composed, scene, name):
+@pytest.mark.parametrize("name", ["history", "tradeoff", "modes"])
+def test_a_paper_has_its_columns_width_units_and_no_title(composed, name):
     with matplotlib.rc_context(STYLE):
         titled, paper = composed[name](PLAIN), composed[name](*parse_figure("pdf:single"))
     assert paper.get_figwidth() == pytest.approx(WIDTHS["single"])
     said = [text.get_text() for text in paper.findobj(matplotlib.text.Text)]
-    assert not any(scene.title in text for text in said)
-    assert any(scene.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
+    assert not any(SCENE.title in text for text in said)
+    assert any(SCENE.title in t.get_text() for t in titled.findobj(matplotlib.text.Text))
     for axis in paper.axes:
         if axis.axison:
             assert "[" in axis.get_xlabel() + axis.get_ylabel()

@@ -4,23 +4,22 @@ import json
 import re
 import shlex
 from dataclasses import replace
-from functools import cache
 
 import pytest
 from answers import once
 from cases import sheet
 from commands import json_of
 
-import fem_reference
 from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
+from comparisons.models.spec import Elements
 from comparisons.sweep import here as table
 from comparisons.sweep.front import cheapest
 from comparisons.tradeoff.advisor import advise
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, Gravity, Point, Scene
+from sheetbench.scenes import Clamped, Gravity, Point
 
 SECONDS = 1e-5  # an unknown and factorisation
 answer = once(solvers.solve)  # one for all tests: what is looked at is what the advisor makes of it
@@ -38,19 +37,10 @@ def clock(monkeypatch):
     monkeypatch.setattr(table, "solve", answer_in_time)
 
 
-@cache
-def truth(text):
-    """What a shell that the advisor does not see says at the probes of a scene, as JSON, (n, 3)."""
-    scene = Scene.model_validate_json(text)
-    return fem_reference.solve(scene, model="shell", elements=16).displacement(scene.probe_points())
-
-
 def actual_error(advice):
-    """Error of the choice against the shell."""
-    assert advice.choice is not None
-    chosen = answer(resolve(advice.scene, advice.choice))
-    text = advice.scene.model_dump_json(by_alias=True, exclude_none=True)
-    return error(chosen.displacement(advice.scene.probe_points()), truth(text))
+    """Error of the choice against a shell that the advisor does not see."""
+    points, specs = advice.scene.probe_points(), (advice.choice, Elements("shell", 16))
+    return error(*(answer(resolve(advice.scene, spec)).displacement(points) for spec in specs))
 
 
 def test_scales_of_the_seed_sheet():

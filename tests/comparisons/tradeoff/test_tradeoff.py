@@ -26,11 +26,6 @@ SMALL = [
 
 
 @pytest.fixture(scope="module")
-def scene():
-    return scenes.load("two-edges-clamped")
-
-
-@pytest.fixture(scope="module")
 def finished(tmp_path_factory):
     """The folder of a small trade-off."""
     folder = tmp_path_factory.mktemp("tradeoff")
@@ -56,13 +51,13 @@ def test_lists_of_sizes_become_rows_with_near_square_cells():
         references("shell", ["x"])
 
 
-def test_memory_is_that_of_the_run(scene):
+def test_memory_is_that_of_the_run():
     _, memory = with_peak_memory(lambda: np.ones(8_000_000).sum())
     assert memory == pytest.approx(64e6, rel=0.1)
 
 
 @pytest.mark.parametrize(("finest", "known"), [("converged", True), ("diverged", False)])
-def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(scene, monkeypatch, finest, known):
+def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(monkeypatch, finest, known):
     def row(ask, status):
         probes = {"P": [0.0, 0.0, 1.0 + ask.spec.count**-2]}
         return Solved(ask, status, row={"probes": probes, "settings": ask.spec.settings, "load_factor": 1.0})
@@ -71,7 +66,9 @@ def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(scene, monkey
         return [row(ask, "converged" if n else finest) for n, ask in enumerate(asks)]
 
     monkeypatch.setattr(statics, "sweep", solved)
-    found = statics.tradeoff(scene, [Elements("shell", 3)], None, reference=Elements("shell", 8))
+    found = statics.tradeoff(
+        scenes.load("two-edges-clamped"), [Elements("shell", 3)], None, reference=Elements("shell", 8)
+    )
     assert (found.uncertainty is not None) == (found.rows[0].error is not None) == known
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.energies import SheetMotion, spent
 from fem_reference.sheets import start
-from sheetbench.numerics.direct import Factor, SingularMatrixError
+from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
 from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted, step_of
@@ -158,7 +158,7 @@ class ConstrainedAlpha:
         model = self._model
         basis = model.basis(q)
         rate = model.rate_placed(q, v, time)
-        factor = model.solver().factor((basis.T @ model.mass @ basis).tocsr())
+        factor = DirectSolver().factor((basis.T @ model.mass @ basis).tocsr())
         rate = rate - basis @ factor.solve(basis.T @ (model.mass @ (rate - v)))
         a = model.centripetal(q, rate)
         forces = model.forces(model.shape(q, time, rate, branches))

@@ -12,6 +12,7 @@ from fem_reference.verification import settling_strip
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
+from sheetbench.numerics.multifrontal import SignedFactors
 from sheetbench.numerics.time.method import StepFailed
 from sheetbench.scenes import EdgeMotion, Gravity, Pressure, load
 from sheetbench.scenes.objects.supports import Clamped, Curved, Motion
@@ -35,6 +36,19 @@ def test_a_slight_motion_is_that_of_the_shell(strip, model):
     height = shell.probes["tip"][:, 2]
     assert np.abs(ours.probes["tip"][:, 2] - height).max() < 5e-3 * np.abs(height).max()
     assert np.ptp(ours.balance) < 1e-3 * max(float(np.abs(e).max()) for e in ours.energies.values())
+
+
+def test_a_mass_is_not_read_as_if_it_had_a_tangents_entries(monkeypatch):
+    """It has fewer: its data ended in whatever lies behind, and some starts were refused for it."""
+    made, over = SignedFactors.__init__, []
+
+    def watched(self, data, fronts):
+        over.append(fronts.source.max() - len(data) + 1)
+        made(self, data, fronts)
+
+    monkeypatch.setattr(SignedFactors, "__init__", watched)
+    fem_reference.simulate(load("one-edge-clamped"), "shell", 0.002, elements=1)
+    assert over and not any(over)
 
 
 def order(scene, model, step):

@@ -153,7 +153,7 @@ FAULTS = {
     "moment on an edge": ("loads.FollowerMoment.force", OFF, LOADED),
     "sense of a moment": ("loads.FollowerMoment.force", _times(-1.0), LOADED),
     "weight of chains": ("rod._weight", OFF, HUNG),
-    "height of chains": ("rod._weight", _times([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]), HUNG),  # forces, no moments
+    "height of chains": ("rod._weight", _times([1.0] * 3 + [0.0] * 6), HUNG),  # forces, no moments
 }
 
 

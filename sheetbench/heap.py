@@ -10,4 +10,4 @@ def keep_freed_memory() -> None:
     the factors. Allocated, never touched and freed, an array raises the threshold that glibc gives memory
     back from; under other systems nothing changes.
     """
-    bytearray(31 << 20)
+    bytes(31 << 20)

@@ -177,11 +177,13 @@ def test_a_heated_lattice_buckles_where_kirchhoff_says(kind, times):
     ],
 )
 def test_a_heated_plate_past_buckling_is_not_found_flat(model, size, times, rise):
-    """Perfectly flat sheets leave the flat state where they buckle, and say at what share of the heat."""
+    """Perfectly flat sheets leave the flat state where they buckle, and say at what share of the heat: up to
+    the smallest load step below it, and below the thin plate's by their shear and mesh."""
     of, within = held_square(times, Hinged), 0.012 if model == "lumped" else 2e-3
     moved, found = tip(of, model, size, point=[0.1, 0.1])
     assert abs(moved[2]) / 0.002 == pytest.approx(rise, rel=within)
-    assert found.snaps == pytest.approx([1.0 / times], rel=0.03 if model == "lumped" else 0.012)
+    (left,), softer = found.snaps, 0.03 if model == "lumped" else 0.01
+    assert (1.0 - softer) / times - 2.0**-10 < left < (1.0 + softer) / times
     plate = fem_reference.solve(of, model="plate", elements=8)
     assert not plate.succeeded and "buckle it" in plate.message
 

@@ -116,6 +116,7 @@ OTHER_BASE = {  # where an option has an effect on something else alone
     ("identify", "--up-to"): PULLED,
     ("identify", "--area"): PULLED,
     ("identify", "--gauge"): "--tensile machine.csv --area 20mm2 --gauge 50mm",
+    ("stability", "--grading"): f"{ONE} --lumped 4 --elements 2 --vary load --workers 1",
     ("tradeoff", "--duration"): MOVING,
     ("tradeoff", "--integrator"): MOVING,
     ("tradeoff", "--grading"): f"{ONE} --lumped 3,4 --plate= --shell 2 --solid= --elements 3 --repeats 1"

@@ -101,7 +101,7 @@ def left_over(
     held: Sequence[tuple[np.ndarray, np.ndarray]],
     size: float,
     allowed: float,
-    share: float = 1.0,
+    share: float,
 ) -> Balance:
     """The balance of a model under a share of the load: what its supports exert, by name, and where and with
     which forces it is held, pairs (…, 3); size and allowed: as `Balance` has them."""

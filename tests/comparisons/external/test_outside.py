@@ -142,6 +142,7 @@ def test_the_plug_ins_of_the_examples_are_models_by_their_names(shipped):
         assert plugins.plugin(name).name == name
         file = f"{PLUG_INS}/sheetbench_{name}.py:MODEL"
         assert plugins.plugin(file).settings == plugins.plugin(name).settings
+        assert plugins._loaded(file) is plugins._loaded(file)
     assert isinstance(plugins.plugin("felupe"), ExternalCode)
 
 

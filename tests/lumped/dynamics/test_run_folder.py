@@ -172,6 +172,7 @@ def test_a_checkpoint_is_on_the_disk_after_what_it_counts_and_before_it_has_its_
     monkeypatch.setattr(os, "fsync", fsync)
     with FolderStore(tmp_path, 2, 3, {}) as store:
         store.resume()
+        assert store.samples().shape == (0, 2) and store.frames().shape == (0, 3, 3)
         store.sample(np.ones(2))
         store.frame(np.ones((3, 3)))
         store.checkpoint({"step": np.array(1)})

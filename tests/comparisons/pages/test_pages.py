@@ -16,7 +16,6 @@ from commands import run
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
 from comparisons.pages import sheets
-from comparisons.pages.page import _short
 from comparisons.pages.page import page as page_of
 from comparisons.pages.sheets import own_text
 from comparisons.pages.studies import read, tables
@@ -344,18 +343,3 @@ def test_views_fields_and_what_is_under_the_pointer(page):
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     said = page.locator(".sv-under").text_content()
     assert re.search(r"Shell at [\d., ]+ mm: moved 0, 0, −[\d.]+ mm", said)
-
-
-@pytest.mark.parametrize(
-    ("key", "value", "shown"),
-    [
-        ("graded", True, "on"),
-        ("layer_distance", 3e-3, "3 mm"),
-        ("ratio", 0.123456, "0.1235"),
-        ("grids", [5, 9], "5, 9"),
-        ("grid", [5, 9], "5 × 9"),
-        ("cells", [1] * 9, ""),
-    ],
-)
-def test_settings_have_units_and_several_grids_are_not_the_sides_of_one(key, value, shown):
-    assert _short(key, value) == shown

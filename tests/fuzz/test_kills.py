@@ -36,7 +36,7 @@ TRADEOFF = (
     *("tradeoff", "two-edges-clamped", "--lumped", "3,4,5", "--calibration", "uniform"),
     *("--plate", "2", "--shell", "2", "--solid", "", "--elements", "4", "--repeats", "1", "--workers", "1"),
 )
-TIMED = ("seconds", "memory", "samples")  # parts of the names of what no two runs have alike
+TIMED = ("seconds", "memory", "samples", "load_average")  # parts of the names of what no two runs have alike
 
 
 def run_campaign(folder: Path) -> None:

@@ -54,16 +54,6 @@ class Rest:
         self._found: dict[bytes, LinkRest] = {}
         self._cells: dict[str, CellRest] = {}
 
-    @cached_property
-    def weight(self) -> np.ndarray:
-        """Share of its family's stiffness that each link carries where all cells are alike, (m,)."""
-        return np.concatenate([family.weight for family in self._lattice.links])
-
-    @cached_property
-    def counts(self) -> np.ndarray:
-        """How many links each family has."""
-        return np.array([len(family.nodes) for family in self._lattice.links])
-
     def links(self, which: np.ndarray) -> LinkRest:
         """Return those of all the lattice's links that `which` (m,) tells."""
         key = which.tobytes()

@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, by_sides, by_warp, to_diagonals
+from lumped.springs.cell_blocks import add_blocks, by_sides, by_warp, to_diagonals
 from lumped.springs.cell_laws import (
     Tag,
     constants_of,
@@ -222,8 +222,7 @@ def add_tangent(
             by_sides((six[4], six[5], six[2]), a, b),
         )
         to_diagonals((s[0], s[1], s[2]), a, b, rows, in_diagonals)
-        if measures(cells.law) == 4:
+        warps = measures(cells.law) == 4
+        if warps:
             by_warp(s[3], more, a, b, q, of_warp)
-            add_warped_blocks(in_diagonals, of_warp, cells.slots[c], blocks)
-        else:
-            add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], blocks)
+        add_blocks(in_diagonals, of_warp, warps, cells.nodes.shape[2], cells.slots[c], blocks)

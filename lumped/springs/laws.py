@@ -46,7 +46,7 @@ Four = tuple[float, float, float, float]
 Constants = tuple[float, ...]
 Six = tuple[float, float, float, float, float, float]  # 11, 22, 33, 12, 13, 23 of a symmetric matrix
 Memory = tuple[float, float]
-# own, constant, S and δg (m, n) of springs of n measures: with Maxwell branches the force is that of the stress
+# own, constant, S and δg (m, n) of springs of n measures: with Maxwell branches the force is that of
 # own · S + constant [N/m], and S and δg are filled in
 Branches = tuple[float, np.ndarray, np.ndarray, np.ndarray]
 

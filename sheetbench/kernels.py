@@ -129,9 +129,9 @@ class Library(codegen.JITCodeLibrary):  # type: ignore[misc]
 
     def get_pointer_to_function(self, name: str) -> int:
         """Return the address of a kernel's machine code."""
-        engine = self._codegen._engine
-        found: int = engine.get_function_address(name) if self.bitcode else super().get_pointer_to_function(name)
-        return found
+        find = self._codegen._engine.get_function_address if self.bitcode else super().get_pointer_to_function
+        address: int = find(name)
+        return address
 
     def _get_module_for_linking(self) -> Any:
         if self.bitcode and self._shared_module is None:

@@ -24,10 +24,7 @@ import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from sheetbench.scenes.objects.quantities import (
-    A_LIST,
-    A_NUMBER,
-    A_TABLE,
-    FORM,
+    Forms,
     Frozen,
     Length,
     NonNegative,
@@ -50,10 +47,7 @@ class CurvatureTable(OverTime):
     """Intrinsic curvature of all joints at each time, linear between them; statics take the last one."""
 
 
-Curvature = Annotated[
-    Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST] | Annotated[CurvatureTable, A_TABLE],
-    FORM,
-]
+Curvature = Annotated[Number | tuple[Number, ...] | CurvatureTable, Forms(), Unit("1/m")]
 
 
 class Chain(Frozen):
@@ -73,7 +67,7 @@ class Chain(Frozen):
     """Of its round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
     face: Literal["mid", "top", "bottom"] = "mid"
     """Where its axis lies: in the mid-surface, or thickness/2 + radius above (top) or below (bottom) it."""
-    curvature: Annotated[Curvature, Unit("1/m")] = 0.0
+    curvature: Curvature = 0.0
     """Intrinsic curvature: a number, one a joint, or a table over time; > 0 lifts the ends towards +z (plane
     "normal", "spatial") or bends them outwards ("inplane")."""
     damping_time: Annotated[NonNegative, Unit("s")] = 0.0

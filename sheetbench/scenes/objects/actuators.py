@@ -16,9 +16,7 @@ anywhere through the thickness. They move as one chain whose axis is the mean of
 slide along its axis, since two inextensible rods on opposite faces could not bend together.
 """
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -79,7 +77,7 @@ class Chain(Frozen):
     """Held nowhere ("free"), or at its middle or at the end where the edge starts or ends."""
 
     @model_validator(mode="after")
-    def _one_curvature_a_joint(self) -> Chain:
+    def _one_curvature_a_joint(self) -> Self:
         if isinstance(self.curvature, tuple) and len(self.curvature) != self.joints:
             raise ValueError(
                 f"curvature has {len(self.curvature)} values, but {self.segments} segments with base = "
@@ -144,7 +142,7 @@ class EdgeMotion(OverTime):
         return str(self.edge)
 
     @model_validator(mode="after")
-    def _moves_something(self) -> EdgeMotion:
+    def _moves_something(self) -> Self:
         if not self.displacement and not self.rotation:
             raise ValueError("needs displacement [m] or rotation [rad]")
         return self

@@ -20,8 +20,6 @@ Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bone
 Continuum Mechanics (2008), 6.4.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise

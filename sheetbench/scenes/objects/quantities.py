@@ -4,8 +4,6 @@ No number is larger than `LARGEST` in magnitude, and what must be positive not s
 them nothing is meant, and the products and quotients of the mechanics would overflow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from inspect import Parameter, Signature
 from math import isfinite
@@ -60,7 +58,7 @@ class Real:
     """A finite number, no text, within bounds (`gt`, `ge`, `lt`, `le`), and what else is checked of it: its
     schema at once, of which pydantic would apply every part anew wherever one stands."""
 
-    def __init__(self, check: Callable[[float], float] | None = None, **bounds: float):
+    def __init__(self, check: Callable[[float], float] | None = None, **bounds: Any):
         self.check, self.bounds = check, bounds
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -147,7 +145,7 @@ class Frozen(BaseModel, frozen=True):
 
     @classmethod
     def __pydantic_init_subclass__(cls, **options: Any) -> None:
-        cls.__signature__ = _Keys()
+        cls.__signature__ = _Keys()  # type: ignore[assignment]  # made when it is looked at
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise SceneError(

@@ -20,8 +20,6 @@ of second order, exact where X is linear in time. Source: Simo and Hughes, Compu
 10.3. What is remembered is a `memory` (1 + b, 2, m): X, then R of every branch.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from math import ceil, log10, pi
 from typing import Annotated, NamedTuple

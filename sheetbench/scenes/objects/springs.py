@@ -14,9 +14,7 @@ from one of two opposite edges to the other they are x0's and y0's, and those th
 y1's.
 """
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, Strict, model_validator
 
@@ -161,7 +159,7 @@ class SpringSet(Frozen):
         return bool(self.neo_hookean_shear or self.mooney_rivlin)
 
     @model_validator(mode="after")
-    def _one_law_a_cell(self) -> SpringSet:
+    def _one_law_a_cell(self) -> Self:
         if self.rubber and (self.area or self.stretch or self.shear):
             raise ValueError("neo_hookean_shear: the same cells cannot have area, stretch and shear springs")
         return self
@@ -188,7 +186,7 @@ class SpringTable(SpringSet):
         return data.model_dump() if type(data) is SpringSet else data
 
     @model_validator(mode="after")
-    def _graded_somewhere(self) -> SpringTable:
+    def _graded_somewhere(self) -> Self:
         towards(self.grading, self.graded_edges)  # raises for what is no grading
         return self
 

@@ -62,7 +62,7 @@ def errors_on(model: str, scene: Scene, elements: int) -> tuple[float, float]:
     sheet.items.append(Dead(sheet.on_coordinates(force), None))
     rest = static.rest()
     forces = static.forces(rest, 1.0)
-    matrix, right = static.system(rest, forces, 1.0, mixed=False)
+    matrix, right = static.linearised(rest, forces, 1.0, mixed=False)
     step = DirectSolver().factor(matrix).solve(right)
     moved, turned = static.advance(rest, forces, 1.0, step).q.reshape(2, -1, 3)
 

@@ -1,10 +1,9 @@
 """Sparse direct solution of A x = b: analyse a pattern once, factorise many times, know the inertia.
 
-A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`); where
-it is large and the extra `mkl` is installed, L D Lᵀ by PARDISO. What has none by fronts, as may be far from
-definite, goes to PARDISO's or rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's SuperLU where neither is:
-its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones are solved with the factors
-of their symmetric part where that is definite and close, else by L U of rslab or SciPy.
+A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`). What
+has none by fronts, as may be far from definite, goes to rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's
+SuperLU without it: its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones are solved
+with the factors of their symmetric part where that is definite and close, else by L U of rslab or SciPy.
 Solutions are refined, their residuals checked.
 """
 
@@ -19,7 +18,6 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, cg, splu
 
-from sheetbench.numerics import pardiso
 from sheetbench.numerics.banded import BACKWARD_ERROR
 from sheetbench.numerics.fronts import Fronts
 from sheetbench.numerics.multifrontal import NoFactorsError, SignedFactors
@@ -41,7 +39,6 @@ CHOLESKY = (
 )
 ITERATION_ACCURACY = 1e-4  # residual over the right-hand side: Newton's corrections gain few digits more
 ITERATIONS = 20  # each costs a solution with the factors
-LARGE = 20_000  # unknowns from which PARDISO is quicker than the fronts
 
 
 class SingularMatrixError(ArithmeticError):
@@ -162,8 +159,7 @@ class DirectSolver:
 
         Raises SingularMatrixError on a zero pivot or an entry that is not finite.
         """
-        n = matrix.shape[0]
-        if self._fronts is not None and (n < LARGE or not self.symmetric or pardiso.library() is None):
+        if self._fronts is not None:
             try:
                 data = matrix.data if self.symmetric else self._symmetric_part(matrix)
                 factors = SignedFactors(data, self._fronts())
@@ -195,9 +191,7 @@ class DirectSolver:
             raise SingularMatrixError("an entry of the matrix is not finite")
         columns = _columns(matrix, self.symmetric)
         try:
-            if self._analysis is None and self.symmetric and pardiso.library() is not None:
-                self._analysis = pardiso.Analysis(columns)
-            elif self._analysis is None and rslab is not None:
+            if self._analysis is None and rslab is not None:
                 self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
             if self._analysis is not None:
                 factors = self._analysis.factor(columns)

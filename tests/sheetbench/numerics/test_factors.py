@@ -5,14 +5,13 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scipy.sparse import bsr_array, csc_array, csr_matrix
+from scipy.sparse import bsr_array, csr_matrix
 
 import lumped
-from lumped import supports
 from lumped.statics.energy_descent import _disturbed
 from lumped.statics.solver import solve_path
 from sheetbench import scenes
-from sheetbench.numerics import banded, direct, multifrontal, pardiso, reduced
+from sheetbench.numerics import banded, direct, multifrontal
 from sheetbench.numerics.direct import CHOLESKY, DirectSolver, SingularMatrixError
 from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.multifrontal import NoFactorsError
@@ -53,13 +52,6 @@ def by_band(matrix, cells):
     return partial(banded.solve_unrefined, factors, band.width, band.order), 0
 
 
-def by_pardiso(matrix, cells):
-    """The extra `mkl`; of two factors of one analysis, each in its own memory."""
-    analysis = pardiso.Analysis(csc_array(matrix))
-    factors, _ = analysis.factor(csc_array(matrix)), analysis.factor(csc_array(2.0 * matrix))
-    return factors.solve, factors.inertia[1]
-
-
 def by_library(matrix, cells, own=True):
     """rslab or SuperLU; the second time on the analysis of the first."""
     with pytest.MonkeyPatch.context() as patched:
@@ -74,17 +66,12 @@ def by_library(matrix, cells, own=True):
 KINDS = {
     "fronts": by_fronts,
     "band": by_band,
-    "pardiso": by_pardiso,
     "rslab": by_library,
     "superlu": partial(by_library, own=False),
 }
-WITHOUT_MKL = pytest.mark.skipif(pardiso.library() is None, reason="needs the extra sheetbench[mkl]")
-EACH = pytest.mark.parametrize(
-    "kind", [pytest.param(kind, marks=WITHOUT_MKL if kind == "pardiso" else ()) for kind in KINDS]
-)
 
 
-@EACH
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("shape", [(1, 1, 3), (2, 1, 1), (5, 4, 2), (1, 13, 5), (12, 12, 5), (7, 7, 31)])
 def test_factors_solve_and_tell_the_inertia(kind, shape):
     """Shifted to the middle of its spectrum a matrix is as indefinite as can be: fronts may refuse it."""
@@ -109,7 +96,7 @@ def test_factors_solve_and_tell_the_inertia(kind, shape):
     assert len(taken) > (n > 20 and kind != "band")
 
 
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "pardiso"])
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("entry", [1.0, np.nan, np.inf], ids=["singular", "not a number", "infinite"])
 def test_what_has_no_factors_is_told(kind, entry):
     spring = np.array([[1.0, -1.0], [-1.0, 1.0]]) / 3.0
@@ -184,41 +171,6 @@ def test_reduction_is_the_triple_product(name, edge):
     assert found.toarray() == pytest.approx(expected, rel=1e-13, abs=1e-13)
 
 
-@WITHOUT_MKL
-def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch):
-    scene = scenes.load("two-edges-clamped")
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
-    monkeypatch.setattr(reduced, "BANDED_LIMIT", 0.0)
-    monkeypatch.setattr(direct, "LARGE", 0)
-    _forget_systems()
-    sizes: list[int] = []
-    factor = pardiso.Analysis.factor
-
-    def counted(self, matrix):
-        sizes.append(matrix.shape[0])
-        return factor(self, matrix)
-
-    monkeypatch.setattr(pardiso.Analysis, "factor", counted)
-    points = scene.probe_points()
-    found = lumped.solve(scene, springs).displacement(points)
-    assert sizes
-    monkeypatch.setattr(pardiso, "library", lambda: None)
-    _forget_systems()
-    factored = len(sizes)
-    np.testing.assert_allclose(found, lumped.solve(scene, springs).displacement(points), rtol=1e-9)
-    assert len(sizes) == factored
-    _forget_systems()
-
-
-def _forget_systems():
-    """Of small lattices, which are kept with what factorises them."""
-    supports._kept.cache_clear()
-    reduced._reduced.forget()
-
-
-BY_FRONTS = pytest.mark.skipif(pardiso.library() is not None, reason="PARDISO factorises large lattices")
-
-
 @pytest.fixture(scope="module")
 def fine():
     """A lattice whose tangent has no narrow band and is not kept."""
@@ -226,7 +178,6 @@ def fine():
     return lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(41, 41)))
 
 
-@BY_FRONTS
 def test_factors_of_a_large_lattice_take_no_library(fine, monkeypatch):
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr(direct, "splu", None)
@@ -248,7 +199,6 @@ def test_factors_of_a_large_lattice_take_no_library(fine, monkeypatch):
     assert factors.negative == 0
 
 
-@BY_FRONTS
 def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_off_it(monkeypatch):
     """A compressed strip stays straight, and beside it the energy falls along the one direction reported."""
     scene = load("two-edges-clamped").replace(

@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from lumped.calibration import CLOSED, Calibration
+from lumped.calibration import MAKERS, Calibration
 from lumped.mid_surface import MidSurface
 from lumped.sections import sections_of
 from lumped.statics.problem import Problem
@@ -130,12 +130,12 @@ def _of_scene(name: str) -> bool:
 
 def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:
     """The scene with springs for its changed sheet, by the same method."""
-    if calibration.method not in CLOSED:
+    if calibration.method not in MAKERS:
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
     own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
     if (cells := sections_of(scene, calibration.grid, calibration.grading)) is not None:
         own["cells"] = cells
-    method = CLOSED[calibration.method]
-    return scene, method.make(sheet_at_rest(scene), scene.material, calibration.grid, **own)
+    make = MAKERS[calibration.method]
+    return scene, make(sheet_at_rest(scene), scene.material, calibration.grid, **own)

@@ -4,12 +4,10 @@ A scene knows no solver. It is read from TOML (`sheetbench.scenes.files`) or bui
 once, and frozen. Its keys are in `scenes.objects.fields`; what they mean, in the other files there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from pydantic import model_validator
 
@@ -26,14 +24,14 @@ from sheetbench.scenes.objects.sheet import EDGES, Sheet
 from sheetbench.scenes.objects.supports import held_axes, place
 
 
-class Scene(SceneFields):
+class Scene(SceneFields, defer_build=False):
     """A sheet with supports, loads, actuators and probes.
 
     Lists are tuples; in TOML they are [[support]], [[load]], [[actuator]].
     """
 
     @model_validator(mode="after")
-    def _with_probes(self) -> Scene:
+    def _with_probes(self) -> Self:
         if not self.probes:
             on_edges = [support for support in self.supports if place(support) is None]
             held = [support.edge for support in on_edges if 2 in held_axes(support)]
@@ -45,7 +43,7 @@ class Scene(SceneFields):
         return self
 
     @model_validator(mode="after")
-    def _consistent(self) -> Scene:
+    def _consistent(self) -> Self:
         if wrong := next((f"{key}{reason}" for key, reason in self._conflicts() if reason), None):
             raise ValueError(wrong)
         return self
@@ -94,7 +92,7 @@ class Scene(SceneFields):
                 return "temperature: beside patch.angle expansion is one number"
         return ""
 
-    def replace(self, **values: Any) -> Scene:
+    def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some keys, those of its sheet and material too.
 
         Probes that nobody chose go with the sheet's outline. Raises SceneError for what makes no sense.

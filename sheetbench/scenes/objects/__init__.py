@@ -1,1 +1,1 @@
-"""The objects of a scene, one file a table: fields, bounds, and what follows from one object alone."""
+"""The objects of a scene, table by table. Their annotations are no texts, which pydantic would compile."""

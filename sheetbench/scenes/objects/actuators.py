@@ -16,18 +16,13 @@ anywhere through the thickness. They move as one chain whose axis is the mean of
 slide along its axis, since two inextensible rods on opposite faces could not bend together.
 """
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from sheetbench.scenes.objects.quantities import (
-    A_LIST,
-    A_NUMBER,
-    A_TABLE,
-    FORM,
+    Forms,
     Frozen,
     Length,
     NonNegative,
@@ -50,10 +45,7 @@ class CurvatureTable(OverTime):
     """Intrinsic curvature of all joints at each time, linear between them; statics take the last one."""
 
 
-Curvature = Annotated[
-    Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST] | Annotated[CurvatureTable, A_TABLE],
-    FORM,
-]
+Curvature = Annotated[Number | tuple[Number, ...] | CurvatureTable, Forms(), Unit("1/m")]
 
 
 class Chain(Frozen):
@@ -73,7 +65,7 @@ class Chain(Frozen):
     """Of its round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
     face: Literal["mid", "top", "bottom"] = "mid"
     """Where its axis lies: in the mid-surface, or thickness/2 + radius above (top) or below (bottom) it."""
-    curvature: Annotated[Curvature, Unit("1/m")] = 0.0
+    curvature: Curvature = 0.0
     """Intrinsic curvature: a number, one a joint, or a table over time; > 0 lifts the ends towards +z (plane
     "normal", "spatial") or bends them outwards ("inplane")."""
     damping_time: Annotated[NonNegative, Unit("s")] = 0.0
@@ -85,7 +77,7 @@ class Chain(Frozen):
     """Held nowhere ("free"), or at its middle or at the end where the edge starts or ends."""
 
     @model_validator(mode="after")
-    def _one_curvature_a_joint(self) -> Chain:
+    def _one_curvature_a_joint(self) -> Self:
         if isinstance(self.curvature, tuple) and len(self.curvature) != self.joints:
             raise ValueError(
                 f"curvature has {len(self.curvature)} values, but {self.segments} segments with base = "
@@ -150,7 +142,7 @@ class EdgeMotion(OverTime):
         return str(self.edge)
 
     @model_validator(mode="after")
-    def _moves_something(self) -> EdgeMotion:
+    def _moves_something(self) -> Self:
         if not self.displacement and not self.rotation:
             raise ValueError("needs displacement [m] or rotation [rad]")
         return self

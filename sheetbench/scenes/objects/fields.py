@@ -1,7 +1,5 @@
 """The fields of a scene: tables and lists of them, their names in a file, and what they say of the sheet."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -38,7 +36,7 @@ SHAPED = (
 )  # fmt: skip
 
 
-class SceneFields(Frozen):
+class SceneFields(Frozen, defer_build=True):
     """The fields of a scene, not yet checked against each other, and what follows from them."""
 
     model_config = ConfigDict(alias_generator=lambda key: LISTS.get(key, key))
@@ -155,7 +153,7 @@ class SceneFields(Frozen):
         return bool(self.cutouts) or self.sheet.drawn
 
     @cached_property
-    def region(self) -> Polygon:
+    def region(self) -> "Polygon":
         """The sheet's plan [m], with its holes, as shapely has it."""
         return cutouts.region(self.sheet, self.cutouts)
 

@@ -5,10 +5,8 @@ Classical lamination, symmetric about the mid-surface: stretching and bending ar
 they are uncoupled, as it is of isotropic layers of one Poisson's ratio.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -38,7 +36,7 @@ class Layer(Fibres):
     """The material's unless given."""
 
     @model_validator(mode="after")
-    def _of_one_kind(self) -> Layer:
+    def _of_one_kind(self) -> Self:
         own = self.own
         if (self.young is None) != (self.poisson is None):
             raise ValueError("young and poisson: an isotropic layer has both")

@@ -2,8 +2,6 @@
 before and the last one after. Without one it acts in full from t = 0 on. Statics take the last factor.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -61,7 +59,7 @@ class EdgeLoad(_Load):
     """The part of the edge that is loaded, which lies in a shape; the whole edge unless given."""
 
     @model_validator(mode="after")
-    def _loads_something(self) -> EdgeLoad:
+    def _loads_something(self) -> Self:
         if not self.model_fields_set & {"force_per_length", "moment_per_length"}:
             raise ValueError("needs force_per_length [N/m] or moment_per_length [N·m/m]")
         return self

@@ -11,9 +11,7 @@ the mass matrix constant. Of Izz nothing is taken: a point of a sheet has no cou
 the kinetic energy of a rigid body; e.g. Wittenburg, Dynamics of Multibody Systems, 2008, 3.3.
 """
 
-from __future__ import annotations
-
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -38,7 +36,7 @@ class Mass(Frozen):
     normal there; that about z, the normal, takes no part. Without them it is a point."""
 
     @model_validator(mode="after")
-    def _consistent(self) -> Mass:
+    def _consistent(self) -> Self:
         if (self.at is None) == (self.where is None):
             raise ValueError("give one of at, a point [x, y], and where, a part of the sheet")
         if self.inertia is not None and self.at is None:

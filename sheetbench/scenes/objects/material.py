@@ -20,8 +20,6 @@ Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bone
 Continuum Mechanics (2008), 6.4.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -37,12 +35,12 @@ from sheetbench.scenes.objects.orthotropy import Fibres, Ply
 from sheetbench.scenes.objects.quantities import (
     Angle,
     Density,
-    Finite,
     Modulus,
     NonNegative,
     Number,
     PoissonRatio,
     Positive,
+    Real,
     Unit,
 )
 from sheetbench.scenes.objects.relaxation import Branches, Relaxation, constant_loss
@@ -146,7 +144,7 @@ class Material(Fibres):
     angle: Angle | None = Field(default=None, kw_only=True)
     """Of axis 1 from x towards y: 30 degrees are 0.5236 or "30 deg"; 0 unless given."""
 
-    loss_factor: Annotated[Finite, Field(gt=0, le=LARGEST_LOSS)] | None = Field(default=None, kw_only=True)
+    loss_factor: Annotated[float, Real(gt=0, le=LARGEST_LOSS)] | None = Field(default=None, kw_only=True)
     """η = 2ζ = tan δ = 1/Q, in place of damping_time: with `frequency` one damper a spring, right at that
     frequency alone; with `band` Maxwell branches that keep it over the band."""
     frequency: Annotated[Positive, Unit("Hz")] | None = Field(default=None, kw_only=True)

@@ -9,9 +9,7 @@ gives what the layers' own stresses, with C, α of each, would bring about if no
 Source: Timoshenko, J. Opt. Soc. Am. 11 (1925) 233, whose formula follows for two isotropic layers.
 """
 
-from __future__ import annotations
-
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -33,7 +31,7 @@ class Natural(Loading):
     """In place of strain: [Nx, Ny] that stretch the sheet as long as it is held where it is drawn."""
 
     @model_validator(mode="after")
-    def _possible(self) -> Natural:
+    def _possible(self) -> Self:
         if self.pretension is not None and any(self.strain):
             raise ValueError("strain and pretension: give one of them")
         xx, yy, xy = (self.last_factor * component for component in self.strain)

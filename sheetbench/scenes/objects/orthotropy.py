@@ -10,8 +10,6 @@ space the 3 × 3 matrix of 1/E and ν/E must be positive definite.
 Source: R. M. Jones, Mechanics of Composite Materials (1999), 2.3 and 2.4.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 

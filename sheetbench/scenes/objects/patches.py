@@ -1,6 +1,6 @@
 """Patches: parts of a sheet with a thickness, a material or a natural state of their own."""
 
-from __future__ import annotations
+from typing import Self
 
 from pydantic import Field, model_validator
 
@@ -32,7 +32,7 @@ class Patch(Frozen):
     """Natural strain and curvature in place of the sheet's, there."""
 
     @model_validator(mode="after")
-    def _differs(self) -> Patch:
+    def _differs(self) -> Self:
         if not self.own and self.natural is None:
             raise ValueError(f"needs one of {', '.join((*CONSTANTS, 'natural'))}")
         if self.natural is not None and self.natural.pretension is not None:

@@ -11,13 +11,11 @@ formats do not end on damaged files, or open other files: formats are those of a
 program of its own (`mesh_reader`) with limits of time and memory.
 """
 
-from __future__ import annotations
-
 import sys
 from functools import cached_property
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -59,7 +57,7 @@ class PlanMesh(Frozen):
     """Numbers of each element's corners in turn, from 0 on; neighbours share corners."""
 
     @model_validator(mode="after")
-    def _covers(self) -> PlanMesh:
+    def _covers(self) -> Self:
         import shapely
 
         points, quads = self.arrays
@@ -96,7 +94,7 @@ class PlanMesh(Frozen):
         return max(1, round(np.ptp(self.arrays[0], axis=0).min() / size))
 
     @cached_property
-    def area(self) -> Polygon:
+    def area(self) -> "Polygon":
         """What it covers, as shapely has it; of a mesh in pieces several polygons."""
         import shapely
 

@@ -7,12 +7,10 @@ shape = { polygon = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]] }
 Areas are shapely's; a circle is a polygon of CIRCLE_SIDES sides there, of the circle's area.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from itertools import pairwise
 from math import cos, pi, sin, sqrt
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Self
 
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
@@ -36,7 +34,7 @@ class Rectangle(Frozen):
     """From and to, along y."""
 
     @model_validator(mode="after")
-    def _rises(self) -> Rectangle:
+    def _rises(self) -> Self:
         for name, (low, high) in (("x", self.x), ("y", self.y)):
             if high <= low:
                 raise ValueError(f"{name} = [{low:g}, {high:g}]: the second must be greater than the first")
@@ -65,7 +63,7 @@ class Shape(Frozen):
     """Corners [x, y] in turn, either way round; its sides do not cross."""
 
     @model_validator(mode="after")
-    def _one(self) -> Shape:
+    def _one(self) -> Self:
         given = [name for name in type(self).model_fields if getattr(self, name) is not None]
         if len(given) != 1:
             raise ValueError(f"{' and '.join(given) or 'empty'}: give one of rectangle, circle, polygon")
@@ -74,7 +72,7 @@ class Shape(Frozen):
         return self
 
     @cached_property
-    def area(self) -> Area:
+    def area(self) -> "Area":
         """Return its area as a polygon of shapely."""
         import shapely  # a fifth of a second that plain sheets need not wait for
 
@@ -125,7 +123,7 @@ def crossing(corners: tuple[PlanPoint, ...]) -> str:
     return f"its sides cross or it has no area ({shapely.is_valid_reason(polygon)} m)"
 
 
-def straight_sides(*areas: Area) -> tuple[set[float], set[float]]:
+def straight_sides(*areas: "Area") -> tuple[set[float], set[float]]:
     """Return x and y [m] of the sides along the axes of areas and of their holes."""
     sides: tuple[set[float], set[float]] = (set(), set())
     if not areas:

@@ -4,9 +4,7 @@ The flat sheet's mid-surface is z = 0 with x in [0, length_x] and y in [0, lengt
 An edge is named by the axis it is normal to and the end of that axis: x0, x1, y0, y1.
 """
 
-from __future__ import annotations
-
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple, Self
 
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
@@ -68,7 +66,7 @@ class Sheet(Frozen):
     solid solve on, its boundary is the outline, with its holes."""
 
     @model_validator(mode="after")
-    def _thinner_than_wide(self) -> Sheet:
+    def _thinner_than_wide(self) -> Self:
         thickness, shorter = f"thickness = {self.thickness:g} m", min(self.lengths)
         if self.thickness > shorter:
             more = f"is more than the shorter side, {shorter:g} m; lengths are in metres"

@@ -14,32 +14,26 @@ from one of two opposite edges to the other they are x0's and y0's, and those th
 y1's.
 """
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, Strict, model_validator
 
 from sheetbench.scenes.objects.grading import Graded, through, towards
 from sheetbench.scenes.objects.quantities import (
-    A_LIST,
-    A_NUMBER,
-    A_TABLE,
-    FORM,
     Finite,
+    Forms,
     Frozen,
     NonNegative,
     Number,
     Positive,
+    Real,
     Unit,
 )
 from sheetbench.scenes.objects.sheet import EdgeName
 
-ByCell = tuple[tuple[Number, ...], ...]
-PositiveByCell = tuple[tuple[NonNegative, ...], ...]
-AnySign = Annotated[Annotated[Number, A_NUMBER] | Annotated[ByCell, A_LIST], FORM]
-Links = Annotated[Annotated[NonNegative, A_NUMBER] | Annotated[PositiveByCell, A_LIST], FORM]
-AlongEdge = Annotated[Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST], FORM]
+AnySign = Annotated[Number | tuple[tuple[Number, ...], ...], Forms()]
+Links = Annotated[NonNegative | tuple[tuple[NonNegative, ...], ...], Forms()]
+AlongEdge = Annotated[Number | tuple[Number, ...], Forms()]
 
 
 class PerDirection(Frozen):
@@ -62,18 +56,10 @@ class Either(Frozen):
     """Along the edges y0 and y1."""
 
 
-Stiffness = Annotated[
-    Annotated[NonNegative, A_NUMBER] | Annotated[PositiveByCell, A_LIST] | Annotated[PerDirection, A_TABLE],
-    FORM,
-    Unit("N/m"),
-]
-EdgeStiffness = Annotated[Annotated[Number, A_NUMBER] | Annotated[Either, A_TABLE], FORM, Unit("N/m")]
-EdgeCoupling = Annotated[Annotated[Number, A_NUMBER] | Annotated[Either, A_TABLE], FORM]
-Damping = Annotated[
-    Annotated[NonNegative, A_NUMBER] | Annotated[PerDirection, A_TABLE],
-    FORM,
-    Unit("N·s/m"),
-]
+Stiffness = Annotated[NonNegative | tuple[tuple[NonNegative, ...], ...] | PerDirection, Forms(), Unit("N/m")]
+EdgeStiffness = Annotated[Number | Either, Forms(), Unit("N/m")]
+EdgeCoupling = Annotated[Number | Either, Forms()]
+Damping = Annotated[NonNegative | PerDirection, Forms(), Unit("N·s/m")]
 
 Masses = Annotated[int, Strict(), Field(ge=2)]
 Distribution = Literal["tributary", "gregory"]
@@ -173,7 +159,7 @@ class SpringSet(Frozen):
         return bool(self.neo_hookean_shear or self.mooney_rivlin)
 
     @model_validator(mode="after")
-    def _one_law_a_cell(self) -> SpringSet:
+    def _one_law_a_cell(self) -> Self:
         if self.rubber and (self.area or self.stretch or self.shear):
             raise ValueError("neo_hookean_shear: the same cells cannot have area, stretch and shear springs")
         return self
@@ -185,7 +171,7 @@ class SpringTable(SpringSet):
     grid: tuple[Masses, Masses, Masses] | None = None
     """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
     grid is requested; another grid is refused."""
-    grading: Annotated[Finite, Field(ge=0, le=1)] = 0.0
+    grading: Annotated[float, Real(ge=0, le=1)] = 0.0
     """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
     graded_edges: tuple[EdgeName, ...] | None = None
     """The edges towards which they are smaller, where that is not all four."""
@@ -200,7 +186,7 @@ class SpringTable(SpringSet):
         return data.model_dump() if type(data) is SpringSet else data
 
     @model_validator(mode="after")
-    def _graded_somewhere(self) -> SpringTable:
+    def _graded_somewhere(self) -> Self:
         towards(self.grading, self.graded_edges)  # raises for what is no grading
         return self
 

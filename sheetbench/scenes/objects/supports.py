@@ -10,8 +10,6 @@ A rod that ends at a plane of symmetry has its middle there. A plane of symmetry
 it and the director's tilt across it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from math import pi
 from typing import Annotated, Any, ClassVar, Literal, Self

@@ -6,8 +6,6 @@ the samples rise the curve rises, where two are equal it rests. Source: Fritsch 
 Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Annotated, Literal, Self
@@ -81,7 +79,7 @@ class OverTime(Frozen):
     """Increasing times; the first sample holds before and the last one after."""
 
     @model_validator(mode="after")
-    def _one_sample_each(self) -> OverTime:
+    def _one_sample_each(self) -> Self:
         for name, field in type(self).model_fields.items():
             samples = getattr(self, name)
             if not isinstance(samples, tuple) or not (samples or field.is_required()):

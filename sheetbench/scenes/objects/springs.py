@@ -14,9 +14,10 @@ from one of two opposite edges to the other they are x0's and y0's, and those th
 y1's.
 """
 
-from typing import Annotated, Literal, Self
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, Strict
 
 from sheetbench.scenes.objects.grading import Graded, through, towards
 from sheetbench.scenes.objects.quantities import (
@@ -167,12 +168,11 @@ class SpringSet(Frozen):
     masses: Distribution = Field(default="tributary", kw_only=True)
     """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
-        if (self.neo_hookean_shear or self.mooney_rivlin) and (self.area or self.stretch or self.shear):
-            raise ValueError("neo_hookean_shear: the same cells cannot have area, stretch and shear springs")
+    def _faults(self) -> Iterator[object]:
+        both = "neo_hookean_shear: the same cells cannot have area, stretch and shear springs"
+        membranes = self.neo_hookean_shear or self.mooney_rivlin
+        yield membranes and (self.area or self.stretch or self.shear) and both
         towards(self.grading, self.graded_edges)  # raises for what is no grading
-        return self
 
     @property
     def graded(self) -> Graded:

@@ -52,7 +52,7 @@ def field_mesh(
     part = SMALL if linear else 1.0
     assembly = assembly.at(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
-    (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
+    layer_cells = lattice.layer_cells[:, :, 0]
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
     for family in assembly.springs:

@@ -26,7 +26,7 @@ from comparisons.models.grids import parse_grid
 from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
 from fem_reference.surface.mesh import divisions
-from fem_reference.verification import settling_strip
+from fem_reference.verification import strips
 from sheetbench.answers.solution import Status
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, Pressure, Scene, Sheet, load
@@ -121,7 +121,7 @@ def test_auto_grades_the_scenes_that_grading_mends():
 @pytest.mark.parametrize(("edge", "graded"), [("x0", True), ("y0", False)])
 def test_a_sheet_that_juts_out_far_is_graded_at_its_clamp(edge, graded):
     """The layer of 72 mm beside the length of 180 mm that juts out, not beside the width."""
-    strip = settling_strip.scene().replace(supports=[Clamped(edge=edge)])
+    strip = strips.settling_scene().replace(supports=[Clamped(edge=edge)])
     assert (grading_of(strip, (33, 17, 2), AUTO)[0] == towards(0.5, ["x0"])) == graded
 
 

@@ -64,7 +64,7 @@ def add_at_places(
     The mid-surface's places of u are written to."""
     if packing.mid:
         average(packing, u)
-    return _pass(u, v, NUMBA_TRUE, elastic, damped, packing, force, tile)
+    return _pass(u, v, NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, force, tile)
 
 
 @njit(**OPTIONS)
@@ -73,7 +73,7 @@ def add_damping_again(
 ) -> float:
     """Add the damping force at velocity v once more, at the displacement u of the last pass, whose shapes
     are taken if the packing keeps them; the power taken [W]. The mid-surface's places of v are written to."""
-    return _pass(u, v, not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, packing, force, tile)[1]
+    return _pass(u, v, not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, force, tile)[1]
 
 
 @njit(**OPTIONS)
@@ -84,7 +84,8 @@ def power_again(v: np.ndarray, packing: Packing, scratch: Scratch) -> float:
         past = np.uint64(q) * packing.size
         for p in range(len(packing.order)):
             scratch.v[past + np.uint64(p)] = v[packing.order[p], q]
-    return add_damping_again(scratch.u, scratch.v, packing, scratch.force, scratch.tile)
+    fresh, (at, speed, force, tile) = not packing.keeping, scratch
+    return _pass(at, speed, fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_FALSE, packing, force, tile)[1]
 
 
 @njit(**OPTIONS)
@@ -94,11 +95,13 @@ def _pass(
     fresh: bool,
     elastic: bool,
     damped: bool,
+    pushed: bool,
     packing: Packing,
     force: np.ndarray,
     tile: np.ndarray,
 ) -> tuple[float, float]:
-    """Energy and power of a pass that finds shapes (fresh) or takes those that were kept."""
+    """Energy and power of a pass that finds shapes (fresh) or takes those that were kept; forces are added if
+    they are pushed."""
     if packing.mid:
         if damped:
             average(packing, v)
@@ -115,8 +118,9 @@ def _pass(
                 tile[: blocks * LANES] = 0.0
             if damped:
                 power += tiles.resist_links(v, rest, t, a, b, size, blocks, tile, at)
-            tiles.pull_ends(-1.0, a, size, blocks, tile, at, force)
-            tiles.pull_ends(1.0, b, size, blocks, tile, at, force)
+            if pushed:
+                tiles.pull_ends(-1.0, a, size, blocks, tile, at, force)
+                tiles.pull_ends(1.0, b, size, blocks, tile, at, force)
             continue
         c, d = run[5], run[6]
         if fresh:
@@ -135,11 +139,12 @@ def _pass(
         if damped:
             tiles.gather_sides(v, a, b, c, d, size, blocks, tile)
             power += tiles.resist_cells(rest, t, blocks, tile, at)
-        tiles.push_corner(-0.5, -0.5, a, size, blocks, tile, force)
-        tiles.push_corner(0.5, -0.5, b, size, blocks, tile, force)
-        tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
-        tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
-    if packing.mid:
+        if pushed:
+            tiles.push_corner(-0.5, -0.5, a, size, blocks, tile, force)
+            tiles.push_corner(0.5, -0.5, b, size, blocks, tile, force)
+            tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
+            tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
+    if packing.mid and pushed:
         share_out(packing, force)
     return energy, power
 

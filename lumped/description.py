@@ -118,9 +118,12 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
     nx, ny, layers = lattice.grid
     j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
-    moments, pressures = problem.loads.at_time(None)
+    columns, moments, pressures = problem.loads.at_time(None)
     pressed = pressures != 0.0
-    couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
+    couples = tuple(
+        Couple(own[-1], own[0], tuple(before), tuple(after), moment)
+        for (own, before, after), moment in zip(columns.tolist(), moments.tolist(), strict=True)
+    )
     states, why = check_states(scene, calibration, problem)
     none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
     points = zip(none, *(one.table() for one in problem.contacts), strict=True)
@@ -242,20 +245,6 @@ def _holds(problem: Problem) -> tuple[Hold, ...]:
                     mean = float(place[list(held_masses), axis].mean())
                     found.setdefault((held_masses, axis), Hold(edge, held_masses, axis, mean))
     return tuple(found.values())
-
-
-def _couples(edge: np.ndarray, moment: np.ndarray) -> list[Couple]:
-    last = len(edge) - 1
-    return [
-        Couple(
-            int(column[-1]),
-            int(column[0]),
-            tuple(edge[max(at - 1, 0)].tolist()),
-            tuple(edge[min(at + 1, last)].tolist()),
-            float(moment[at]),
-        )
-        for at, column in enumerate(edge)
-    ]
 
 
 def _constant(loads: Loads) -> np.ndarray:

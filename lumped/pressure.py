@@ -20,9 +20,9 @@ WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M by how many corners farther
 
 @njit(cache=True, error_model="numpy")
 def _means(x: np.ndarray, columns: np.ndarray, out: np.ndarray) -> None:
-    """The means (4, 3) of a cell's columns of masses (4, p)."""
+    """The means (4, 3) of columns of masses (4 or fewer, p)."""
     out[:] = 0.0
-    for a in range(4):
+    for a in range(len(columns)):
         for mass in columns[a]:
             for q in range(3):
                 out[a, q] += x[mass, q] / columns.shape[1]
@@ -48,6 +48,23 @@ def add_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np
                     share += WEIGHTS[(b - a) % 4] * turned[b, q]
                 for mass in columns[a]:
                     force[mass, q] += pressure[c] * share / columns.shape[1]
+
+
+@njit(cache=True, error_model="numpy")
+def add_couples(x: np.ndarray, columns: np.ndarray, moments: np.ndarray, force: np.ndarray) -> None:
+    """Add couples (e,) [N·m] at positions x (n, 3) [m] to `force` (n, 3) [N], each on the outer layers of its
+    column of masses about the chord of its neighbours': columns (e, 3, p), its own and those."""
+    means = np.empty((4, 3))
+    for e in range(len(columns)):
+        _means(x, columns[e], means)
+        top, bottom = columns[e, 0, -1], columns[e, 0, 0]
+        along, across = means[2] - means[1], x[top] - x[bottom]
+        scale = moments[e] / (np.sqrt(np.sum(along**2)) * np.sum(across**2))
+        for q in range(3):
+            r, s = (q + 1) % 3, (q + 2) % 3
+            couple = scale * (along[r] * across[s] - along[s] * across[r])
+            force[top, q] += couple
+            force[bottom, q] -= couple
 
 
 @njit(cache=True, error_model="numpy")

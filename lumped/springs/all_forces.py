@@ -1,8 +1,6 @@
-"""The forces of all springs and dampers of a lattice in one compiled pass, arrays in and arrays out.
+"""The forces of all springs and dampers of a lattice in one compiled pass, arrays (n, 3) in and out.
 
-`add_forces` takes displacements and velocities (n, 3) as everyone has them; `add_at_places` is for whoever
-keeps them in the order of a `Packing`, flat. The forces are those of the families
-(`lumped.springs.families`), to rounding.
+They are those of the families (`lumped.springs.families`), to rounding.
 """
 
 from __future__ import annotations
@@ -17,7 +15,6 @@ from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R1
 from sheetbench.numerics.typed import njit
 
 CELLS, FACES = np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
-UINT_ONE = np.uint64(1)
 
 
 @njit(**OPTIONS)
@@ -33,79 +30,37 @@ def add_forces(
     """Add the internal force at displacement u (n, 3) [m] and the damping force at velocity v (n, 3) [m/s],
     or one of them, to `force` (n, 3) [N]; the energy [J] and the power taken [W]. Rows after those of the
     masses are left alone."""
-    order, size = packing.order, packing.size
-    for q in range(3):
-        past = np.uint64(q) * size
-        for p in range(len(order)):
-            scratch.u[past + np.uint64(p)] = u[order[p], q]
-        if damped:
-            for p in range(len(order)):
-                scratch.v[past + np.uint64(p)] = v[order[p], q]
-    scratch.force[:] = 0.0
-    found = add_at_places(scratch.u, scratch.v, elastic, damped, packing, scratch.force, scratch.tile)
-    for q in range(3):
-        past = np.uint64(q) * size
-        for p in range(len(order)):
-            force[order[p], q] += scratch.force[past + np.uint64(p)]
-    return found
+    _lay_out(u, packing, scratch.u)
+    if damped:
+        _lay_out(v, packing, scratch.v)
+    return _pass(NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, scratch, force)
 
 
 @njit(**OPTIONS)
-def add_at_places(
-    u: np.ndarray,
-    v: np.ndarray,
-    elastic: bool,
-    damped: bool,
-    packing: Packing,
-    force: np.ndarray,
-    tile: np.ndarray,
-) -> tuple[float, float]:
-    """Add internal and damping forces as `add_forces` does, u, v and force flat at the places of a packing.
-    The mid-surface's places of u are written to."""
-    if packing.mid:
-        average(packing, u)
-    return _pass(u, v, NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, force, tile)
-
-
-@njit(**OPTIONS)
-def add_damping_again(
-    u: np.ndarray, v: np.ndarray, packing: Packing, force: np.ndarray, tile: np.ndarray
+def resist_again(
+    v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch, force: np.ndarray
 ) -> float:
-    """Add the damping force at velocity v once more, at the displacement u of the last pass, whose shapes
-    are taken if the packing keeps them; the power taken [W]. The mid-surface's places of v are written to."""
-    return _pass(u, v, not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, force, tile)[1]
-
-
-@njit(**OPTIONS)
-def power_again(v: np.ndarray, packing: Packing, scratch: Scratch) -> float:
     """Return the power [W] that dampers take at velocity v (n, 3) [m/s], at the displacement of the last
-    `add_forces`."""
-    for q in range(3):
-        past = np.uint64(q) * packing.size
-        for p in range(len(packing.order)):
-            scratch.v[past + np.uint64(p)] = v[packing.order[p], q]
-    fresh, (at, speed, force, tile) = not packing.keeping, scratch
-    return _pass(at, speed, fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_FALSE, packing, force, tile)[1]
+    `add_forces`, whose shapes are taken if the packing keeps them; add their force to `force` (n, 3) [N] if
+    `pushed`."""
+    _lay_out(v, packing, scratch.v)
+    return _pass(not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, pushed, packing, scratch, force)[1]
 
 
 @njit(**OPTIONS)
 def _pass(
-    u: np.ndarray,
-    v: np.ndarray,
     fresh: bool,
     elastic: bool,
     damped: bool,
     pushed: bool,
     packing: Packing,
-    force: np.ndarray,
-    tile: np.ndarray,
+    scratch: Scratch,
+    out: np.ndarray,
 ) -> tuple[float, float]:
-    """Energy and power of a pass that finds shapes (fresh) or takes those that were kept; forces are added if
-    they are pushed."""
-    if packing.mid:
-        if damped:
-            average(packing, v)
-        clear(packing, force)
+    """Energy and power of a pass that finds shapes (fresh) or takes those that were kept; forces are added to
+    `out` if they are pushed."""
+    u, v, force, tile = scratch
+    force[:] = 0.0
     size, rest, share = packing.size, packing.rest, 1.0 if elastic else 0.0
     energy = power = 0.0
     for r in range(len(packing.runs)):
@@ -144,35 +99,30 @@ def _pass(
             tiles.push_corner(0.5, -0.5, b, size, blocks, tile, force)
             tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
             tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
-    if packing.mid and pushed:
-        share_out(packing, force)
+    if pushed:
+        if packing.mid:
+            share_out(packing, force)
+        for q in range(3):
+            past = np.uint64(q) * size
+            for p in range(len(packing.order)):
+                out[packing.order[p], q] += force[past + np.uint64(p)]
     return energy, power
 
 
 @njit(**OPTIONS)
-def average(packing: Packing, x: np.ndarray) -> None:
-    """Put the layers' mean in the mid-surface's places."""
+def _lay_out(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
+    """Put a vector (n, 3) at the places of a packing, and the layers' mean in the mid-surface's."""
     plane, mid = packing.plane, packing.layers * packing.plane
-    part = 1.0 / packing.layers
     for q in range(3):
         first = np.uint64(q) * packing.size
-        for i in range(plane):
-            x[first + mid + i] = x[first + i]
-        for k in range(UINT_ONE, packing.layers):
+        for p in range(len(packing.order)):
+            out[first + np.uint64(p)] = x[packing.order[p], q]
+        if packing.mid:
             for i in range(plane):
-                x[first + mid + i] += x[first + k * plane + i]
-        for i in range(plane):
-            x[first + mid + i] *= part
-
-
-@njit(**OPTIONS)
-def clear(packing: Packing, force: np.ndarray) -> None:
-    """No force on the mid-surface."""
-    plane, mid = packing.plane, packing.layers * packing.plane
-    for q in range(3):
-        first = np.uint64(q) * packing.size + mid
-        for i in range(plane):
-            force[first + i] = 0.0
+                total = 0.0
+                for k in range(packing.layers):
+                    total += out[first + k * plane + i]
+                out[first + mid + i] = total / packing.layers
 
 
 @njit(**OPTIONS)

@@ -136,7 +136,8 @@ class Loads:
     def at_time(self, time: float | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return columns (e, 3, p) and moments (e,) [N·m] of edges, and pressure (cells,) [Pa], at a time."""
         scaled = [(part.factor(time), part) for part in self._parts.values()]
-        columns, moments = (np.concatenate(of) for of in zip(*((p.columns, by * p.moments) for by, p in scaled)))
+        columns = np.concatenate([part.columns for _, part in scaled])
+        moments = np.concatenate([by * part.moments for by, part in scaled])
         return columns, moments, np.sum([by * part.pressure for by, part in scaled], axis=0)
 
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:

@@ -1,6 +1,7 @@
-"""The forces of all springs and dampers of a lattice in one compiled pass, arrays (n, 3) in and out.
+"""The forces of all springs and dampers of a lattice in one compiled pass: those of the families
+(`lumped.springs.families`), to rounding.
 
-They are those of the families (`lumped.springs.families`), to rounding.
+`add_forces` takes arrays (n, 3); `at_places` is for whoever keeps them at the places of a `Packing`, flat.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
 from sheetbench.numerics.typed import njit
 
-CELLS, FACES = np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
+CELLS, FACES, ONE, THREE = (np.uint64(number) for number in (kinds.CELLS, kinds.FACES, 1, 3))
 
 
 @njit(**OPTIONS)
@@ -30,37 +31,39 @@ def add_forces(
     """Add the internal force at displacement u (n, 3) [m] and the damping force at velocity v (n, 3) [m/s],
     or one of them, to `force` (n, 3) [N]; the energy [J] and the power taken [W]. Rows after those of the
     masses are left alone."""
-    _lay_out(u, packing, scratch.u)
+    lay_out(u, packing, scratch.u)
     if damped:
-        _lay_out(v, packing, scratch.v)
-    return _pass(NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, scratch, force)
+        lay_out(v, packing, scratch.v)
+    found = at_places(NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, scratch)
+    add_from_places(scratch.force, packing, force)
+    return found
 
 
 @njit(**OPTIONS)
-def resist_again(
-    v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch, force: np.ndarray
-) -> float:
+def resist_again(v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch, force: np.ndarray) -> float:
     """Return the power [W] that dampers take at velocity v (n, 3) [m/s], at the displacement of the last
     `add_forces`, whose shapes are taken if the packing keeps them; add their force to `force` (n, 3) [N] if
     `pushed`."""
-    _lay_out(v, packing, scratch.v)
-    return _pass(not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, pushed, packing, scratch, force)[1]
+    lay_out(v, packing, scratch.v)
+    power = at_places(not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, pushed, packing, scratch)[1]
+    if pushed:
+        add_from_places(scratch.force, packing, force)
+    return power
 
 
 @njit(**OPTIONS)
-def _pass(
-    fresh: bool,
-    elastic: bool,
-    damped: bool,
-    pushed: bool,
-    packing: Packing,
-    scratch: Scratch,
-    out: np.ndarray,
+def at_places(
+    fresh: bool, elastic: bool, damped: bool, pushed: bool, packing: Packing, at: Scratch
 ) -> tuple[float, float]:
-    """Energy and power of a pass that finds shapes (fresh) or takes those that were kept; forces are added to
-    `out` if they are pushed."""
-    u, v, force, tile = scratch
+    """Return energy [J] and power [W] of the displacement and velocity at the places of a packing by a pass
+    that finds shapes (fresh) or takes those that were kept; put the forces there if they are pushed. The
+    mid-surface's places are written to."""
+    u, v, force, tile = at
     force[:] = 0.0
+    if packing.mid:
+        average(packing, u)
+        if damped:
+            average(packing, v)
     size, rest, share = packing.size, packing.rest, 1.0 if elastic else 0.0
     energy = power = 0.0
     for r in range(len(packing.runs)):
@@ -99,39 +102,51 @@ def _pass(
             tiles.push_corner(0.5, -0.5, b, size, blocks, tile, force)
             tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
             tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
-    if pushed:
-        if packing.mid:
-            share_out(packing, force)
-        for q in range(3):
-            past = np.uint64(q) * size
-            for p in range(len(packing.order)):
-                out[packing.order[p], q] += force[past + np.uint64(p)]
+    if packing.mid and pushed:
+        share_out(packing, force)
     return energy, power
 
 
 @njit(**OPTIONS)
-def _lay_out(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
-    """Put a vector (n, 3) at the places of a packing, and the layers' mean in the mid-surface's."""
-    plane, mid = packing.plane, packing.layers * packing.plane
-    for q in range(3):
-        first = np.uint64(q) * packing.size
-        for p in range(len(packing.order)):
-            out[first + np.uint64(p)] = x[packing.order[p], q]
-        if packing.mid:
+def lay_out(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
+    """Put a vector (n, 3) at the places of a packing."""
+    layers, plane, flat = packing.layers, packing.plane, x.reshape(-1)
+    for q in range(THREE):
+        for k in range(layers):
             for i in range(plane):
-                total = 0.0
-                for k in range(packing.layers):
-                    total += out[first + k * plane + i]
-                out[first + mid + i] = total / packing.layers
+                out[q * packing.size + k * plane + i] = flat[THREE * (i * layers + k) + q]
+
+
+@njit(**OPTIONS)
+def add_from_places(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
+    """Add a vector at the places of a packing to one (n, 3)."""
+    layers, plane, flat = packing.layers, packing.plane, out.reshape(-1)
+    for q in range(THREE):
+        for k in range(layers):
+            for i in range(plane):
+                flat[THREE * (i * layers + k) + q] += x[q * packing.size + k * plane + i]
+
+
+@njit(**OPTIONS)
+def average(packing: Packing, x: np.ndarray) -> None:
+    """Put the layers' mean in the mid-surface's places."""
+    plane, mid = packing.plane, packing.layers * packing.plane
+    for q in range(THREE):
+        first = q * packing.size
+        for i in range(plane):
+            x[first + mid + i] = x[first + i] / packing.layers
+        for k in range(ONE, packing.layers):
+            for i in range(plane):
+                x[first + mid + i] += x[first + k * plane + i] / packing.layers
 
 
 @njit(**OPTIONS)
 def share_out(packing: Packing, force: np.ndarray) -> None:
     """Give the force on the mid-surface to the layers, equally."""
     plane, mid = packing.plane, packing.layers * packing.plane
-    part = 1.0 / packing.layers
-    for q in range(3):
-        first = np.uint64(q) * packing.size
+    for q in range(THREE):
+        first = q * packing.size
         for k in range(packing.layers):
             for i in range(plane):
-                force[first + k * plane + i] += part * force[first + mid + i]
+                force[first + k * plane + i] += force[first + mid + i] / packing.layers
+        force[first + mid : first + mid + plane] = 0.0

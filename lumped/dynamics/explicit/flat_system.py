@@ -1,4 +1,4 @@
-"""A system as arrays for steps that are compiled: everything but chains, whose constraints and joints are not.
+"""A system as arrays for steps that are compiled: all but chains, whose constraints and joints are not.
 
 What is prescribed over time, and the factors of loads, are tabulated for a number of steps at a time.
 """
@@ -16,20 +16,26 @@ LEAST = 8  # steps of a call
 
 
 class FlatSystem:
-    """A system without chains. arrays: what compiled steps take; at_once: steps of a call."""
+    """A system without chains at the places of a packing. arrays: what compiled steps take; at_once: steps of
+    a call."""
 
     def __init__(self, system: System):
-        lattice, loads = system.assembly.lattice, system.problem.loads
-        self._system, self._parts = system, loads.parts
-        free, held = _freedom(system)
-        mass = np.repeat(system.lattice_mass, 3)
+        lattice, packing, parts = system.assembly.lattice, system.packing, system.problem.loads.parts
+        self._system, self._parts = system, parts
+        self._size, count = 3 * int(packing.size), len(packing.order)
+        self._places = np.empty((count, 3), dtype=int)
+        self._places[packing.order] = np.arange(count)[:, None] + np.arange(3) * int(packing.size)
         self._driven = np.argwhere(system.prescribed.components)
+        free, held = _freedom(system)
+        mass, rate = (
+            self._flat(np.repeat(x[:, None], 3, 1)) for x in (system.lattice_mass, system.damping.rate)
+        )
         self.at_once = max(LEAST, round(CALL / (sum(map(len, system.assembly.springs)) * PER_SPRING)))
-        parts, pressure = self._parts, np.stack([part.pressure for part in self._parts])
+        pressure = np.stack([part.pressure for part in parts])
         self.arrays = ExplicitArrays(
-            system.forces,
+            packing,
             ExplicitLoads(
-                np.stack([part.dead for part in parts]),
+                np.stack([self._flat(part.dead) for part in parts]),
                 lattice.positions,
                 lattice.mid_cells if pressure.any() else lattice.mid_cells[:0],
                 pressure,
@@ -38,9 +44,10 @@ class FlatSystem:
                 np.repeat(np.arange(len(parts)), [len(part.moments) for part in parts]),
             ),
             mass,
-            np.where(free, 1.0 / mass, 0.0),
-            held,
-            self._driven @ [3, 1],
+            np.divide(1.0, mass, out=np.zeros_like(mass), where=self._flat(free) > 0.0),
+            rate if rate.any() else np.empty(0),
+            self._places.ravel()[held].astype(np.uint64),
+            self._places[tuple(self._driven.T)].astype(np.uint64),
             system.damping.present,
             system.working,
         )
@@ -50,20 +57,27 @@ class FlatSystem:
         that fails. Raises StepFailed where the first one fails."""
         count = min(most, self.at_once)
         while True:
-            states = np.stack([state.u, state.v, state.a])
+            vectors = [self._flat(vector) for vector in (state.u, state.v, state.a)]
             times = np.cumsum(np.append(state.time, np.full(count, step)))  # as they add up one by one
             tables = self._factors(times), *self._placed(times)
-            whole, taken, dissipated, work = march(count, step, self.arrays, *tables, states)
+            whole, taken, dissipated, work = march(count, step, self.arrays, *tables, *vectors)
             if whole:
-                return Advance(State(float(times[taken]), *states), dissipated, work, taken)
+                after = State(float(times[taken]), *(vector[self._places] for vector in vectors))
+                return Advance(after, dissipated, work, taken)
             if taken == 0:
                 raise StepFailed("a number overflowed")
             count = taken
 
     def compile(self) -> None:
         """Compile the steps, or load what was compiled, before there is anything to do."""
-        still, at_once = np.zeros((3, *self.arrays.loads.positions.shape)), np.zeros(1)
-        march(0, 1.0, self.arrays, self._factors(at_once), *self._placed(at_once), still)
+        still, at_once = np.zeros((3, *self.arrays.mass.shape)), np.zeros(1)
+        march(0, 1.0, self.arrays, self._factors(at_once), *self._placed(at_once), *still)
+
+    def _flat(self, vector: np.ndarray) -> np.ndarray:
+        """A vector (n, 3) at the places, (3 s,)."""
+        out = np.zeros(self._size)
+        out[self._places] = vector
+        return out
 
     def _factors(self, times: np.ndarray) -> np.ndarray:
         """Factors of the loads' histories at times (k,) [s], (k, parts)."""
@@ -89,7 +103,7 @@ class FlatSystem:
 
 
 def _freedom(system: System) -> tuple[np.ndarray, np.ndarray]:
-    """Which components can move, (3 n,) bool, and columns (h, layers) of those, flat, whose mean is held."""
+    """Which components can move, (n, 3) bool, and columns (h, layers) of those, flat, whose mean is held."""
     entries = system.transform.tocoo()
     free = np.zeros(system.transform.shape[0], dtype=bool)
     free[entries.row] = True
@@ -100,4 +114,4 @@ def _freedom(system: System) -> tuple[np.ndarray, np.ndarray]:
     layers = system.assembly.lattice.grid[2]
     order = np.argsort(rows, kind="stable")
     rows, others = rows[order].reshape(-1, layers - 1), others[order].reshape(-1, layers - 1)
-    return free, np.concatenate([others, rows[:, :1]], axis=1)
+    return free.reshape(-1, 3), np.concatenate([others, rows[:, :1]], axis=1)

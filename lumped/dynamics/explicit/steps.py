@@ -1,8 +1,8 @@
 """Steps of velocity Verlet in one compiled call, as `verlet` beside this file has them.
 
-With the predicted velocity w = v₀ + h a₀ and the damping matrix D at u₁, which is symmetric, what D v₁ is
-beyond D w comes from one more pass over the dampers, and the power at a step's start is that at the end of
-the step before:
+Vectors are flat, at the places of a `lumped.springs.packing.Packing`. With the predicted velocity
+w = v₀ + h a₀ and the damping matrix D at u₁, which is symmetric, what D v₁ is beyond D w comes from one more
+pass over the dampers, and the power at a step's start is that at the end of the step before:
 
     D v₁ = D w + D δ,   v₁·D v₁ = w·D w + 2 w·D δ + δ·D δ,   δ = v₁ − w.
 
@@ -15,15 +15,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.damping import MovingForces, add_damping_again, add_forces
 from lumped.pressure import add_couples
 from lumped.pressure import add_forces as add_pressure
-from lumped.springs.tiles import NUMBA_TRUE, OPTIONS
+from lumped.springs.all_forces import add_from_places, at_places, lay_out
+from lumped.springs.packing import Packing, Scratch
+from lumped.springs.tiles import NUMBA_FALSE, NUMBA_TRUE, OPTIONS
 from sheetbench.numerics.typed import inner, njit
 
 
 class ExplicitLoads(NamedTuple):
-    """dead: (parts, n, 3) [N], to be scaled by each history, the first by none; positions: at rest (n, 3)
+    """dead: (parts, 3 s) [N], to be scaled by each history, the first by none; positions: at rest (n, 3)
     [m]; cells: (c, 4, layers) masses of cells under pressure: (parts, c) [Pa]; columns: (e, 3, layers) of
     moments (e,) [N·m], as `lumped.pressure.add_couples` has them; owners: (e,) parts of those."""
 
@@ -37,15 +38,16 @@ class ExplicitLoads(NamedTuple):
 
 
 class ExplicitArrays(NamedTuple):
-    """What stays the same from step to step, of n masses whose components are numbered as they lie. mass,
-    inverse_mass: (3 n,) [kg], the latter zero where supports hold; held: (h, layers) components whose mean
-    is held; driven: components that g(t) moves; damped, working: whether anything takes energy, whether loads
-    change or follow."""
+    """What stays the same from step to step, at s places. mass, inverse_mass: (3 s,) [kg], the latter zero
+    where supports hold; rate: (3 s,) or empty, damping of each mass [N·s/m]; held: (h, layers) places whose
+    mean is held; driven: places that g(t) moves. damped, working: whether anything takes energy, whether
+    loads change or follow."""
 
-    forces: MovingForces
+    packing: Packing
     loads: ExplicitLoads
     mass: np.ndarray
     inverse_mass: np.ndarray
+    rate: np.ndarray
     held: np.ndarray
     driven: np.ndarray
     damped: bool
@@ -60,24 +62,28 @@ def march(
     factors: np.ndarray,
     place: np.ndarray,
     place_rate: np.ndarray,
-    states: np.ndarray,
+    u: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
 ) -> tuple[bool, int, float, float]:
-    """Take u, v and a, (3, n, 3), `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads'
-    histories; place and place_rate: (steps + 1, driven) [m], [m/s].
+    """Take u, v and a (3 s,) `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads' histories;
+    place and place_rate: (steps + 1, driven) [m], [m/s].
 
-    Whether no number overflowed, else the state is spoilt; the steps before that; the energy that dampers
+    Whether no number overflowed, else u, v and a are spoilt; the steps before that; the energy that dampers
     took and the work done [J].
     """
-    forces, driven, damped = arrays.forces, arrays.driven, arrays.damped
-    room, exerted = np.zeros((5, *states[0].shape)), np.zeros(len(driven))
-    u, v, a = _flat(states, 0), _flat(states, 1), _flat(states, 2)
-    w, d, f, resisting, load = _flat(room, 0), _flat(room, 1), _flat(room, 2), _flat(room, 3), _flat(room, 4)
+    packing, driven, rate, exerted = arrays.packing, arrays.driven, arrays.rate, np.zeros(len(arrays.driven))
+    w, d, force, resisting = np.zeros_like(u), np.zeros_like(u), np.zeros_like(u), np.zeros_like(u)
+    tile, load = np.zeros(packing.length), np.zeros_like(u)
+    now, again = Scratch(u, w, force, tile), Scratch(u, d, resisting, tile)
     taken = work = power = 0.0
-    add_loads(arrays.loads, factors[0], states[0], room[4])
-    if damped or len(driven):
-        power = add_forces(forces, states[0], states[1], NUMBA_TRUE, damped, room[2])[1]
+    add_loads(arrays, factors[0], u, load)
+    if arrays.damped or len(driven):
+        w[:] = v
+        power = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, now)[1]
+        power += _resist(rate, v, force)
         for i in range(len(driven)):
-            exerted[i] = _exerted(arrays, driven[i], a, f, load)
+            exerted[i] = _exerted(arrays, driven[i], a, force, load)
     for n in range(steps):
         for i in range(len(u)):
             w[i] = v[i] + h * a[i]
@@ -89,37 +95,44 @@ def march(
         for i in range(len(u)):
             u[i] += d[i]
         if arrays.working:
-            work += 0.5 * _work_of_loads(arrays.loads, load, d)
-            add_loads(arrays.loads, factors[n + 1], states[0], room[4])
-            work += 0.5 * _work_of_loads(arrays.loads, load, d)
-        f[:] = 0.0
-        now = add_forces(forces, states[0], room[0], NUMBA_TRUE, damped, room[2])[1]
-        if not _accelerate(0.5 * h, arrays, load, f, a, v):
+            work += 0.5 * _work_of_loads(arrays.loads.dead[0], load, d)
+            add_loads(arrays, factors[n + 1], u, load)
+            work += 0.5 * _work_of_loads(arrays.loads.dead[0], load, d)
+        taking = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, now)[1]
+        taking += _resist(rate, w, force)
+        if not _accelerate(0.5 * h, arrays, load, force, a, v):
             return False, n, taken, work
-        if damped:
+        if arrays.damped:
             for i in range(len(d)):
                 d[i] = v[i] - w[i]
             resisting[:] = 0.0
-            now += add_damping_again(forces, states[0], room[1], NUMBA_TRUE, room[3])
+            if packing.damped:
+                fresh = not packing.keeping
+                taking += at_places(fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, again)[1]
+            taking += _resist(rate, d, resisting)
             for i in range(len(d)):
-                now += 2.0 * w[i] * resisting[i]
-                f[i] += resisting[i]
-            taken += 0.5 * h * (power + now)
-            power = now
-            if not _accelerate(0.0, arrays, load, f, a, v):
+                taking += 2.0 * w[i] * resisting[i]
+                force[i] += resisting[i]
+            taken += 0.5 * h * (power + taking)
+            power = taking
+            if not _accelerate(0.0, arrays, load, force, a, v):
                 return False, n, taken, work
         for i in range(len(driven)):  # by the trapezoidal rule, and what the masses gain by their rates
             p, before = driven[i], exerted[i]
-            exerted[i] = _exerted(arrays, p, a, f, load)
+            exerted[i] = _exerted(arrays, p, a, force, load)
             work += 0.5 * (before + exerted[i]) * (place[n + 1, i] - place[n, i])
             work += 0.5 * arrays.mass[p] * (place_rate[n + 1, i] ** 2 - place_rate[n, i] ** 2)
     return True, steps, taken, work
 
 
-@inner(**OPTIONS)
-def _flat(vectors: np.ndarray, i: int) -> np.ndarray:
-    """Vector i of (k, n, 3), flat."""
-    return vectors[i].reshape(-1)
+@njit(**OPTIONS)
+def _resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+    """Add the forces of the masses' own damping, if there is any; the power taken [W]."""
+    power = 0.0
+    for i in range(len(rate)):
+        force[i] += rate[i] * v[i]
+        power += rate[i] * v[i] * v[i]
+    return power
 
 
 @njit(**OPTIONS)
@@ -152,25 +165,30 @@ def _exerted(arrays: ExplicitArrays, p: int, a: np.ndarray, force: np.ndarray, l
 
 
 @njit(**OPTIONS)
-def add_loads(loads: ExplicitLoads, factors: np.ndarray, u: np.ndarray, out: np.ndarray) -> None:
-    """Put the loads at displacement u (n, 3) [m], scaled by the factors of their histories, in `out` [N]."""
-    out[:] = loads.dead[0]
-    pressure, moments = factors[0] * loads.pressure[0], np.empty(len(loads.moments))
-    for part in range(1, len(factors)):
-        out += factors[part] * loads.dead[part]
-        pressure += factors[part] * loads.pressure[part]
-    if len(loads.cells):
-        add_pressure(loads.positions + u, loads.cells, pressure, out)
-    for e in range(len(moments)):
-        moments[e] = factors[loads.owners[e]] * loads.moments[e]
-    if len(moments):
-        add_couples(loads.positions + u, loads.columns, moments, out)
+def add_loads(arrays: ExplicitArrays, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
+    """Put the loads at displacement u, scaled by the factors of their histories, in `load` [N]."""
+    packing, loads = arrays.packing, arrays.loads
+    if len(loads.cells) or len(loads.moments):
+        x, following = loads.positions.copy(), np.zeros_like(loads.positions)
+        add_from_places(u, packing, x)
+        pressure = np.zeros(len(loads.cells))
+        for part in range(len(factors)):
+            for c in range(len(pressure)):
+                pressure[c] += factors[part] * loads.pressure[part, c]
+        add_pressure(x, loads.cells, pressure, following)
+        add_couples(x, loads.columns, factors[loads.owners] * loads.moments, following)
+        lay_out(following, packing, load)
+    else:
+        load[:] = 0.0
+    for part in range(len(factors)):
+        for i in range(len(load)):
+            load[i] += factors[part] * loads.dead[part, i]
 
 
 @njit(**OPTIONS)
-def _work_of_loads(loads: ExplicitLoads, load: np.ndarray, moved: np.ndarray) -> float:
+def _work_of_loads(still: np.ndarray, load: np.ndarray, moved: np.ndarray) -> float:
     """Work [J] of what loads are beyond those without a history."""
-    still, work = loads.dead[0].reshape(-1), 0.0
+    work = 0.0
     for i in range(len(moved)):
         work += (load[i] - still[i]) * moved[i]
     return work

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fem_reference.surface.biquadratic import IN_SPACE
+from fem_reference.surface.biquadratic import IN_SPACE, pulled_back
 from fem_reference.surface.plies import in_space
 from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Constants, Material
@@ -98,11 +98,7 @@ def _logarithmic_volume(strain: np.ndarray) -> Triad:
     first = np.stack([inverse[..., i, j] for i, j in IN_SPACE], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
         value = 0.5 * np.log(determinant)
-    rows = [
-        [-inverse[..., i, a] * inverse[..., j, b] - inverse[..., i, b] * inverse[..., j, a] for a, b in IN_SPACE]
-        for i, j in IN_SPACE
-    ]
-    return Triad(value, first, np.stack([np.stack(row, axis=-1) for row in rows], axis=-2))
+    return Triad(value, first, -_DOUBLE @ pulled_back(inverse, IN_SPACE))
 
 
 def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -114,7 +114,7 @@ class Element:
         return False
 
     @classmethod
-    def build(cls, nodes: np.ndarray, section: Section) -> Element:
+    def build(cls, nodes: np.ndarray, section: Section) -> Self:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
         return cls(*_built(nodes, *section))
 

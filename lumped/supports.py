@@ -21,6 +21,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Coupling
+from lumped.actuators.chain import BoundChain
 from lumped.actuators.corners import Tie
 from lumped.coverage import Reach, held_columns, reached_parts
 from lumped.lattice import Lattice
@@ -89,8 +90,8 @@ class Constraints:
         masses carry what holds the end of a chain there."""
         if self.coupling is not None and self.coupling.corners():
             residual = residual.copy()
-            for body, place, end, column in self.coupling.corners():
-                exerted = residual[place] + body.binding.T @ residual[body.masses]
+            for body, end, column in self.coupling.corners():
+                exerted = self.coupling.on_rows(body, residual)
                 residual[column] += body.corner_force(end, exerted) / len(column)
         forces = product(self.summed, residual.ravel()).reshape(-1, 3)
         return dict(zip(self.holders, forces, strict=True)), np.where(self.held, residual, 0.0)
@@ -151,9 +152,9 @@ def _constrain(
         held[column, axis] = True
 
     dependent[: lattice.mass_count][moved] = True
-    bindings = coupling.bindings() if coupling is not None else []
-    for masses, _, _ in bindings:
-        dependent[masses] = True
+    bodies = coupling.bodies if coupling is not None else []
+    for body in bodies:
+        dependent[body.masses] = True
     ties = coupling.ties if coupling is not None else []
     for tie in ties:
         dependent[tie.rows] = True
@@ -161,8 +162,8 @@ def _constrain(
         fixed[lattice.mass_count :] = held[lattice.mass_count :] = ~coupling.free
     free = ~(fixed | dependent)
     transform = _selection(free)
-    if mean_held or bindings:
-        transform = _with_dependent(free, mean_held, ties, bindings)
+    if mean_held or bodies:
+        transform = _with_dependent(free, mean_held, ties, bodies)
     driven = bent_or_tilted(supports, sheet)
 
     def turned(load_factor: float) -> np.ndarray:
@@ -197,7 +198,7 @@ def _with_dependent(
     free: np.ndarray,
     mean_held: dict[tuple[int, int], np.ndarray],
     ties: Sequence[Tie],
-    bindings: Sequence[tuple[np.ndarray, np.ndarray, int]],
+    bodies: Sequence[BoundChain],
 ) -> sp.csr_array:
     """The transform where the last layer is minus the sum of the others (last mass, axis → its column), rows
     of actuators are tied to rows of others, and masses are bound to rows of actuators."""
@@ -216,7 +217,7 @@ def _with_dependent(
     transform = sp.csr_array(sp.coo_array(entries, shape=shape))
     linked = [
         *((tie.rows, tie.others, tie.weights) for tie in ties),
-        *((masses, first + np.arange(binding.shape[1]), binding) for masses, binding, first in bindings),
+        *((body.masses, body.place.start + np.arange(body.rows), body.binding) for body in bodies),
     ]
     for targets, sources, weights in linked:
         transform = transform + _link(n, targets, sources, weights) @ transform

@@ -17,7 +17,6 @@ from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import CellSection
-from lumped.spring_constants import Springs
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import Cells, Material, Sheet
@@ -81,7 +80,7 @@ def consistent(
                 f"grading = {grading:g}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
                 "has no closed form; take two layers, no layer distance of your own, or grading 0"
             ) from None
-        springs = Springs.read(fit_moduli(sheet, material, grid, layer_distance).springs)
+        springs = fit_moduli(each, layer_distance)
     notes: list[str] = []
     whole = moduli.of_cells(springs, each.sides, grid[2])
     if method != "consistent-interior":

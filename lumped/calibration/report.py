@@ -33,8 +33,7 @@ def report(
 
     Raises BadInput where area springs leave a cell without positive energy.
     """
-    sides, section = each.present()
-    sheet = moduli.of_section(section, sides)
+    (sides, section), sheet = each.present, each.target
     whole = moduli.of_cells(springs, each.sides, each.grid[2]) if whole is None else whole
     there = np.broadcast_to(each.there, whole.shear.shape[:2])
     got = moduli.Moduli(*(part[there] for part in vars(whole).values()))

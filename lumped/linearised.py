@@ -133,7 +133,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
             raise BadInput("linearise: a flat sheet has no actuators; leave --about out")
         u = np.zeros_like(problem.loads.dead)
     else:
-        u = stable_equilibrium(scene, problem).u
+        u = stable_equilibrium(problem).u
     system = System(scene, problem)
     motions = _allowed(system, u)
     rest = np.zeros_like(u)

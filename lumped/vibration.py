@@ -80,7 +80,7 @@ def modes(
                 "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs "
                 "of a per-direction law have none"
             )
-        at = stable_equilibrium(scene, problem).u
+        at = stable_equilibrium(problem).u
     transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene))
     unknowns = problem.system.unknowns

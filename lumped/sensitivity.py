@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from lumped.calibration import CLOSED, Calibration
+from lumped.calibration import MAKERS, Calibration
 from lumped.mid_surface import MidSurface
 from lumped.sections import sections_of
 from lumped.statics.problem import Problem
@@ -67,7 +67,7 @@ def sensitivity(
     with one_blas_thread():
         require_static(scene)
         problem = build_problem(scene, calibration)
-        state = stable_equilibrium(scene, problem)
+        state = stable_equilibrium(problem)
         factor = problem.system.factor(problem.tangent(state.u, 1.0))  # that of the path's end may be older
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives = {}
@@ -130,12 +130,12 @@ def _of_scene(name: str) -> bool:
 
 def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:
     """The scene with springs for its changed sheet, by the same method."""
-    if calibration.method not in CLOSED:
+    if calibration.method not in MAKERS:
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
     own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
     if (cells := sections_of(scene, calibration.grid, calibration.grading)) is not None:
         own["cells"] = cells
-    method = CLOSED[calibration.method]
-    return scene, method.make(sheet_at_rest(scene), scene.material, calibration.grid, **own)
+    make = MAKERS[calibration.method]
+    return scene, make(sheet_at_rest(scene), scene.material, calibration.grid, **own)

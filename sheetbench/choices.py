@@ -1,7 +1,7 @@
 """What is chosen by name: calibrations, integrators, references; a line about each, and the usual choice.
 
 Names and words alone, which the command line can have without waiting for what they stand for:
-`lumped.CALIBRATIONS`, `lumped.INTEGRATORS` and `fem_reference.MODELS` make their entries of these.
+`lumped.INTEGRATORS` and `fem_reference.MODELS` make their entries of these.
 """
 
 from __future__ import annotations

@@ -210,8 +210,8 @@ def test_every_figure_is_there():
 SLOW = (
     "lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas", "xarray",
 )  # fmt: skip
-SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
-SLOW += ("ezc3d", "shapely", "xarray")
+SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "comparisons.models.training")
+SLOW += ("ezc3d", "shapely", "comparisons.sweep.campaign")  # the last: multiprocessing, sqlite3
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = ("figure", "style", "layout", "motion_figure", "comparison_figure", "animation")
 DRAWS += ("offscreen", "check_figure", "array_files", "toml")

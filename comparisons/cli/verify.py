@@ -19,10 +19,7 @@ def command(
     Args:
         case (NAME): Only this case; may be repeated. Default: all.
     """
-    from fem_reference.verification import run
-    from fem_reference.verification.answer import Verification
+    from fem_reference.verification import verify
 
     with output.open(variant={"--case": sorted(case) if case else None}) as out:
-        return out.show(
-            Verification(list(run(case, starting=lambda name: out.progress(f"verifying {name} …"))))
-        )
+        return out.show(verify(case, starting=lambda name: out.progress(f"verifying {name} …")))

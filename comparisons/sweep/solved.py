@@ -10,17 +10,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from statistics import median
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
 from comparisons.external import plugins
 from comparisons.models.spec import Elements, External, Spec
-from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
-from comparisons.sweep.store import Store
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import Status, comparable
 from sheetbench.scenes import Scene
+
+if TYPE_CHECKING:  # multiprocessing and sqlite3 are a fortieth of what `compare` takes
+    from comparisons.sweep.campaign import CampaignKeywords, Run
+    from comparisons.sweep.store import Store
 
 TASK = "comparisons.sweep.task:solve"
 
@@ -49,6 +51,8 @@ class Ask:
     @property
     def task(self) -> Run:
         """The run of a campaign that makes the row."""
+        from comparisons.sweep.campaign import Run
+
         own = {"repeats": self.repeats, "columns": list(self.columns), "duration": self.duration}
         own |= {"every": self.every, "run": dict(self.run), "version": self.version}
         given = {name: value for name, value in own.items() if value}
@@ -154,6 +158,8 @@ class Solved:
 def sweep(asks: Sequence[Ask], store: Store, **how: Unpack[CampaignKeywords]) -> list[Solved]:
     """Return a row for every solve that is wanted, in their order, through a campaign's store; how: as
     `comparisons.sweep.campaign.carry_out` takes it."""
+    from comparisons.sweep.campaign import carry_out
+
     done = carry_out([ask.task for ask in asks], store, **how)
     return [
         Solved(ask, one.status, one.message, one.row, one.started, one.finished, one.seconds)

@@ -1,6 +1,5 @@
-"""Verification of the references against published values: one benchmark a file, `CASES` lists them."""
+"""Verification of the references against published values; `CASES` lists the benchmarks."""
 
-from fem_reference.verification.cases import CASES, run
-from fem_reference.verification.rows import Case, Row
+from fem_reference.verification.cases import CASES, Verification, verify
 
-__all__ = ["CASES", "Case", "Row", "run"]
+__all__ = ["CASES", "Verification", "verify"]

@@ -1,79 +1,132 @@
-"""The table of verification cases, and how they are run."""
+"""The table of verification cases, and the answer of `sheetbench verify`: the references against published
+values."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
 from functools import partial
+from itertools import groupby
+from typing import Any, NamedTuple
 
-from fem_reference.verification import (
-    elliptic_plate,
-    large_deflections,
-    manufactured_plate,
-    manufactured_solid,
-    mindlin_plates,
-    natural_frequencies,
-    orthotropic,
-    patch,
-    round_shapes,
-    self_bending,
-    settling_strip,
-    slit_annulus,
-    strain_laws,
-)
-from fem_reference.verification.rows import Case, Row
+from fem_reference.verification import manufactured, patch, round_shapes, square_plates, strain_laws, strips
+from fem_reference.verification.rows import Row
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.table import Table, number
 from sheetbench.errors import require_choice
 
-CASES: dict[str, Case] = {
-    "end-shear": Case("cantilever under an end shear", large_deflections.end_shear),
-    "roll-up": Case("cantilever rolled up to a full circle", large_deflections.roll_up),
-    "slit-annulus": Case("slit annular plate, lifted", slit_annulus.rows),
-    "heavy-elastica": Case("strip under its own weight", large_deflections.heavy_elastica),
-    "settling-strip": Case("strip that settles under its own weight", settling_strip.rows),
+FIELDS = ("case", "quantity", "computed", "passed", "mesh", "published", "relative", "held_to", "source")
+
+
+class Case(NamedTuple):
+    """A benchmark: what it is, and its rows, computed when they are requested."""
+
+    title: str
+    rows: Callable[[], Iterator[Row]]
+
+
+CASES = {
+    "end-shear": Case("cantilever under an end shear", strips.end_shear),
+    "roll-up": Case("cantilever rolled up to a full circle", strips.roll_up),
+    "slit-annulus": Case("slit annular plate, lifted", round_shapes.slit_annulus),
+    "heavy-elastica": Case("strip under its own weight", strips.heavy_elastica),
+    "settling-strip": Case("strip that settles under its own weight", strips.settling),
     "mindlin-simple": Case(
-        "Mindlin plate, hard simple support", partial(mindlin_plates.rows, "hinged", "plate")
+        "Mindlin plate, hard simple support", partial(square_plates.loaded, "hinged", "plate")
     ),
     "mindlin-clamped": Case(
-        "Mindlin plate, clamped", partial(mindlin_plates.rows, "clamped", "plate", "shell")
+        "Mindlin plate, clamped", partial(square_plates.loaded, "clamped", "plate", "shell")
     ),
     **{
-        name: Case(benchmark.title, partial(natural_frequencies.rows, name))
-        for name, benchmark in natural_frequencies.BENCHMARKS.items()
+        name: Case(benchmark.title, partial(square_plates.frequencies, name))
+        for name, benchmark in square_plates.BENCHMARKS.items()
     },
     "disc-bending": Case("thin disc clamped at its hub", round_shapes.bending),
     "disc-frequencies": Case("thin disc clamped at its hub, vibrating", round_shapes.frequencies),
     "strip-with-hole": Case("strip with a round hole, pulled", round_shapes.strip_with_hole),
-    "nafems-le10": Case("thick elliptic plate", elliptic_plate.rows),
-    "manufactured-plate": Case("manufactured Mindlin plate: error and order", manufactured_plate.rows),
-    "manufactured-solid": Case("manufactured block: error and order", manufactured_solid.rows),
-    "large-rotation-order": Case("order of the shell, rolled up", large_deflections.order),
-    "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "plate")),
-    "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", partial(mindlin_plates.locking, "shell")),
-    "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", partial(mindlin_plates.locking, "solid")),
+    "nafems-le10": Case("thick elliptic plate", round_shapes.elliptic_plate),
+    "manufactured-plate": Case("manufactured Mindlin plate: error and order", manufactured.plate),
+    "manufactured-solid": Case("manufactured block: error and order", manufactured.solid),
+    "large-rotation-order": Case("order of the shell, rolled up", strips.order),
+    **{
+        f"locking-{model}": Case(f"{model} on 8 × 8, {swept}", partial(square_plates.locking, model))
+        for model, swept in {
+            "plate": "h/a from 1e-5 to 0.2",
+            "shell": "h/a from 1e-5 to 0.2",
+            "solid": "ν up to 0.4999",
+        }.items()
+    },
     "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
     "rubber": Case("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
-    "orthotropic-plate": Case("plate with fibres along x, simply supported", orthotropic.plate),
-    "laminate": Case("laminate [0/90]s, simply supported", orthotropic.laminate),
-    "off-axis": Case("strip with oblique fibres, pulled", orthotropic.off_axis),
-    "self-bending": Case("sheets that are not flat at rest", self_bending.rows),
+    "orthotropic-plate": Case("plate with fibres along x, simply supported", square_plates.ply),
+    "laminate": Case("laminate [0/90]s, simply supported", square_plates.laminate),
+    "off-axis": Case("strip with oblique fibres, pulled", strips.off_axis),
+    "self-bending": Case("sheets that are not flat at rest", square_plates.self_bending),
     "patch": Case("patch tests on distorted meshes", patch.rows),
 }
 
 
-def run(
-    names: Iterable[str] | None = None, starting: Callable[[str], None] = lambda name: None
-) -> Iterator[Row]:
-    """The rows of the named cases, all unless given; `starting` is called before each case.
+@dataclass(frozen=True, repr=False)
+class Verification(Answer):
+    """Rows of expected and computed values."""
 
-    Raises BadInput for an unknown name, before anything is computed.
+    rows: Sequence[Row]
+
+    file_name = "verification"
+
+    @property
+    def failed(self) -> list[Row]:
+        """Rows off by more than their tolerance."""
+        return [row for row in self.rows if not row.passed]
+
+    @property
+    def succeeded(self) -> bool:
+        return not self.failed
+
+    def heading(self) -> tuple[str, str, str]:
+        return "verify", "the references against published and exact values", ""
+
+    def document(self) -> dict[str, Any]:
+        return {"rows": [asdict(row) for row in self.rows]}
+
+    def tables(self) -> list[Table]:
+        caption = "References against published and exact values"
+        return [Table.of(Row, self.rows, caption, "verification", fields=FIELDS)]
+
+    def printed(self) -> list[Table]:
+        """Return a table for every case, with what it is; a column names the mesh where there are several."""
+        tables = []
+        for case, of_case in groupby(self.rows, key=lambda row: row.case):
+            rows = list(of_case)
+            meshes = {row.mesh for row in rows}
+            details = ("case", "mesh")[: 1 + (len(meshes) == 1)]
+            title = f"{case}: {CASES[case].title}" + (f"; {rows[0].mesh}" if len(meshes) == 1 else "")
+            tables.append(Table.of(Row, rows, title, "verification", fields=FIELDS, details=details))
+        return tables
+
+    def notes(self) -> tuple[str, ...]:
+        return (f"{len(self.rows) - len(self.failed)} of {len(self.rows)} rows pass",)
+
+    def complaints(self) -> list[str]:
+        return [
+            f"{row.case}: {row.quantity}: {number(row.computed)} instead of {number(row.published)}"
+            for row in self.failed
+        ]
+
+
+def verify(
+    case: Sequence[str] | str | None = None, starting: Callable[[str], None] = lambda name: None
+) -> Verification:
+    """Check the references against published values, all cases unless some are named.
+
+    starting: called before each case. The answer's `succeeded` says whether all pass. Raises BadInput for a
+    case that does not exist, before anything is computed.
     """
-    chosen = tuple(CASES) if names is None else tuple(names)
-    for name in chosen:
+    names = list(CASES) if case is None else [case] if isinstance(case, str) else case
+    for name in names:
         require_choice("case", name, CASES)
-    return _rows(chosen, starting)
-
-
-def _rows(names: tuple[str, ...], starting: Callable[[str], None]) -> Iterator[Row]:
+    rows = list[Row]()
     for name in names:
         starting(name)
-        yield from (replace(row, case=name) for row in CASES[name].rows())
+        rows += (replace(row, case=name) for row in CASES[name].rows())
+    return Verification(rows)

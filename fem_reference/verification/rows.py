@@ -49,14 +49,6 @@ class Row:
         return f"{number(100.0 * self.tolerance)} %"
 
 
-@dataclass(frozen=True)
-class Case:
-    """A benchmark: what it is, and its rows, computed when they are requested."""
-
-    title: str
-    rows: Callable[[], Iterator[Row]]
-
-
 def absolutely(
     quantity: str, mesh: str, published: float, source: str, computed: float, tolerance: float
 ) -> Row:
@@ -98,23 +90,39 @@ def convergence(
 
 def curve(
     names: Sequence[str],
-    mesh: str,
+    meshes: Mapping[str, str],
     published: Mapping[float, Iterable[float]],
     source: str | Mapping[float, str],
     tolerance: float,
-    answer: Callable[[float, int], np.ndarray],
+    answer: Callable[[str, float, int], np.ndarray],
     elements: int,
     size: float = 0.0,
     half_at: float | None = None,
 ) -> Iterator[Row]:
-    """Rows of the values that an answer has at each load of a curve, by names with a place for the load, and
-    of its change from half as many elements at one load, the largest unless given. source: of all, or by
-    load; size: what is next to nothing beside that is relative to it."""
-    found = {load: answer(load, elements) for load in published}
-    for load, values in published.items():
-        whose = source if isinstance(source, str) else source[load]
-        for name, expected, computed in zip(names, values, found[load], strict=True):
-            scale = size if abs(expected) < 1e-9 * size else None
-            yield relatively(name.format(load), mesh, expected, whose, computed, tolerance, scale)
-    load = max(published) if half_at is None else half_at
-    yield mesh_change(mesh, answer(load, elements // 2), found[load], tolerance)
+    """Rows of the values that an answer of each model has at each load of a curve, by names with a place for
+    the load, and of its change from half as many elements at one load, the largest unless given. meshes: by
+    model; source: of all, or by load; size: what is next to nothing beside that is relative to it."""
+    for model, mesh in meshes.items():
+        found = {load: answer(model, load, elements) for load in published}
+        for load, values in published.items():
+            whose = source if isinstance(source, str) else source[load]
+            for name, expected, computed in zip(names, values, found[load], strict=True):
+                scale = size if abs(expected) < 1e-9 * size else None
+                yield relatively(name.format(load), mesh, expected, whose, computed, tolerance, scale)
+        load = max(published) if half_at is None else half_at
+        yield mesh_change(mesh, answer(model, load, elements // 2), found[load], tolerance)
+
+
+def lowest(
+    quantity: str,
+    mesh: str,
+    published: Sequence[float | None],
+    source: str,
+    found: np.ndarray,
+    tolerance: float,
+) -> Iterator[Row]:
+    """Rows of the lowest frequencies, but for those that are not published; quantity: with a place for their
+    number."""
+    for mode, (expected, computed) in enumerate(zip(published, found, strict=True), 1):
+        if expected is not None:
+            yield relatively(quantity.format(mode), mesh, expected, source, computed, tolerance)

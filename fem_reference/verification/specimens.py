@@ -1,17 +1,24 @@
-"""Sheets, meshes and answers that several cases share."""
+"""Sheets and answers that several cases share."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import replace
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from skfem import MeshQuad, MeshQuad2
 
 from fem_reference import solve
-from sheetbench.answers.solution import Status
+from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.discrete.items import Dead
+from fem_reference.discrete.static import Static
+from sheetbench.answers.solution import Solution, Status
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet, Support
+
+E1, E2, NU, G = 25e9, 1e9, 0.25, 0.5e9  # Reddy's, of unidirectional plies, in one of his sizes
+FIBRES = Material.model_validate(
+    {"kind": "orthotropic", "young_1": E1, "young_2": E2, "poisson_12": NU, "shear_12": G, "density": 1500.0}
+)
 
 
 def specimen(
@@ -34,24 +41,19 @@ def moved(
     """Displacement (3,) [m] of a plan point in a model's answer; not a number where no equilibrium was
     reached. options: as of `solve`."""
     solution = solve(scene, model, elements=elements, **options)
-    if solution.status is not Status.CONVERGED:
-        return np.full(3, np.nan)
-    return solution.displacement(np.array([at]))[0]
+    return solution.displacement(np.array([at]))[0] * valid(solution)
 
 
-def mapped(
-    first: np.ndarray,
-    second: np.ndarray,
-    place: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
-    sides: dict[str, tuple[int, float]],
-) -> MeshQuad2:
-    """The mesh with lines at two coordinates, whose nodes lie where `place` puts them [m]; sides: name → the
-    coordinate that is constant there, and its value."""
-    plan = MeshQuad.init_tensor(first, second)
-    mesh = MeshQuad2.from_mesh(plan)
-    bent = replace(mesh, doflocs=np.array(place(*mesh.doflocs)))
-    on = {
-        name: plan.facets_satisfying(lambda x, axis=axis, at=at: np.isclose(x[axis], at))
-        for name, (axis, at) in sides.items()
-    }
-    return bent.with_boundaries(on)
+def valid(solution: Solution) -> float:
+    """1, or not a number of an answer that is no equilibrium."""
+    return 1.0 if solution.status is Status.CONVERGED else np.nan
+
+
+def linear_step(sheet: DiscreteElements, force: np.ndarray) -> np.ndarray:
+    """q (N,) of the first linear step from the flat sheet under a force (N,) more."""
+    sheet.items.append(Dead(force, None))
+    static = Static(sheet)
+    rest = static.rest()
+    forces = static.forces(rest, 1.0)
+    matrix, right = static.linearised(rest, forces, 1.0, mixed=False)
+    return static.advance(rest, forces, 1.0, DirectSolver().factor(matrix).solve(right)).q

@@ -22,15 +22,16 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fem_reference.discrete.static import Static, StaticState
-from fem_reference.pulled_strip import MATERIAL, SHEET, pulled
 from fem_reference.sheets import SHEETS
 from fem_reference.shell.laws import LAWS as SHELL_LAWS
 from fem_reference.solid.materials import LAWS as SOLID_LAWS
 from fem_reference.verification.rows import EXACT, Row, relatively
 from fem_reference.verification.specimens import moved
 from sheetbench.choices import STRAIN_LAWS
-from sheetbench.scenes import Material
+from sheetbench.scenes import EdgeLoad, Held, Material, Scene, Sheet
 
+SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.01)
+MATERIAL = Material(young=1e6, poisson=0.3, density=1000.0)
 STRAINS = (0.001, 0.01, 0.1)
 WAYS = {"one way": 1, "both ways": 2}
 MODELS = ("shell", "solid")
@@ -79,14 +80,13 @@ def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> 
     if law in ("biot", "st-venant-kirchhoff"):
         elongation = strain if law == "biot" else 0.5 * stretch * (stretch**2 - 1.0)
         return elongation / {"one way": 1.0, "both ways": 1.0 - poisson, "sheared": 1.0 - poisson**2}[way]
-    rubber = material if law == material.law else material.replace(law=law)
-    return _pull(rubber, stretches(law, way, strain, material), 0) / material.young
+    stretched = stretches(law, way, strain, material)
+    return _pull(material.replace(law=law), stretched, 0) / material.young
 
 
 def stretches(law: str, way: str, strain: float, material: Material) -> list[float]:
     """λ along x and y and through the thickness of a rubber, the free ones such that nothing pulls there."""
-    rubber = material if law == material.law else material.replace(law=law)
-    stretch = 1.0 + strain
+    rubber, stretch = material.replace(law=law), 1.0 + strain
 
     def with_free(free: float) -> list[float]:
         return [stretch, {"one way": free, "both ways": stretch, "sheared": 1.0}[way], free]
@@ -108,6 +108,14 @@ def _pull(material: Material, stretches: list[float], axis: int) -> float:
     at_rest = 2.0 * energy.c10 + 4.0 * energy.c01
     pressure = energy.volume(material.poisson) * volume - at_rest
     return 2.0 * along * (slope + energy.c01 * (first - along**2)) + pressure / along
+
+
+def pulled(pulls: tuple[float, float], sheet: Sheet = SHEET, material: Material = MATERIAL) -> Scene:
+    """A strip free to contract, under forces per length [N/m] on x1 along x and on y1 along y."""
+    held = (Held(edge="x0", components=("x", "z")), Held(edge="y0", components=("y", "z")))
+    along_x = EdgeLoad(edge="x1", force_per_length=(pulls[0], 0.0, 0.0))
+    along_y = EdgeLoad(edge="y1", force_per_length=(0.0, pulls[1], 0.0))
+    return Scene(name="pulled", sheet=sheet, material=material, supports=held, loads=(along_x, along_y))
 
 
 def _held(model: str, material: Material, stretches: list[float]) -> float:

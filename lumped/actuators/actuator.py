@@ -30,7 +30,7 @@ class Drive(NamedTuple):
 @dataclass(frozen=True)
 class Acting:
     """What acts between an actuator and the sheet: where its masses are (m, 3) [m], what holds them (m, 3)
-    and its rows (rows, 3) [N], and its rows' displacement y (rows, 3) [m]."""
+    and its rows with these, as they bind them, (rows, 3) [N], and its rows' displacement y (rows, 3) [m]."""
 
     positions: np.ndarray
     on_masses: np.ndarray

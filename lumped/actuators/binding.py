@@ -19,7 +19,6 @@ about its axis as m a²/4 of each director.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -30,23 +29,17 @@ from sheetbench.scenes import Chain
 AROUND = 2  # segments on either side of a joint that its slope is taken from
 
 
-@dataclass(frozen=True)
-class Binding:
-    """rows: (m, rows) of masses on rows; share: (segments, m) of each in the segments; arms: (m, 3) [m] of
-    masses on the frame that a base is, about which their force has a moment."""
-
-    rows: np.ndarray
-    share: np.ndarray
-    arms: np.ndarray
-
-
-def bind(frames: Frames, rows: int, along: np.ndarray, height: np.ndarray) -> Binding:
-    """The binding of masses at arc length and height over the axis (m,) [m]."""
+def bind(
+    frames: Frames, rows: int, along: np.ndarray, height: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the binding of masses at arc length and height over the axis (m,) [m] on rows, (m, rows), the
+    share of each in the segments, (segments, m), and their arms on the frame that a base is, about which
+    their force has a moment, (m, 3) [m]."""
     count, base = frames.segments, frames.base_joint
     binding, share = np.zeros((len(along), rows)), np.zeros((count, len(along)))
     ground = {} if base is None else {base: count}
     corners = {frames.end_point(end): count + 1 + k for k, end in enumerate(frames.corners)}
-    tangents, normals = _Curve.of(count, ground), _Curve.of(count, ground | corners)
+    tangents, normals = _slopes(count, ground), _slopes(count, ground | corners)
     place = along / frames.length
     arms = np.zeros((len(along), 3))
     for i, (p, z) in enumerate(zip(place, height, strict=True)):
@@ -54,58 +47,44 @@ def bind(frames: Frames, rows: int, along: np.ndarray, height: np.ndarray) -> Bi
         tie = abs(p - nearest) < 1e-9 and 0 < nearest < count
         owners = (nearest - 1, nearest) if tie else (min(max(int(p), 0), count - 1),)
         share[list(owners), i] = 1.0 / len(owners)
-        joint, by_tangent = tangents.place(p)
+        joint, by_tangent, _ = _cubic(tangents, p)
         binding[i, joint] = 1.0
         binding[i, 1 : count + 1] += by_tangent[:count]
         binding[i, :count] -= by_tangent[:count]
-        by_normal = normals.slope(p)
+        _, _, by_normal = _cubic(normals, p)
         lever = z / frames.length
         binding[i, frames.points : frames.points + count] += lever * by_normal[:count]
         for k, end in enumerate(frames.corners):
             binding[i, frames.corner_row[end]] += lever * by_normal[count + 1 + k]
         arms[i] = frames.length * by_tangent[count] * frames.axes[T] + z * by_normal[count] * frames.axes[N]
-    return Binding(binding, share, arms)
+    return binding, share, arms
 
 
-@dataclass(frozen=True)
-class _Curve:
+def _slopes(count: int, known: Mapping[int, int]) -> np.ndarray:
     """Slopes m_j of r(s) at joints and ends (segments + 1, tangents), in parts of the tangents of segments,
-    of a base and of corners."""
+    of a base and of corners; known: the numbers of those that joints and ends have of a base or a corner."""
+    slopes = np.zeros((count + 1, max([count, *known.values()]) + 1))
+    for first, last in pairwise(sorted({0, count, *known})):
+        for joint in range(first, last + 1):
+            if joint in known:
+                slopes[joint, known[joint]] = 1.0
+                continue
+            around = np.arange(max(first, joint - AROUND), min(last, joint + AROUND))
+            nearby = [end for end in (first, last) if end in known and abs(end - joint) < AROUND]
+            numbers = [*around, *(known[end] for end in nearby)]
+            slopes[joint, numbers] = _weights(around - joint, np.array(nearby) - joint)
+    return slopes
 
-    slopes: np.ndarray
 
-    @classmethod
-    def of(cls, count: int, known: Mapping[int, int]) -> _Curve:
-        """known: the numbers of the tangents that joints and ends have of a base or a corner."""
-        slopes = np.zeros((count + 1, max([count, *known.values()]) + 1))
-        for first, last in pairwise(sorted({0, count, *known})):
-            for joint in range(first, last + 1):
-                if joint in known:
-                    slopes[joint, known[joint]] = 1.0
-                    continue
-                around = np.arange(max(first, joint - AROUND), min(last, joint + AROUND))
-                nearby = [end for end in (first, last) if end in known and abs(end - joint) < AROUND]
-                numbers = [*around, *(known[end] for end in nearby)]
-                slopes[joint, numbers] = _weights(around - joint, np.array(nearby) - joint)
-        return cls(slopes)
-
-    def place(self, s: float) -> tuple[int, np.ndarray]:
-        """The joint or end j before s, and r(s) − x_j in parts of the tangents."""
-        j, xi = self._segment(s)
-        found = xi * (1.0 - xi) * ((1.0 - xi) * self.slopes[j] - xi * self.slopes[j + 1])
-        found[j] += xi**2 * (3.0 - 2.0 * xi)
-        return j, found
-
-    def slope(self, s: float) -> np.ndarray:
-        """r'(s) in parts of the tangents."""
-        j, xi = self._segment(s)
-        found = (1.0 - xi) * (1.0 - 3.0 * xi) * self.slopes[j] + xi * (3.0 * xi - 2.0) * self.slopes[j + 1]
-        found[j] += 6.0 * xi * (1.0 - xi)
-        return np.asarray(found)
-
-    def _segment(self, s: float) -> tuple[int, float]:
-        j = min(max(int(np.floor(s + 1e-9)), 0), len(self.slopes) - 2)
-        return j, s - j
+def _cubic(slopes: np.ndarray, s: float) -> tuple[int, np.ndarray, np.ndarray]:
+    """The joint or end j before s; r(s) − x_j and r'(s) in parts of the tangents."""
+    j = min(max(int(np.floor(s + 1e-9)), 0), len(slopes) - 2)
+    xi, (start, end) = s - j, slopes[j : j + 2]
+    place = xi * (1.0 - xi) * ((1.0 - xi) * start - xi * end)
+    place[j] += xi**2 * (3.0 - 2.0 * xi)
+    slope = (1.0 - xi) * (1.0 - 3.0 * xi) * start + xi * (3.0 * xi - 2.0) * end
+    slope[j] += 6.0 * xi * (1.0 - xi)
+    return j, place, slope
 
 
 def _weights(means: np.ndarray, values: np.ndarray) -> np.ndarray:

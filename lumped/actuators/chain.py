@@ -27,7 +27,7 @@ from lumped.actuators import joints
 from lumped.actuators.actuator import Acting, Drive
 from lumped.actuators.binding import bind, mass_matrix
 from lumped.actuators.division import mean_curvatures, parts_of_a_segment
-from lumped.actuators.frames import Frames, SharedEnd
+from lumped.actuators.frames import Frames
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Sheet
 from sheetbench.scenes import Chain as ChainData
@@ -36,16 +36,16 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class BoundChain:
-    """One or several chains on one edge. scale: σ [N/m], like the sheet's E h; held: its ends (0 the start, 1
-    the end) where another edge holds position and director; shared: those where another chain shares the
-    corner.
+    """One or several chains on one edge. place: of its rows among all of the lattice; scale: σ [N/m], like
+    the sheet's E h; held: its ends (0 the start, 1 the end) where another edge holds position and director;
+    shared: those where another chain shares the corner, and whether the director's row there is its own.
 
-    rows: number of its own rows; free: (rows, 3) bool, those that can move; multipliers: number of
-    constraints; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass; masses: (m,)
-    bound by binding (m, rows); mass: (rows, rows) [kg], for each of the three axes; carried: force [N] whose
-    rounding the residual cannot fall below; rest: value at rest (k, 3) [m] of what its first rows change,
-    points and then directors, which turn as arms do; axis: the points (p, 3) among them, where its segments
-    end; corners: its ends (0, 1) at which a corner of the sheet holds it.
+    rows: number of its own rows; free: (rows, 3) bool, those that can move; multipliers: those among them
+    that are such; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass; masses:
+    (m,) bound by binding (m, rows); mass: (rows, rows) [kg], for each of the three axes; carried: force [N]
+    whose rounding the residual cannot fall below; rest: value at rest (k, 3) [m] of what its first rows
+    change, points and then directors, which turn as arms do; axis: the points (p, 3) among them, where its
+    segments end; corners: its ends (0, 1) at which a corner of the sheet holds it.
     """
 
     def __init__(
@@ -57,39 +57,42 @@ class BoundChain:
         masses: np.ndarray,
         scale: float,
         held: tuple[int, ...] = (),
-        shared: Mapping[int, SharedEnd] | None = None,
+        shared: Mapping[int, bool] | None = None,
+        start: int = 0,
     ):
         first = chains[0]
         self.edge: str = first.edge
-        self._curvatures = [chain.curvatures() for chain in chains]
         self.names, self._chains = names, tuple(chains)
         edge = EDGES[first.edge]
         along = np.eye(3)[edge.along_axis]
         offsets = np.array([chain.axis_height(sheet.thickness) for chain in chains])
         self.offset = float(offsets.mean())
-        start = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
+        origin = np.append(np.array(sheet.edge_ends(first.edge)[0]), self.offset)
         axes = np.array([along, UP, edge.outward])
         self._parts = parts_of_a_segment(first, len(lattice.edge_columns(first.edge)) - 1)
         divided = first.replace(segments=self._parts * first.segments, curvature=0.0)
-        self.frames = frames = Frames(divided, start, sheet.lengths[edge.along_axis], axes, held, shared)
+        self.frames = frames = Frames(divided, origin, sheet.lengths[edge.along_axis], axes, held, shared)
         self._scale = scale * frames.length  # σ ds
-        self._pieces = [mean_curvatures(chain, frames) for chain in chains]
+        self._commands = [(mean_curvatures(chain, frames), chain.curvatures()) for chain in chains]
         self.rest, self.axis, self.corners = frames.rest, frames.rest[: frames.points], frames.held
-        self.multipliers = frames.constraints
-        self.rows = frames.coordinates + frames.multiplier_rows
-        multipliers = np.arange(3 * frames.multiplier_rows).reshape(-1, 3) < self.multipliers
+        own = -(-frames.constraints // 3)
+        self.rows = frames.coordinates + own
+        self.place = slice(start, start + self.rows)
+        multipliers = np.arange(3 * own).reshape(-1, 3) < frames.constraints
         self.free = np.concatenate([frames.free, multipliers])
-        self.pairs = frames.pairs()
+        self.multipliers = np.concatenate([np.zeros_like(frames.free), multipliers])
         self.masses = masses
         rest = lattice.positions[masses]
-        inside = rest @ along - start @ along
-        bound = bind(frames, self.rows, inside, rest[:, 2] - self.offset)
-        self.binding, self.share, self._arms = bound.rows, bound.share, bound.arms
+        inside, height = (rest - origin) @ along, rest[:, 2] - self.offset
+        self.binding, self.share, self._arms = bind(frames, self.rows, inside, height)
         self.mass = mass_matrix(frames, self.rows, chains, offsets - self.offset)
         self._stiffness = np.array([c.bending_stiffness / frames.length / frames.share for c in chains])
         self.carried = float(self._stiffness.sum(axis=0).max(initial=0.0) / frames.length)
         self._damping = np.array([c.damping_time for c in chains]) @ self._stiffness
         self.damped = bool(self._damping.any())
+        anywhere = frames.length * np.random.default_rng(0).standard_normal((self.rows, 3))
+        touched = self.tangent(anywhere, Drive()).any(axis=(1, 3))
+        self.pairs = touched | (self.mass != 0.0) | np.eye(self.rows, dtype=bool)
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
         """Weight of the segments: what the mass matrix makes of an acceleration of the points, for in a
@@ -97,57 +100,40 @@ class BoundChain:
         weight: np.ndarray = self.mass[:, : self.frames.points].sum(axis=1)[:, None] * acceleration
         return weight
 
-    def energy(self, y: np.ndarray, drive: Drive) -> float:
-        """Return the joints' energy [J]."""
-        springs, offset = self._joint_springs(drive)
-        stored = joints.derivatives(self._measures(self._vectors(y)[1]), *springs)[0]
-        return float(stored.sum()) + offset
-
     def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
         """Return the joints' energy [J] and the gradient of energy + σ ds λ·Φ, (rows, 3) [N]."""
-        v, values = self._vectors(y)
-        springs, offset = self._joint_springs(drive)
-        stored, by_measure, _ = joints.derivatives(self._measures(values), *springs)
-        return float(stored.sum()) + offset, self._gradient(y, v, values, by_measure)
+        at, springs, offset = self.frames.at(y), *self._joint_springs(drive)
+        stored, by_measure, _ = joints.derivatives(at.measures, *springs)
+        return float(stored.sum()) + offset, self._gradient(y, at.slopes, at.residuals, by_measure)
 
     def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
         """Discrete gradient: constraint gradients at the mean, where their differences are exact.
 
         The multiplier rows hold the constraints at the end; their multipliers are the end's.
         """
-        mean = 0.5 * (start + end)
-        mean[self.frames.coordinates :] = end[self.frames.coordinates :]
-        before, values = self._vectors(start)[1], self._vectors(end)[1]
+        before, middle, after = (self.frames.at(y) for y in (start, 0.5 * (start + end), end))
         springs, _ = self._joint_springs(drive)
-        by_measure = joints.average_gradient(self._measures(before), self._measures(values), *springs)
-        return self._gradient(mean, self._vectors(mean)[0], values, by_measure)
+        by_measure = joints.average_gradient(before.measures, after.measures, *springs)
+        return self._gradient(end, middle.slopes, after.residuals, by_measure)
 
     def tangent(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """Return joint stiffness, constraint gradients and both curvatures, (rows, 3, rows, 3) [N/m]."""
         frames, count = self.frames, self.frames.coordinates
-        (v, values), (springs, _) = self._vectors(y), self._joint_springs(drive)
-        _, by_measure, hessian = joints.derivatives(self._measures(values), *springs)
-        gradient = frames.gradient(v)
-        by_constraint = self._scale * gradient[: self.multipliers]
-        of_joints = gradient[self.multipliers :].reshape(-1, 3, 3 * count)
-        out = np.zeros((self.rows, 3, self.rows, 3))
+        at, (springs, _) = frames.at(y), self._joint_springs(drive)
+        _, by_measure, hessian = joints.derivatives(at.measures, *springs)
+        gradient = frames.gradient(at.slopes).reshape(len(at.slopes), -1)
+        of_joints = gradient[frames.constraints :].reshape(-1, 3, 3 * count)
         bent = np.einsum("jak,jab,jbl->kl", of_joints, hessian, of_joints, optimize=True)
+        out = np.zeros((self.rows, 3, self.rows, 3))
         out[:count, :, :count, :] = bent.reshape(count, 3, count, 3)
         geometric = frames.curvature_of(self._weights(y, by_measure))
         for axis in range(3):
             out[:count, axis, :count, axis] += geometric
         flat = out.reshape(3 * self.rows, 3 * self.rows)
-        place = 3 * count + np.arange(self.multipliers)
-        flat[place, : 3 * count] = by_constraint.reshape(self.multipliers, 3 * count)
-        flat[: 3 * count, place] = by_constraint.reshape(self.multipliers, 3 * count).T
+        place = 3 * count + np.arange(frames.constraints)
+        flat[place, : 3 * count] = self._scale * gradient[: frames.constraints]
+        flat[: 3 * count, place] = flat[place, : 3 * count].T
         return out
-
-    def constraint_gradient(self, y: np.ndarray) -> np.ndarray:
-        """Return σ ds times the gradients of the constraints, (multipliers, rows, 3)."""
-        gradient = np.zeros((self.multipliers, self.rows, 3))
-        own = self.frames.gradient(self.frames.vectors(y))[: self.multipliers]
-        gradient[:, : self.frames.coordinates] = self._scale * own
-        return gradient
 
     def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the power taken [W] and the force (rows, 3) [N] of c φ̇ on every joint's angles."""
@@ -169,22 +155,19 @@ class BoundChain:
         return out
 
     def reactions(self, acting: Acting) -> dict[str, np.ndarray]:
-        """Return the force (3,) [N] on the points that the base holds, by its name among reactions."""
-        if self.frames.base == "free":
-            return {}
-        whole = acting.on_rows + self.binding.T @ acting.on_masses
-        return {self._chains[0].held_as: whole[self.frames.base_points].sum(axis=0)}
+        """Return the force (3,) [N] on the point that the base holds, by its name among reactions."""
+        at = self.frames.base_joint
+        return {} if at is None else {self._chains[0].held_as: acting.on_rows[at]}
 
     def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin on the points and directors that are held, and on the
         frame that a base is."""
-        count = self.frames.coordinates
-        whole = np.where(self.free, 0.0, acting.on_rows + self.binding.T @ acting.on_masses)[:count]
+        at, count = self.frames.at(acting.y), self.frames.coordinates
+        whole = np.where(self.free, 0.0, acting.on_rows)[:count]
         moment = np.cross(self.frames.rest + acting.y[:count], whole).sum(axis=0)
         on_base = np.cross(self._arms, acting.on_masses).sum(axis=0)
-        (v, values), (springs, _) = self._vectors(acting.y), self._joint_springs(drive)
-        _, by_measure, _ = joints.derivatives(self._measures(values), *springs)
-        return moment + on_base + self.frames.ground_couple(v, self._weights(acting.y, by_measure))
+        _, by_measure, _ = joints.derivatives(at.measures, *self._joint_springs(drive)[0])
+        return moment + on_base + self.frames.ground_couple(at, self._weights(acting.y, by_measure))
 
     def place_corner(self, end: int, layers: np.ndarray, moved: np.ndarray) -> np.ndarray:
         """Displacement (rows, 3) [m] that follows a corner's layers at the heights (l,), moved by (l, 3)."""
@@ -196,15 +179,15 @@ class BoundChain:
         y[: frames.coordinates][self.free[: frames.coordinates]] = 0.0
         return y
 
-    def corner_force(self, end: int, exerted: np.ndarray) -> np.ndarray:
+    def corner_force(self, end: int, on_rows: np.ndarray) -> np.ndarray:
         """Force (3,) [N] that holds the point at a corner, from what is exerted on the rows."""
-        force: np.ndarray = np.where(self.free, 0.0, exerted)[self.frames.end_point(end)]
-        return force
+        point = self.frames.end_point(end)
+        return np.where(self.free[point], 0.0, on_rows[point])
 
     def wrenches(self, acting: Acting) -> np.ndarray:
         """Return force and moment (names, segments, 6) [N, N·m] on the sheet about the middle of each
         segment's axis; chains of a pair share them evenly."""
-        frames = self.frames
+        frames, exerted = self.frames, acting.on_rows
         place = frames.rest + acting.y[: frames.coordinates]
         first = self._parts * np.arange(frames.segments // self._parts)
         middle = 0.5 * (place[first + self._parts // 2] + place[first + (self._parts + 1) // 2])
@@ -213,7 +196,6 @@ class BoundChain:
         force = share @ acting.on_masses
         moment = np.einsum("sm,smq->sq", share, np.cross(arm, acting.on_masses[None, :, :]))
         total = np.concatenate([force, moment], axis=1)
-        exerted = acting.on_rows + self.binding.T @ acting.on_masses
         for end in frames.corners:  # of a free row only another chain's part of the corner is left
             segment, row = end * (len(first) - 1), frames.corner_row[end]
             push = exerted[frames.end_point(end)] if end in frames.shared else self.corner_force(end, exerted)
@@ -222,50 +204,34 @@ class BoundChain:
             total[segment] -= np.concatenate([push, np.cross(lever, push) + couple])
         return np.tile(total / len(self.names), (len(self.names), 1, 1))
 
-    def curvature(self, member: int, drive: Drive) -> np.ndarray:
-        """Commanded intrinsic curvature at every joint of one chain, (j,) [1/m]."""
-        values = self._pieces[member] @ self._curvatures[member].at(drive.time)
-        return drive.load_factor * values[self.frames.command]
-
     def _joint_springs(self, drive: Drive) -> tuple[tuple[np.ndarray, np.ndarray], float]:
         """Stiffness (j,) and rest angles (j, 2) of all chains together, and the energy that their rest angles
         hold against each other [J]."""
-        frames = self.frames
-        component = 1 if self._chains[0].plane == "inplane" else 0
-        wanted = np.array(
-            [self.curvature(m, drive) * frames.length * frames.share for m in range(len(self._chains))]
-        )
-        stiffness = self._stiffness.sum(axis=0)
+        frames, stiffness = self.frames, self._stiffness.sum(axis=0)
+        curvature = np.array([pieces @ values.at(drive.time) for pieces, values in self._commands])
+        wanted = drive.load_factor * curvature[:, frames.command] * frames.length * frames.share
+        rest = np.zeros((len(stiffness), 2))
         mean = (self._stiffness * wanted).sum(axis=0) / stiffness
-        rest = np.zeros((len(mean), 2))
-        rest[:, component] = mean
+        rest[:, 1 if self._chains[0].plane == "inplane" else 0] = mean
         held = 0.5 * float((self._stiffness * wanted**2).sum() - (stiffness * mean**2).sum())
         return (stiffness, rest), held
 
-    def _vectors(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Vectors of the frames, and the quantities of these: constraints, then measures."""
-        v = self.frames.vectors(y)
-        return v, self.frames.products(v)
-
-    def _measures(self, values: np.ndarray) -> np.ndarray:
-        return values[self.multipliers :].reshape(-1, 3)
-
     def _weights(self, y: np.ndarray, by_measure: np.ndarray) -> np.ndarray:
         """What the energy + σ ds λ·Φ changes with every quantity."""
-        multipliers = y[self.frames.coordinates :].ravel()[: self.multipliers]
+        multipliers = y[self.frames.coordinates :].ravel()[: self.frames.constraints]
         return np.concatenate([self._scale * multipliers, by_measure.ravel()])
 
     def _gradient(
-        self, y: np.ndarray, v: np.ndarray, values: np.ndarray, by_measure: np.ndarray
+        self, y: np.ndarray, slopes: np.ndarray, residuals: np.ndarray, by_measure: np.ndarray
     ) -> np.ndarray:
         out, count = np.zeros((self.rows, 3)), self.frames.coordinates
-        out[:count] = np.tensordot(self._weights(y, by_measure), self.frames.gradient(v), axes=1)
-        out[count:].ravel()[: self.multipliers] = self._scale * values[: self.multipliers]
+        out[:count] = np.tensordot(self._weights(y, by_measure), self.frames.gradient(slopes), axes=1)
+        out[count:].ravel()[: len(residuals)] = self._scale * residuals
         return out
 
     def _angle_gradient(self, y: np.ndarray) -> np.ndarray:
         """Derivatives (j, 2, 3 coordinates) of the joints' angles by the rows."""
-        v, values = self._vectors(y)
-        _, first, _ = joints.angles(self._measures(values))
-        gradient = self.frames.gradient(v)[self.multipliers :]
+        at = self.frames.at(y)
+        _, first, _ = joints.angles(at.measures)
+        gradient = self.frames.gradient(at.slopes)[self.frames.constraints :]
         return np.matmul(first, gradient.reshape(len(first), 3, -1))

@@ -9,13 +9,8 @@ point and director where it stands, so at a corner it holds the other chain's en
 to the sheet: corners that another support or a motion takes.
 
 What two chains both hold must be one equation, or the equations are singular. Scenes refuse what holds a
-chain along itself twice (`scenes.meaning.corners`). Across the sheet, with n the director's small tilt
-(n_x, n_y), a chain along x has one n_y throughout, for it is untwisted, and, "inplane", one n_x too:
-
-    z(end) − z(start) + L n_x = 0,      n and z of the corner = n and z of both chains' ends
-
-and likewise along y, what is held being 0. Of the conditions at corners those that follow from the rest of
-this linear system are left out.
+chain along itself twice (`scenes.meaning.corners`). Of what is across the sheet the constraints at corners
+that follow, on the flat sheet, from all others and from those at corners before them are left out.
 """
 
 from __future__ import annotations
@@ -25,11 +20,10 @@ from itertools import combinations
 
 import numpy as np
 
-from lumped.actuators.frames import SharedEnd
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Chain, Scene, holds_director
 
-Condition = dict[tuple[object, ...], float]  # the coefficients of its unknowns
+FOLLOWS = 1e-9  # of a gradient: what rounding leaves where it is a combination of others
 
 
 @dataclass(frozen=True)
@@ -91,39 +85,16 @@ def shared_corners(scene: Scene, lattice: Lattice, taken: np.ndarray) -> list[Sh
     return found
 
 
-def shared_ends(scene: Scene, shared: list[SharedCorner]) -> dict[str, dict[int, SharedEnd]]:
-    """What each chain's ends bring to the corners that it shares, by edge and end (0 or 1)."""
-    chains = _chains(scene)
-    still = {edge for edge, chain in chains.items() if chain.base != "free" or held_ends(scene, edge)}
-    rows: list[Condition] = [  # z(1) − z(0) + L n_along = 0, with L n_along the unknown
-        {(edge, 0, "level"): -1.0, (edge, 1, "level"): 1.0, (edge, "n", "along"): 1.0}
-        for edge, chain in chains.items()
-        if chain.plane == "inplane" and edge not in still
-    ]
-    brought: dict[str, dict[int, dict[str, bool]]] = {edge: {} for edge in chains}
-    for part in ("level", "across", "along"):
-        for corner in shared:
-            for edge, end in zip(corner.edges, corner.ends, strict=True):
-                here = brought[edge].setdefault(end, {"own": edge == corner.edges[0]})
-                asks = part == "across" or chains[edge].plane == "inplane"
-                row = _condition(corner, edge, end, part, edge in still)
-                here[part] = not (asks and _follows(row, rows))
-                if asks and here[part]:
-                    rows.append(row)
-    return {edge: {end: SharedEnd(**here) for end, here in ends.items()} for edge, ends in brought.items()}
-
-
-def _condition(corner: SharedCorner, edge: str, end: int, part: str, still: bool) -> Condition:
-    """That z ("level") or a component of n, along or across the chain, is the chain's at a corner: what is
-    held still is no unknown."""
-    along = EDGES[edge].along_axis
-    of_corner = {"level": 2, "along": along, "across": 1 - along}[part]
-    of_chain = (edge, end if part == "level" else "n", part)
-    return {(*corner.edges, of_corner): -1.0} | ({} if still else {of_chain: 1.0})
-
-
-def _follows(row: Condition, rows: list[Condition]) -> bool:
-    """Whether a linear condition follows from others."""
-    unknowns = sorted({unknown for one in (row, *rows) for unknown in one}, key=str)
-    matrix = np.array([[one.get(unknown, 0.0) for unknown in unknowns] for one in (*rows, row)])
-    return bool(np.linalg.matrix_rank(matrix) == np.linalg.matrix_rank(matrix[:-1]))
+def redundant(gradient: np.ndarray, rank: np.ndarray) -> list[int]:
+    """Return which rows of the constraints' gradient (c, n) by the free rows follow from the others; those of
+    rank 0, which come first, do not, rank (c,)."""
+    basis, found = np.linalg.qr(gradient[rank == 0].T)[0], []
+    for number in np.argsort(rank, kind="stable")[np.sum(rank == 0) :].tolist():
+        left = gradient[number] - basis @ (basis.T @ gradient[number])
+        left -= basis @ (basis.T @ left)
+        length = float(np.linalg.norm(left))
+        if length <= FOLLOWS * np.linalg.norm(gradient[number]):
+            found.append(number)
+        else:
+            basis = np.column_stack([basis, left / length])
+    return found

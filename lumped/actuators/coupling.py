@@ -12,81 +12,77 @@ moved rigidly, the sheet alone holds it. Chains on one edge are one actuator mod
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 
 import numpy as np
 
 from lumped.actuators.actuator import Acting, Drive, RigidMotion
 from lumped.actuators.chain import BoundChain
-from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, shared_corners, shared_ends
+from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, redundant, shared_corners
 from lumped.coverage import held_columns, reached_parts
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene
 
+NOTHING = np.empty((0, 3))
+
 
 class Coupling:
-    """The actuators with the place of each one's rows; all arrays over masses and rows together."""
+    """The actuators with the place of each one's rows; all arrays over masses and rows together.
+
+    bodies: those with rows of their own, in the order of these; moved: (masses,) bool, those of edges moved
+    rigidly; algebraic: (size, 3) bool, components that are multipliers; free: (rows, 3) bool, components of
+    the bodies' rows that can move.
+    """
 
     def __init__(self, scene: Scene, lattice: Lattice):
         self.masses = lattice.mass_count
         self._positions = lattice.positions
-        motions = _motions(scene, lattice)
-        self.moved = np.zeros(lattice.mass_count, dtype=bool)  # masses of edges moved rigidly
-        for motion in motions:
+        self._motions = _motions(scene, lattice)
+        self.moved = np.zeros(lattice.mass_count, dtype=bool)
+        for motion in self._motions:
             self.moved[motion.masses] = True
-        chains, shared = _chains(scene, lattice, self.moved)
-        ends = np.cumsum([lattice.mass_count, *(chain.rows for chain in chains)])
-        places = [slice(int(a), int(b)) for a, b in pairwise(ends)]
-        self._motions: tuple[RigidMotion, ...] = motions
-        self._bodies: list[tuple[BoundChain, slice]] = list(zip(chains, places, strict=True))
-        begin = {chain.edge: (chain, place.start) for chain, place in zip(chains, places, strict=True)}
-        self.ties = [_tie(corner, *(begin[edge] for edge in corner.edges)) for corner in shared]
+        self.bodies, shared = _chains(scene, lattice, self.moved)
+        by_edge: dict[str, BoundChain | RigidMotion] = {one.edge: one for one in self._motions}
+        chains = {body.edge: body for body in self.bodies}
+        self.ties = [_tie(corner, *(chains[edge] for edge in corner.edges)) for corner in shared]
         bases = {edge: next(iter(here.values())).held_as for edge, here in scene.chains().items()}
-        self._held_by = {  # number and end of a chain that another's base holds → the base
-            (number, end): bases[beside]
-            for number, chain in enumerate(chains)
+        self._held_by = [  # chain and end that another's base holds, and the base
+            (chain, end, bases[beside])
+            for chain in self.bodies
             for end in chain.corners
             if (beside := based_beside(scene, chain.edge, end))
-        }
-        by_edge: dict[str, tuple[BoundChain | RigidMotion, slice]] = {
-            motion.edge: (motion, slice(0)) for motion in motions
-        }
-        by_edge |= {body.edge: (body, place) for body, place in self._bodies}
+        ]
+        by_edge |= chains
         self._all = [by_edge[edge] for edge in dict.fromkeys(str(a.edge) for a in scene.actuators)]
         self._layers = {edge: lattice.edge_columns(edge) for edge in EDGES}
-        self.size = int(ends[-1])
-        self.multipliers = sum(chain.multipliers for chain in chains)
-        self.algebraic = np.zeros((self.size, 3), dtype=bool)  # components that are multipliers
-        for body, place in self._bodies:
-            first = body.rows - -(-body.multipliers // 3)
-            self.algebraic[place][first:] = body.free[first:]
+        self.size = lattice.mass_count + sum(chain.rows for chain in self.bodies)
+        none = np.zeros((self.masses, 3), dtype=bool)
+        free = np.concatenate([none, *(chain.free for chain in self.bodies)])
+        self.algebraic = np.concatenate([none, *(chain.multipliers for chain in self.bodies)])
+        self.free = free[self.masses :]
+        if self.ties:
+            rank = np.concatenate([chain.frames.rank for chain in self.bodies])
+            left_out = tuple(np.argwhere(self.algebraic)[redundant(self._free_gradient(), rank)].T)
+            self.algebraic[left_out] = free[left_out] = False
+        self.multipliers = int(self.algebraic.sum())
 
-    @property
-    def bodies(self) -> tuple[BoundChain, ...]:
-        """The actuators with rows of their own, in the order of these."""
-        return tuple(body for body, _ in self._bodies)
-
-    @property
-    def free(self) -> np.ndarray:
-        """Components of the bodies' rows that can move, (rows, 3) bool."""
-        return np.concatenate([np.empty((0, 3), bool), *(body.free for body in self.bodies)])
+    def _free_gradient(self) -> np.ndarray:
+        """What `constraint_gradient` gives at rest, of rows that can move and are not tied to others."""
+        gradient = self.constraint_gradient(np.zeros((self.size, 3))) * self.free
+        for tie in self.ties:
+            rows, others = tie.rows - self.masses, tie.others - self.masses
+            gradient[:, others] += np.einsum("crq,rs->csq", gradient[:, rows], tie.weights)
+            gradient[:, rows] = 0.0
+        return gradient.reshape(len(gradient), -1)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
         """Rows that act on each other, as ordered pairs of numbers after the masses."""
-        found = [np.argwhere(a.pairs) + place.start for a, place in self._bodies]
+        found = [np.argwhere(body.pairs) + body.place.start for body in self.bodies]
         rows, columns = np.concatenate([np.empty((0, 2), int), *found]).T
         return rows, columns
 
-    def bindings(self) -> list[tuple[np.ndarray, np.ndarray, int]]:
-        """For every body: bound masses (m,), binding (m, rows), number of its first row."""
-        return [(a.masses, a.binding, place.start) for a, place in self._bodies]
-
     def carried(self) -> np.ndarray:
         """Forces (size,) [N] on the actuators' rows whose rounding the residual cannot fall below."""
-        forces = np.zeros(self.size)
-        for body, place in self._bodies:
-            forces[place] = body.carried
-        return forces
+        return np.concatenate([np.zeros(self.masses), *(np.full(a.rows, a.carried) for a in self.bodies)])
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
         """Dead forces (rows, 3) [N] of a uniform acceleration on the actuators' rows."""
@@ -95,28 +91,18 @@ class Coupling:
     def axes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Of every edge with chains: the rows of the points where their segments end, (p,), and the points'
         rest places (p, 3) [m]; of several chains on an edge the mean of their axes."""
-        return {
-            body.edge: (place.start + np.arange(len(points)), points)
-            for body, place in self._bodies
-            if len(points := body.axis)
-        }
+        return {body.edge: (body.place.start + np.arange(len(body.axis)), body.axis) for body in self.bodies}
 
-    def corners(self) -> list[tuple[BoundChain, slice, int, np.ndarray]]:
-        """Ends of bodies held at corners: body, its place, end (0 or 1), the corner's masses (layers,)."""
-        return [
-            (body, place, end, self._layers[body.edge][-end])
-            for body, place in self._bodies
-            for end in body.corners
-        ]
+    def corners(self) -> list[tuple[BoundChain, int, np.ndarray]]:
+        """Ends of bodies held at corners: body, end (0 or 1), the corner's masses (layers,)."""
+        ends = [(body, end) for body in self.bodies for end in body.corners]
+        return [(body, end, self._layers[body.edge][-end]) for body, end in ends]
 
     def follow(self, placed: np.ndarray) -> None:
         """Put chains' ends and what is bound to them where their corners are put, in `placed` (size, 3)."""
-        moved: dict[int, np.ndarray] = {}
-        for chain, place, end, column in self.corners():
-            y = chain.place_corner(end, self._positions[column, 2], placed[column])
-            moved[place.start] = moved.get(place.start, 0.0) + y
-            placed[place] = moved[place.start]
-            placed[chain.masses] = chain.binding @ moved[place.start]
+        for chain, end, column in self.corners():
+            placed[chain.place] += chain.place_corner(end, self._positions[column, 2], placed[column])
+            placed[chain.masses] = chain.binding @ placed[chain.place]
 
     def driven(self, drive: Drive) -> np.ndarray:
         """Prescribed displacement (size, 3) [m] of the masses of moved edges."""
@@ -135,16 +121,16 @@ class Coupling:
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
         """Add the actuators' internal force to `force` (size, 3) [N]; their energy [J]."""
         energy = 0.0
-        for body, place in self._bodies:
-            stored, gradient = body.force(u[place], drive)
+        for body in self.bodies:
+            stored, gradient = body.force(u[body.place], drive)
             energy += stored
-            force[place] += gradient
+            force[body.place] += gradient
         return energy
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive, force: np.ndarray) -> None:
         """Add the energy-conserving average of the internal force between two displacements."""
-        for body, place in self._bodies:
-            force[place] += body.average_force(start[place], end[place], drive)
+        for body in self.bodies:
+            force[body.place] += body.average_force(start[body.place], end[body.place], drive)
 
     def add_tangent(
         self,
@@ -158,23 +144,24 @@ class Coupling:
         """Add scale × the tangent and damping × the derivative of the damping force by the velocity to the
         3×3 blocks at `slots`, one for every pair of `pairs`."""
         parts = [np.empty((0, 3, 3))]
-        for body, place in self._bodies:
-            dense = scale * body.tangent(u[place], drive)
+        for body in self.bodies:
+            dense = scale * body.tangent(u[body.place], drive)
             if damping and body.damped:
-                dense += damping * body.damping_tangent(u[place])
+                dense += damping * body.damping_tangent(u[body.place])
             rows, columns = np.nonzero(body.pairs)
             parts.append(dense[rows, :, columns, :])
         np.add.at(blocks, slots, np.concatenate(parts))
 
     def constraint_gradient(self, u: np.ndarray) -> np.ndarray:
-        """Derivatives (multipliers, rows, 3) of all constraints by the rows after the masses."""
-        out = np.zeros((self.multipliers, self.size - self.masses, 3))
-        first = 0
-        for body, place in self._bodies:
-            rows = slice(place.start - self.masses, place.stop - self.masses)
-            out[first : first + body.multipliers, rows] = body.constraint_gradient(u[place])
-            first += body.multipliers
-        return out
+        """Return derivatives (multipliers, rows, 3) of all constraints by the rows after the masses: the
+        multipliers' rows of the tangent."""
+        of_multipliers = [np.empty((0, self.size - self.masses, 3))]
+        for body in self.bodies:
+            rows = body.tangent(u[body.place], Drive())[self.algebraic[body.place]]
+            whole = np.zeros((len(rows), self.size - self.masses, 3))
+            whole[:, body.place.start - self.masses : body.place.stop - self.masses] = rows
+            of_multipliers.append(whole)
+        return np.concatenate(of_multipliers)
 
     def mass_blocks(self) -> np.ndarray:
         """Mass of every pair of `pairs` [kg]."""
@@ -182,15 +169,15 @@ class Coupling:
 
     def command_work(self, u: np.ndarray, drive: Drive, later: Drive) -> float:
         """Work [J] of the commands going from one drive to the next at displacement u."""
-        return sum(b.energy(u[at], later) - b.energy(u[at], drive) for b, at in self._bodies)
+        return sum(b.force(u[b.place], later)[0] - b.force(u[b.place], drive)[0] for b in self.bodies)
 
     def add_damping_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
         """Add the damping force to `force` (size, 3) [N]; the power taken [W]."""
         power = 0.0
-        for body, place in self._bodies:
-            taken, resisting = body.damping_force(u[place], v[place])
+        for body in self.bodies:
+            taken, resisting = body.damping_force(u[body.place], v[body.place])
             power += taken
-            force[place] += resisting
+            force[body.place] += resisting
         return power
 
     def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
@@ -199,11 +186,14 @@ class Coupling:
         found: dict[str, np.ndarray] = {}
         for actuator, acting in self._acting(np.zeros_like(exerted), exerted):
             found |= actuator.reactions(acting)
-        for (chain, end), base in self._held_by.items():
-            body, place = self._bodies[chain]
-            on_rows = exerted[place] + body.binding.T @ exerted[body.masses]
-            found[base] = found[base] + body.corner_force(end, on_rows)
+        for body, end, base in self._held_by:
+            found[base] = found[base] + body.corner_force(end, self.on_rows(body, exerted))
         return found
+
+    def on_rows(self, body: BoundChain, exerted: np.ndarray) -> np.ndarray:
+        """Return what holds a body's rows (rows, 3) [N], with the masses that they bind."""
+        bound: np.ndarray = exerted[body.place] + body.binding.T @ exerted[body.masses]
+        return bound
 
     def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
         """Moment (3,) [N·m] about the origin of what holds the actuators, corners of chains among it, from
@@ -217,9 +207,9 @@ class Coupling:
         """Moment (3,) [N·m] about the origin of forces (size, 3) on the bodies' rows: points take it at
         their places, directors as they turn."""
         total = np.zeros(3)
-        for body, place in self._bodies:
-            rest = body.rest
-            total += np.cross(rest + u[place][: len(rest)], force[place][: len(rest)]).sum(axis=0)
+        for body in self.bodies:
+            own = slice(body.place.start, body.place.start + len(body.rest))
+            total += np.cross(body.rest + u[own], force[own]).sum(axis=0)
         return total
 
     def wrenches(self, u: np.ndarray, exerted: np.ndarray) -> dict[str, np.ndarray]:
@@ -233,10 +223,11 @@ class Coupling:
     def _acting(
         self, u: np.ndarray, exerted: np.ndarray
     ) -> Iterator[tuple[BoundChain | RigidMotion, Acting]]:
-        for actuator, place in self._all:
-            masses = actuator.masses
-            positions = self._positions[masses] + u[masses]
-            yield actuator, Acting(positions, exerted[masses], exerted[place], u[place])
+        for actuator in self._all:
+            masses, own = actuator.masses, (NOTHING, NOTHING)
+            if isinstance(actuator, BoundChain):
+                own = self.on_rows(actuator, exerted), u[actuator.place]
+            yield actuator, Acting(self._positions[masses] + u[masses], exerted[masses], *own)
 
 
 def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:
@@ -257,32 +248,36 @@ def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Bou
     for support in scene.supports:
         taken[held_columns(lattice, support, reached_parts(scene))] = True
     shared = shared_corners(scene, lattice, taken)
-    brought = shared_ends(scene, shared)
     found: list[BoundChain] = []
+    start = lattice.mass_count
     for edge, here in scene.chains().items():
-        columns = lattice.edge_columns(edge)
+        columns, held = lattice.edge_columns(edge), held_ends(scene, edge)
         others = taken.copy()
-        for end in held_ends(scene, edge):
-            others[columns[-end]] = True
+        others[columns[[-end for end in held]]] = True
         masses = columns.ravel()
         masses = masses[~others[masses]]
         taken[masses] = True
         scale = scene.material.young * scene.sheet.thickness
-        held = held_ends(scene, edge)
+        own = {
+            end: edge == corner.edges[0]
+            for corner in shared
+            for other, end in zip(corner.edges, corner.ends, strict=True)
+            if other == edge
+        }
         chain = BoundChain(
-            list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, held, brought[edge]
+            list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, held, own, start
         )
         found.append(chain)
+        start += chain.rows
     return found, shared
 
 
-def _tie(corner: SharedCorner, first: tuple[BoundChain, int], second: tuple[BoundChain, int]) -> Tie:
+def _tie(corner: SharedCorner, one: BoundChain, other: BoundChain) -> Tie:
     """Point and director of the second chain from those of the first; axes may lie at different heights."""
-    rows = [
-        begin + np.array([chain.frames.end_point(end), chain.frames.corner_row[end]])
-        for (chain, begin), end in zip((first, second), corner.ends, strict=True)
-    ]
-    (one, _), (other, _) = first, second
+    others, rows = (
+        chain.place.start + np.array([chain.frames.end_point(end), chain.frames.corner_row[end]])
+        for chain, end in zip((one, other), corner.ends, strict=True)
+    )
     above = (other.offset - one.offset) / one.frames.length
     weights = np.array([[1.0, above], [0.0, other.frames.length / one.frames.length]])
-    return Tie(rows[1], rows[0], weights)
+    return Tie(rows, others, weights)

@@ -22,8 +22,9 @@ FINE = 24  # parts that are enough: 0.05 % off where a strip is turned by more t
 
 def parts_of_a_segment(chain: Chain, cells: int) -> int:
     """Return into how many parts each segment is divided beside so many cells; a chain has two at least, or
-    it could not bend."""
-    return -(-max(2, min(cells, FINE)) // chain.segments)
+    it could not bend, and with a base in the middle an even number, for a joint to be there."""
+    parts = -(-max(2, min(cells, FINE)) // chain.segments)
+    return parts + parts * chain.segments % 2 * (chain.base == "middle")
 
 
 def mean_curvatures(chain: Chain, frames: Frames) -> np.ndarray:

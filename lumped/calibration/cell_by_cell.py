@@ -6,11 +6,12 @@ being softer, is the mid-surface's (`lumped.calibration.closed_form`)."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
+from lumped import moduli
 from lumped.calibration.calibration import Calibration
 from lumped.grid_lines import Lines, grid_lines
 from lumped.sections import CellSection
@@ -20,10 +21,13 @@ from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import Grid
 
 
-class EachCell(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class EachCell:
     """sides (rows, columns, 2) [m] and section (rows, columns, …) of the cells, of one where all are alike;
     there: which there are, (rows, columns); cells: the sections as given, where they differ."""
 
+    sheet: Sheet
+    material: Material
     grid: Grid
     grading: Graded
     lines: tuple[Lines, Lines]
@@ -32,14 +36,16 @@ class EachCell(NamedTuple):
     section: CellSection
     there: np.ndarray
 
+    @cached_property
     def present(self) -> tuple[np.ndarray, CellSection]:
         """Sides and section of the cells that there are, (m, 2) and (m, …)."""
-        if self.there.all():
-            count = self.there.size
-            return self.sides.reshape(-1, 2), self.section.each(
-                lambda part: part.reshape(count, *part.shape[2:])
-            )
         return self.sides[self.there], self.section.each(lambda part: part[self.there])
+
+    @cached_property
+    def target(self) -> moduli.Moduli:
+        """Moduli of the cells that there are (m, …), with MacNeal's S* as their shear stiffness."""
+        sides, section = self.present
+        return moduli.of_section(section, sides)
 
     def placed(self, values: np.ndarray) -> np.ndarray:
         """Values (…, m) of the cells that there are among all of them, (…, rows, columns), 0 elsewhere."""
@@ -70,7 +76,8 @@ def each_cell(
     sides = np.stack(np.meshgrid(*widths), axis=-1)
     if cells is not None and cells.growth is not None:
         sides = sides * cells.growth
-    return EachCell(grid, grading, lines, cells, sides, section, section.bending[..., 0, 0] > 0.0)
+    there = section.bending[..., 0, 0] > 0.0
+    return EachCell(sheet, material, grid, grading, lines, cells, sides, section, there)
 
 
 def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: CellSection) -> Calibration:

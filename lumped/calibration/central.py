@@ -13,23 +13,22 @@ with σ = Σ z_k²/lz² of layers, σ' of gaps, G11 lz² = S*x lx²/s, G12 lz² 
 diagonals have C66, axial links what is left of C11, C11 − r² C66, cross-layer links along the cell G11 − r²
 G12, and lz is such that A11 is matched. Cells of r² > a/b would ask for negative axial links: there diagonals
 carry what leaves these at zero, and D66 is missed.
+
+With 1, 1/3, 1 whatever the sheet's ν they are `cauchy`, the central-force lattice that is isotropic, ka = 2
+kd on the square cells that it is for; its lz is such that A66 is a third of A, and A11 is matched but for δ.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
 
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, plan_spacing
-from lumped.calibration.cell_by_cell import each_cell
+from lumped.calibration.cell_by_cell import EachCell
 from lumped.calibration.central_table import ROWS
-from lumped.calibration.report import report
-from lumped.lattice import Grid
 from lumped.spring_constants import Springs, by_direction
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Sheet
 
 STEPS = 30  # of the layer distance: δ is small and depends little on it
 
@@ -44,56 +43,52 @@ def coefficients(poisson: float) -> np.ndarray:
     return found
 
 
-def central(sheet: Sheet, material: Material, grid: Grid) -> Calibration:
-    """Links alone. Raises BadInput where one would be negative: many layers of cells much wider than the
-    sheet is thick."""
-    a, b, c, bent, stretched, cauchy = coefficients(material.poisson).tolist()
-    spacing, layers = plan_spacing(sheet, grid), grid[2]
-    target = moduli.of_sheet(sheet, material, spacing)
-    springs = _springs(target, spacing, layers, (a, b))
-    wanted = c * target.membrane[0, 0]
-    for _ in range(STEPS):
-        got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers).membrane
-        off = float(np.sqrt(got[0, 0] * got[1, 1])) / wanted
-        springs = _springs(target, spacing, layers, (a, b), springs.layer_distance * np.sqrt(off))
-    found = report("central", each_cell(sheet, material, grid), springs)
+def central(each: EachCell) -> tuple[Springs, list[str]]:
+    """Links alone, and what they cost. Raises BadInput where one would be negative: many layers of cells much
+    wider than the sheet is thick."""
+    a, b, c, bent, stretched, cauchys = coefficients(each.material.poisson).tolist()
     cost = (
         f"the moduli make the worst of the training scenes wrong by {bent:.1%} where they bend and by "
-        f"{stretched:.1%} where they stretch; those of 'cauchy' by {cauchy:.1%} where they bend"
+        f"{stretched:.1%} where they stretch; those of 'cauchy' by {cauchys:.1%} where they bend"
     )
-    return replace(found, remarks=(*found.remarks, cost))
+    return _links("central", each, a, b, c, lambda got: np.sqrt(got[0, 0] * got[1, 1])), [cost]
 
 
-def _springs(
-    target: moduli.Moduli,
-    spacing: tuple[float, float],
-    layers: int,
-    share: tuple[float, float],
-    distance: float | None = None,
+def cauchy(each: EachCell) -> Springs:
+    """The isotropic central-force lattice. Raises BadInput on cells that are not square, and where a link
+    would be negative."""
+    lx, ly = each.sides[0, 0]
+    if abs(lx - ly) > 1e-9 * lx:
+        raise BadInput("calibration 'cauchy' is for square cells only")
+    return _links("cauchy", each, 1.0, 1.0 / 3.0, 1.0, lambda got: 3.0 * got[2, 2])
+
+
+def _links(
+    method: str, each: EachCell, a: float, b: float, c: float, stretching_of: Callable[[np.ndarray], float]
 ) -> Springs:
-    """The links with D11 = a D, D12 = D66 = b D, S* at a layer distance [m], or at h/√3."""
-    lx, ly = spacing
-    rigidity = float(target.bending[0, 0])
-    lz2 = distance**2 if distance is not None else 4.0 * rigidity / float(target.membrane[0, 0])
+    """The links with D11 = a D, D12 = D66 = b D, S*, and c A as the stretching stiffness of A (3, 3)."""
+    sides, layers, target = each.sides[0, 0], each.grid[2], each.target
+    rigidity, stretching = target.bending[0, 0, 0], target.membrane[0, 0, 0]
     sigma, sigma_gap = moduli.second_moment(layers), moduli.second_moment(layers - 1)
-    ratios = np.array([lx**2 / ly**2, ly**2 / lx**2])
-    a, b = share
+    squares, area, across = sides**2, sides.prod(), sides[::-1] / sides
+    ratios = squares / squares[::-1]
 
-    gap = target.shear * np.array([lx**2, ly**2]) / moduli.shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
-    p = min(b / a * float(np.sqrt(gap[0] * gap[1])), *(gap / ratios))
+    gap = target.shear[0] * squares / moduli.shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
+    p = min(b / a * np.sqrt(gap.prod()), *(gap / ratios))
     layer = (a * rigidity - sigma_gap * gap) / sigma  # C11 lz², C22 lz²
     twist = min((b * rigidity - sigma_gap * p) / sigma, *(layer / ratios))
     if twist <= 0.0:
-        raise BadInput(f"calibration 'central': {layers} layers need cells as small as the sheet is thick")
-    axial = (layer - twist * ratios) / lz2
-    cross = (gap - p * ratios) / 2.0
-    return Springs.made(
-        axial=by_direction(axial[0] * ly / lx, axial[1] * lx / ly),
-        diagonal=twist * (lx**2 + ly**2) / (2.0 * lx * ly * lz2),
-        vertical=8.0 * rigidity / lz2 * lx * ly / min(spacing) ** 2,
-        cross=by_direction(
-            cross[0] * (lx**2 + lz2) * ly / (lx**3 * lz2), cross[1] * (ly**2 + lz2) * lx / (ly**3 * lz2)
-        ),
-        cross_diagonal=p * (lx**2 + ly**2 + lz2) / (4.0 * lx * ly * lz2),
-        layer_distance=float(np.sqrt(lz2)),
-    )
+        raise BadInput(f"calibration '{method}': {layers} layers need cells as small as the sheet is thick")
+    lz2 = 4.0 * rigidity / stretching
+    for _ in range(STEPS):
+        springs = Springs.made(
+            axial=by_direction(*(layer - twist * ratios) / lz2 * across),
+            diagonal=twist * squares.sum() / (2.0 * area * lz2),
+            vertical=8.0 * rigidity / lz2 * area / squares.min(),
+            cross=by_direction(*(gap - p * ratios) / 2.0 * (squares + lz2) / (squares * lz2) * across),
+            cross_diagonal=p * (squares.sum() + lz2) / (4.0 * area * lz2),
+            layer_distance=np.sqrt(lz2),
+        )
+        got = moduli.of_cells(springs, each.sides, layers).membrane[0, 0]
+        lz2 *= stretching_of(got) / (c * stretching)
+    return springs

@@ -55,7 +55,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lumped import moduli
 from lumped.calibration.cell_by_cell import EachCell
 from lumped.moduli import Moduli, second_moment, shear_gaps
 from lumped.spring_constants import Springs, by_direction
@@ -81,8 +80,7 @@ class Closed(NamedTuple):
 def springs_of_cells(each: EachCell, layer_distance: float | None = None, **special: bool) -> Springs:
     """Return the springs of all cells, in layers as far apart as the cell asks that asks for most. Raise
     NoClosedForm for a cell that has none."""
-    sides, section = each.present()
-    target, layers = moduli.of_section(section, sides), each.grid[2]
+    (sides, _), target, layers = each.present, each.target, each.grid[2]
     found = closed_form(target, sides, layers, layer_distance, **special)
     if layer_distance is None and len(sides) > 1 and found.found.all():
         found = closed_form(target, sides, layers, float(found.distance.max()), **special)

@@ -17,27 +17,19 @@ from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import CellSection
-from lumped.spring_constants import Springs
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.objects.grading import Graded
 
 
-def _tables(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    *_: object,
-    grading: Graded = 0.0,
-    cells: object = None,
-    **__: object,
-) -> float:
-    """Whether cells have springs of their own."""
-    return float(bool(grading) or cells is not None or material.kind == "orthotropic")
-
-
-@kept(last=16, most=0, size=_tables)
+@kept(  # of cells that are alike
+    last=16,
+    most=0,
+    size=lambda _, material, *__, grading=0.0, cells=None, **___: float(
+        bool(grading) or cells is not None or material.kind == "orthotropic"
+    ),
+)
 def consistent(
     sheet: Sheet,
     material: Material,
@@ -81,7 +73,7 @@ def consistent(
                 f"grading = {grading:g}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
                 "has no closed form; take two layers, no layer distance of your own, or grading 0"
             ) from None
-        springs = Springs.read(fit_moduli(sheet, material, grid, layer_distance).springs)
+        springs = fit_moduli(each, layer_distance)
     notes: list[str] = []
     whole = moduli.of_cells(springs, each.sides, grid[2])
     if method != "consistent-interior":

@@ -14,18 +14,18 @@ from typing import Any
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.calibration import Calibration, plan_spacing
-from lumped.calibration.cell_by_cell import each_cell
-from lumped.calibration.report import report
-from lumped.lattice import Grid
+from lumped.calibration.cell_by_cell import EachCell
 from lumped.spring_constants import Springs, by_direction
-from sheetbench.scenes import Material, Sheet
 
 STRETCHING = 0.3  # weight of A; those of D and S are 1
 PAIRS = ("axial", "cross", "mid_stretch")
 STRAINS = ("mid_stretch_x", "mid_stretch_y", "shear", "mid_shear")
 FREE = ("area", "mid_area")
 MATCHED = 1e-6  # weighted miss that counts as none
+PLACES, LIKE = (
+    ([0, 0, 1, 2], [0, 1, 1, 2]),
+    ([0, 0, 0, 2], [0, 0, 0, 2]),
+)  # of misses; by which divided
 WEAK = 1e-4  # weight of the strain springs themselves, where they are needed
 UNKNOWNS = (
     *(f"{name}_{direction}" for name in PAIRS for direction in "xy"),
@@ -37,9 +37,7 @@ UNKNOWNS = (
 )
 
 
-def fit_moduli(
-    sheet: Sheet, material: Material, grid: Grid, layer_distance: float | None = None
-) -> Calibration:
+def fit_moduli(each: EachCell, layer_distance: float | None = None) -> Springs:
     """The springs of least weighted miss.
 
     Unknowns: the five link families, axial and cross each along x and y, the strain springs, all ≥ 0;
@@ -47,34 +45,25 @@ def fit_moduli(
     """
     from scipy.optimize import least_squares
 
-    spacing = plan_spacing(sheet, grid)
-    layers = grid[2]
-    target = moduli.of_sheet(sheet, material, spacing)
-    first_distance = layer_distance or sheet.thickness / (layers - 1)
+    layers, target = each.grid[2], each.target
+    first_distance = layer_distance or each.sheet.thickness / (layers - 1)
 
     def springs_of(unknowns: np.ndarray) -> Springs:
         distance = layer_distance or first_distance * float(np.exp(unknowns[-1]))
-        stiffness = target.bending[0, 0] / (moduli.second_moment(layers) * distance**2)
-        values: dict[str, Any] = {
-            name: float(stiffness * value) for name, value in zip(UNKNOWNS, unknowns, strict=False)
-        }
+        stiffness = target.bending[0, 0, 0] / (moduli.second_moment(layers) * distance**2)
+        values: dict[str, Any] = dict(zip(UNKNOWNS, stiffness * unknowns, strict=False))
         for name in PAIRS:
             values[name] = by_direction(values.pop(f"{name}_x"), values.pop(f"{name}_y"), 1e-6)
-        return Springs.made(**values, vertical=4.0 * float(stiffness), layer_distance=distance)
-
-    upper = np.triu_indices(2)
+        return Springs.made(**values, vertical=4.0 * stiffness, layer_distance=distance)
 
     def misses(unknowns: np.ndarray) -> np.ndarray:
-        springs = springs_of(unknowns)
-        got = moduli.of_springs(springs, (*spacing, springs.layer_distance), layers)
-        rows = [(got.shear - target.shear) / target.shear]
-        for mine, theirs, weight in (
-            (got.bending, target.bending, 1.0),
-            (got.membrane, target.membrane, STRETCHING),
+        got = moduli.of_cells(springs_of(unknowns), each.sides, layers)
+        rows = [(got.shear[0, 0] - target.shear[0]) / target.shear[0]]
+        for found, wanted, weight in (
+            (got.bending[0, 0], target.bending[0], 1.0),
+            (got.membrane[0, 0], target.membrane[0], STRETCHING),
         ):
-            in_plane = (mine - theirs)[:2, :2][upper] / theirs[0, 0]
-            twist = (mine[2, 2] - theirs[2, 2]) / theirs[2, 2]
-            rows.append(weight * np.append(in_plane, twist))
+            rows.append(weight * (found - wanted)[PLACES] / wanted[LIKE])
         return np.concatenate(rows)
 
     strains = [UNKNOWNS.index(name) for name in STRAINS]
@@ -85,7 +74,6 @@ def fit_moduli(
 
     def fitted(active: np.ndarray) -> np.ndarray:
         """The unknowns of least weighted miss; those that are not active stay 0."""
-        weak = np.intersect1d(strains, active)
 
         def of(values: np.ndarray) -> np.ndarray:
             unknowns = np.zeros_like(start)
@@ -93,7 +81,7 @@ def fit_moduli(
             return unknowns
 
         found = least_squares(
-            lambda values: np.append(misses(of(values)), WEAK * of(values)[weak]),
+            lambda values: np.append(misses(of(values)), WEAK * of(values)[strains]),
             start[active],
             jac="3-point",
             bounds=(low[active], high[active]),
@@ -108,4 +96,4 @@ def fit_moduli(
     found = fitted(np.setdiff1d(every, strains))
     if np.abs(misses(found)).max() > MATCHED:
         found = fitted(every)
-    return report("moduli", each_cell(sheet, material, grid), springs_of(found))
+    return springs_of(found)

@@ -2,52 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.cell_by_cell import each_cell
-from lumped.calibration.central import central
+from lumped.calibration.central import cauchy, central
 from lumped.calibration.consistent import consistent
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.rubber import hyperelastic
-from lumped.calibration.textbook import axial, cauchy, lloyd, uniform, van_gelder
+from lumped.calibration.textbook import axial, lloyd, uniform, van_gelder
 from lumped.sections import sections_of
 from lumped.spring_constants import Springs, require_cells
-from sheetbench import choices
 from sheetbench.errors import Impossible
-from sheetbench.scenes import Scene, SpringTable
+from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.objects.grading import Graded
-from sheetbench.scenes.objects.grid import MASSES, grid_of
+from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
 
-
-@dataclass(frozen=True)
-class CalibrationMethod(choices.Method):
-    """A method as `sheetbench.choices` describes it, and what carries it out:
-    make(sheet, material, grid, **options)."""
-
-    make: Callable[..., Calibration] = field(kw_only=True)
-
-
-def described(makers: Mapping[str, Callable[..., Calibration]]) -> dict[str, CalibrationMethod]:
-    """These makers as methods by name, in the order of `sheetbench.choices`."""
-    return {
-        name: CalibrationMethod(**vars(choice), make=makers[name])
-        for name, choice in choices.CALIBRATIONS.items()
-        if name in makers
-    }
-
-
-MAKERS: dict[str, Callable[..., Calibration]] = {
-    "consistent": consistent,
-    "consistent-interior": partial(consistent, method="consistent-interior"),
-    "consistent-membrane": partial(consistent, method="consistent-membrane"),
-    "consistent-oblique": partial(consistent, method="consistent-oblique"),
-    "neo-hookean": partial(hyperelastic, method="neo-hookean"),
-    "hyperelastic": hyperelastic,
+SPRINGS: dict[str, Callable[..., Springs | tuple[Springs, list[str]]]] = {  # or with what to note of them
     "moduli": fit_moduli,
     "uniform": uniform,
     "cauchy": cauchy,
@@ -56,7 +32,26 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "van-gelder": van_gelder,
     "lloyd": lloyd,
 }
-CLOSED = described(MAKERS)
+
+
+def alike(method: str, sheet: Sheet, material: Material, grid: Grid, **options: Any) -> Calibration:
+    """Springs that are the same in all cells, of one of the methods above."""
+    each = each_cell(sheet, material, grid)
+    found = SPRINGS[method](each, **options)
+    springs, notes = found if isinstance(found, tuple) else (found, [])
+    return report(method, each, springs, notes)
+
+
+# by name: make(sheet, material, grid, **options), with the options that `sheetbench.choices` names
+MAKERS: dict[str, Callable[..., Calibration]] = {
+    "consistent": consistent,
+    "consistent-interior": partial(consistent, method="consistent-interior"),
+    "consistent-membrane": partial(consistent, method="consistent-membrane"),
+    "consistent-oblique": partial(consistent, method="consistent-oblique"),
+    "neo-hookean": partial(hyperelastic, method="neo-hookean"),
+    "hyperelastic": hyperelastic,
+    **{name: partial(alike, name) for name in SPRINGS},
+}
 
 
 def given(
@@ -68,9 +63,8 @@ def given(
     side where it names none; grading: the table's own unless given. Raises Impossible when the scene has no
     springs, or those of another lattice.
     """
-    if scene.springs is None:
+    if (table := scene.springs) is None:
         raise Impossible(f"scene '{scene.name}' has no [springs] table")
-    table = SpringTable.model_validate(scene.springs)
     requested = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
     if table.grid not in (None, requested):
         own, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
@@ -84,8 +78,8 @@ def given(
             f"grading {grading:g}; leave --grading out, or find others: "
             f"sheetbench calibrate --grading {grading:g} --toml"
         )
-    require_cells(table.constants, requested, f"scene '{scene.name}': ")
-    springs = Springs.read(table.constants)
+    require_cells(table, requested, f"scene '{scene.name}': ")
+    springs = Springs.read(table)
     if table.grading and not springs.varies and requested[:2] != (2, 2):
         raise Impossible(
             f"scene '{scene.name}': springs.grading = {table.graded:g}: unequal cells have springs of their "

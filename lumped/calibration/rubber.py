@@ -62,8 +62,7 @@ def hyperelastic(
     _require_one_thickness(cells)
 
     each = each_cell(sheet, material, grid, grading, cells)
-    sides, section = each.present()
-    target = moduli.of_section(section, sides)
+    (sides, _), target = each.present, each.target
     membrane = 0.5 * (target.membrane[:, 0, 0] + target.membrane[:, 1, 1])
     poisson = target.membrane[:, 0, 1] / membrane
     # that of a layer whose law is the material's, with the cell's G h

@@ -6,7 +6,7 @@ that share the stretching with the axial links, whose sum is what data see, are 
 cells' springs of a family grow alike. Gauss–Newton with exact Jacobians: of displacements from
 `lumped.sensitivity`; of frequencies from Rayleigh's quotient, dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ). Residuals are
 relative: displacements to the largest of their field, frequencies to themselves. A pull towards the start
-(PRIOR, in units of the residuals) keeps what the data do not see where it was; the report says which
+(`prior`, in units of the residuals) keeps what the data do not see where it was; the report says which
 combinations those are. fit-modal takes Gregory's masses, which have most of the frequencies' error away
 before a spring is touched: with tributary masses the fit bought frequencies with cross links fourteen times
 too stiff in shear, and was 28 % off in statics.
@@ -14,10 +14,10 @@ too stiff in shear, and was 28 % off in statics.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -36,28 +36,48 @@ from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grading import Graded
 
-PRIOR = {"fit-static": 1e-3, "fit-modal": 1e-1}
 FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN, *RIMS_OWN)
+
+
+class Target(Protocol):
+    """What springs are fitted to, with the pull of `PRIOR` towards where they start."""
+
+    prior: ClassVar[float]
+
+    def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Return relative misses (m,) of these springs, and their derivatives (m,) by each constant."""
 
 
 @dataclass(frozen=True)
 class StaticTarget:
     """A scene and the mid-surface displacement (n, 3) [m] wanted at plan points (n, 2) [m]."""
 
+    prior: ClassVar[float] = 1e-3
+
     scene: Scene
     points: np.ndarray
     displacement: np.ndarray
 
+    def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        scale = np.abs(self.displacement).max() * np.sqrt(len(self.points))
+        found = sensitivity(self.scene, springs, names, self.points)
+        slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
+        return ((found.displacement - self.displacement) / scale).ravel(), slopes
+
 
 @dataclass(frozen=True)
 class ModalTarget:
-    """A scene and the lowest natural frequencies (n,) [Hz] wanted of it."""
+    """A scene and the lowest natural frequencies (n,) [Hz] wanted of it, in order."""
+
+    prior: ClassVar[float] = 1e-1
 
     scene: Scene
     frequencies: np.ndarray
 
-
-Target = StaticTarget | ModalTarget
+    def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        frequencies, rates = frequency_slopes(self.scene, springs, names, len(self.frequencies))
+        slopes = {name: rates[name] / self.frequencies for name in names}
+        return frequencies / self.frequencies - 1.0, slopes
 
 
 @dataclass(frozen=True)
@@ -102,7 +122,9 @@ class FittedCalibration(Calibration):
         return (f"the targets are matched within {few(100 * self.residual)} %", *super().notes())
 
 
-def fit_static(
+def fitted(
+    method: str,
+    kind: type[Target],
     sheet: Sheet,
     material: Material,
     grid: Grid,
@@ -110,63 +132,25 @@ def fit_static(
     targets: Sequence[Target] = (),
     grading: Graded = 0.0,
 ) -> FittedCalibration:
-    """Springs whose displacements come nearest to those of the targets (StaticTarget).
+    """Springs whose answers come nearest to those of the targets, from those of `consistent` on.
 
     Raises BadInput without targets, and for other kinds of them.
     """
-
-    def compare(target: StaticTarget, calibration: Calibration, names: list[str]) -> Compared:
-        scale = np.abs(target.displacement).max() * np.sqrt(len(target.points))
-        found = sensitivity(target.scene, calibration, names, target.points)
-        slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
-        return ((found.displacement - target.displacement) / scale).ravel(), slopes
-
-    first = consistent(sheet, material, grid, layer_distance, grading=grading)
-    return _fit("fit-static", sheet, material, first, _of_kind("fit-static", targets, StaticTarget), compare)
-
-
-def fit_modal(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    layer_distance: float | None = None,
-    targets: Sequence[Target] = (),
-) -> FittedCalibration:
-    """Springs whose natural frequencies come nearest to those of the targets (ModalTarget), in order.
-
-    Raises BadInput without targets, and for other kinds of them.
-    """
-
-    def compare(target: ModalTarget, calibration: Calibration, names: list[str]) -> Compared:
-        frequencies, rates = frequency_slopes(target.scene, calibration, names, len(target.frequencies))
-        slopes = {name: rates[name] / target.frequencies for name in names}
-        return frequencies / target.frequencies - 1.0, slopes
-
-    first = replace(consistent(sheet, material, grid, layer_distance), masses="gregory")
-    return _fit("fit-modal", sheet, material, first, _of_kind("fit-modal", targets, ModalTarget), compare)
-
-
-Compared = tuple[np.ndarray, dict[str, np.ndarray]]  # relative misses, and their derivatives by spring
-
-
-def _fit(
-    method: str,
-    sheet: Sheet,
-    material: Material,
-    first: Calibration,
-    targets: Sequence[Any],
-    compare: Callable[[Any, Calibration, list[str]], Compared],
-) -> FittedCalibration:
-    """The fit of `method` to targets, from the springs `first` on."""
     from scipy.optimize import least_squares
 
-    names = [name for name in first.constants.names() if name not in FIXED_CONSTANTS]
+    if not targets or not all(isinstance(target, kind) for target in targets):
+        raise BadInput(f"calibration '{method}' needs targets, all of them {kind.__name__}")
+    first = consistent(sheet, material, grid, layer_distance, grading=grading)
+    if kind is ModalTarget:
+        first = replace(first, masses="gregory")
+    every = first.constants.names()
+    names = [name for name in every if name.removesuffix("_x").removesuffix("_y") not in FIXED_CONSTANTS]
     start = {name: first.constants.value(name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}
     unit = first.constants.value("diagonal")
 
-    def fitted(change: Iterable[float]) -> Calibration:
-        calibration = replace(first, method=method)
+    def changed(change: Iterable[float]) -> Calibration:
+        calibration = first
         for name, x in zip(names, change, strict=True):
             value = start[name] + unit * x if name in signed else start[name] * np.exp(x)
             calibration = calibration.with_constant(name, float(value))
@@ -175,40 +159,25 @@ def _fit(
     @lru_cache(maxsize=1)
     def at(change: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
         """Relative misses, and their derivatives by the changes."""
-        calibration = fitted(change)
-        compared = [compare(target, calibration, names) for target in targets]
+        calibration = changed(change)
+        misses, rates = zip(*(target.compare(calibration, names) for target in targets), strict=True)
         slopes = []
         for name in names:
             scale = unit if name in signed else calibration.constants.value(name)
-            slopes.append(scale * np.concatenate([rates[name] for _, rates in compared]))
-        return np.concatenate([misses for misses, _ in compared]), np.stack(slopes, axis=1)
+            slopes.append(scale * np.concatenate([of[name] for of in rates]))
+        return np.concatenate(misses), np.stack(slopes, axis=1)
 
-    def residuals(change: np.ndarray) -> np.ndarray:
-        return np.concatenate([at(tuple(change))[0], PRIOR[method] * change])
-
-    def slopes_of(change: np.ndarray) -> np.ndarray:
-        return np.concatenate([at(tuple(change))[1], PRIOR[method] * np.eye(len(change))])
-
-    best = least_squares(residuals, np.zeros(len(names)), jac=slopes_of, xtol=1e-10, ftol=1e-10, max_nfev=60)
-    misses, slopes = at(tuple(best.x))
-    each = each_cell(sheet, material, first.grid, first.grading)
-    plain = report(method, each, fitted(best.x).constants)
-    known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
-    return FittedCalibration(
-        method,
-        first.grid,
-        plain.springs,
-        plain.moduli,
-        (*plain.remarks, *(known.warnings if known else ("too few data for intervals of the springs",))),
-        first.masses,
-        grading=first.grading,
-        residual=float(np.abs(misses).max()),
-        identifiability=known,
+    best = least_squares(
+        lambda change: np.concatenate([at(tuple(change))[0], kind.prior * change]),
+        np.zeros(len(names)),
+        jac=lambda change: np.concatenate([at(tuple(change))[1], kind.prior * np.eye(len(change))]),
+        xtol=1e-10,
+        ftol=1e-10,
+        max_nfev=60,
     )
-
-
-def _of_kind(method: str, targets: Sequence[Target], kind: type) -> list:
-    wanted = [target for target in targets if isinstance(target, kind)]
-    if not wanted or len(wanted) != len(targets):
-        raise BadInput(f"calibration '{method}' needs targets, all of them {kind.__name__}")
-    return wanted
+    misses, slopes = at(tuple(best.x))
+    known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
+    warnings = known.warnings if known else ("too few data for intervals of the springs",)
+    each = each_cell(sheet, material, first.grid, first.grading)
+    plain = replace(report(method, each, changed(best.x).constants, warnings), masses=first.masses)
+    return FittedCalibration(**vars(plain), residual=float(np.abs(misses).max()), identifiability=known)

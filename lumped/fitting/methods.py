@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.methods import MAKERS, described
-from lumped.fitting.fits import Target, fit_modal, fit_static
+from lumped.calibration.methods import MAKERS as CLOSED
+from lumped.fitting.fits import ModalTarget, StaticTarget, Target, fitted
 from lumped.sections import CellSection
-from sheetbench import choices
+from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Cells, Material, Sheet
@@ -17,7 +18,10 @@ from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import MASSES, grid_of
 from sheetbench.scenes.objects.quantities import require_positive
 
-CALIBRATIONS = described({**MAKERS, "fit-static": fit_static, "fit-modal": fit_modal})
+MAKERS = CLOSED | {
+    "fit-static": partial(fitted, "fit-static", StaticTarget),
+    "fit-modal": partial(fitted, "fit-modal", ModalTarget),
+}
 UNITS = {"k": "N/m", "layer_distance": "m"}
 
 
@@ -25,7 +29,7 @@ def calibrate(
     sheet: Sheet,
     material: Material,
     grid: int | Sequence[int] = MASSES,
-    method: str = choices.CALIBRATION,
+    method: str = CALIBRATION,
     k: float | None = None,
     layer_distance: float | None = None,
     targets: Sequence[Target] = (),
@@ -48,12 +52,11 @@ def calibrate(
     ('consistent', (9, 9, 2), 0.003706)
     """
     require_choice("calibration", method, CALIBRATIONS)
-    chosen = CALIBRATIONS[method]
     requested: dict[str, Any] = {"k": k, "layer_distance": layer_distance, "targets": tuple(targets) or None}
     requested |= {"grading": grading or None, "cells": cells}
     options = {name: value for name, value in requested.items() if value is not None}
     for name, value in options.items():
-        if name not in chosen.takes:
+        if name not in CALIBRATIONS[method].takes:
             others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
             unit = f" {UNITS[name]}" if name in UNITS else ""
             given = "" if name in ("targets", "cells") else f"{name} = {value:g}{unit}: "
@@ -61,4 +64,4 @@ def calibrate(
         if name in UNITS:
             require_positive(name, value, UNITS[name])
     with one_blas_thread():
-        return chosen.make(sheet, material, grid_of(sheet, grid), **options)
+        return MAKERS[method](sheet, material, grid_of(sheet, grid), **options)

@@ -10,7 +10,7 @@ from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
 import fem_reference
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import rectangle
-from fem_reference.verification.large_deflections import HEAVY
+from fem_reference.verification.strips import HEAVY
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Gravity
 

@@ -100,6 +100,24 @@ def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_w
     assert ask(copy, empty) == "" and not list(empty.rglob("*.nbi"))
 
 
+LINKED = """
+from numba import njit
+
+@njit
+def twice(rows, x):
+    return 2.0 * product(rows, x)
+
+print(sum(product.stats.cache_hits.values()))
+print(twice(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0])))
+"""
+
+
+def test_a_kernel_of_the_cache_serves_one_that_is_compiled(tmp_path):
+    """Its LLVM code is read only then."""
+    said = [python("-c", ASK + LINKED, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stdout for _ in range(2)]
+    assert said == ["0\n[12.]\n", "1\n[12.]\n"]
+
+
 ALONE = """
 import fcntl, os
 from numba.core import caching

@@ -34,8 +34,6 @@ def free_rigid_motions(scene: SceneFields) -> list[str]:
 @lru_cache(maxsize=64)
 def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]) -> tuple[str, ...]:
     """Names of the rigid motions that supports leave free: computed at every solve of a scene."""
-    import shapely
-
     centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
     scale = max(sheet.lengths)
     rows = [np.zeros((6, 6))]
@@ -47,6 +45,8 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
         elif plan is None or shape is None:
             ends = np.array(sheet.edge_ends(support.edge))
         else:
+            import shapely
+
             ends = shapely.get_coordinates(common(plan, shape.area).convex_hull)
         arms = (np.column_stack([ends, np.zeros(len(ends))]) - centre) / scale
         velocities = np.concatenate([np.broadcast_to(np.eye(3), (len(arms), 3, 3)), _turned(arms)], axis=2)

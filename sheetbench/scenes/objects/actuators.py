@@ -16,18 +16,14 @@ anywhere through the thickness. They move as one chain whose axis is the mean of
 slide along its axis, since two inextensible rods on opposite faces could not bend together.
 """
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
 from sheetbench.scenes.objects.quantities import (
-    A_LIST,
-    A_NUMBER,
-    A_TABLE,
-    FORM,
+    Forms,
     Frozen,
     Length,
     NonNegative,
@@ -50,10 +46,7 @@ class CurvatureTable(OverTime):
     """Intrinsic curvature of all joints at each time, linear between them; statics take the last one."""
 
 
-Curvature = Annotated[
-    Annotated[Number, A_NUMBER] | Annotated[tuple[Number, ...], A_LIST] | Annotated[CurvatureTable, A_TABLE],
-    FORM,
-]
+Curvature = Annotated[Number | tuple[Number, ...] | CurvatureTable, Forms(), Unit("1/m")]
 
 
 class Chain(Frozen):
@@ -73,7 +66,7 @@ class Chain(Frozen):
     """Of its round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
     face: Literal["mid", "top", "bottom"] = "mid"
     """Where its axis lies: in the mid-surface, or thickness/2 + radius above (top) or below (bottom) it."""
-    curvature: Annotated[Curvature, Unit("1/m")] = 0.0
+    curvature: Curvature = 0.0
     """Intrinsic curvature: a number, one a joint, or a table over time; > 0 lifts the ends towards +z (plane
     "normal", "spatial") or bends them outwards ("inplane")."""
     damping_time: Annotated[NonNegative, Unit("s")] = 0.0
@@ -84,14 +77,15 @@ class Chain(Frozen):
     base: Base = "free"
     """Held nowhere ("free"), or at its middle or at the end where the edge starts or ends."""
 
-    @model_validator(mode="after")
-    def _one_curvature_a_joint(self) -> Chain:
-        if isinstance(self.curvature, tuple) and len(self.curvature) != self.joints:
-            raise ValueError(
+    def _faults(self) -> Iterator[object]:
+        yield (
+            isinstance(self.curvature, tuple)
+            and len(self.curvature) != self.joints
+            and (
                 f"curvature has {len(self.curvature)} values, but {self.segments} segments with base = "
                 f'"{self.base}" have {self.joints} joints'
             )
-        return self
+        )
 
     @property
     def held_as(self) -> str:
@@ -144,16 +138,14 @@ class EdgeMotion(OverTime):
     """Rotation vector [about x, about y, about z] of the edge about its middle at each time, right-handed,
     linear between them."""
 
+    def _faults(self) -> Iterator[object]:
+        yield from super()._faults()
+        yield not self.displacement and not self.rotation and "needs displacement [m] or rotation [rad]"
+
     @property
     def held_as(self) -> str:
         """Its name among the reactions."""
         return str(self.edge)
-
-    @model_validator(mode="after")
-    def _moves_something(self) -> EdgeMotion:
-        if not self.displacement and not self.rotation:
-            raise ValueError("needs displacement [m] or rotation [rad]")
-        return self
 
 
 def _kind(data: Any) -> str:

@@ -12,8 +12,6 @@ area up to π/4 ρ b of a strip b wide, and lift: they need a fluid. Statics hav
 Source: Hoerner, Fluid-Dynamic Drag (1965), 3-16; Keulegan and Carpenter (1958) for small swings.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 from sheetbench.scenes.objects.quantities import Density, Frozen, Positive

@@ -1,7 +1,5 @@
 """What a sheet is made of: constants, each one number or an array, at points or of the cells of a grid."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any, Self
 

@@ -3,8 +3,6 @@
 What lies on a shape's boundary belongs to it. A plan is one piece that is connected by more than points.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +25,7 @@ class Cutout(Frozen):
     """Where: a rectangle, a circle or a polygon; it may reach over the rim."""
 
 
-def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
+def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
     """The sheet's plan [m]: a polygon with holes. Raises ValueError for a sheet without area or in pieces."""
     import shapely
 
@@ -55,7 +53,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> Polygon:
     return plan
 
 
-def _idle(plan: Polygon, cutouts: Sequence[Cutout]) -> int | None:
+def _idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
     """Return the first cutout, from 0, that takes nothing from what those before it leave of a plan."""
     import shapely
 
@@ -73,7 +71,7 @@ def _idle(plan: Polygon, cutouts: Sequence[Cutout]) -> int | None:
     return None
 
 
-def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
+def nearest(plan: "Polygon", point: PlanPoint) -> PlanPoint:
     """The point of a plan that is nearest to one [m]: itself where it lies there."""
     import shapely
 
@@ -81,7 +79,7 @@ def nearest(plan: Polygon, point: PlanPoint) -> PlanPoint:
     return x, y
 
 
-def common(plan: Polygon, area: Any) -> Any:
+def common(plan: "Polygon", area: Any) -> Any:
     """The part of a plan in an area; of a plan with many holes it is soon known where that is all of it."""
     import shapely
 

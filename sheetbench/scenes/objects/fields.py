@@ -1,7 +1,5 @@
 """The fields of a scene: tables and lists of them, their names in a file, and what they say of the sheet."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -22,7 +20,7 @@ from sheetbench.scenes.objects.orthotropy import FIBRES
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
-from sheetbench.scenes.objects.springs import DamperSet, SpringTable
+from sheetbench.scenes.objects.springs import DamperSet, SpringSet
 from sheetbench.scenes.objects.supports import Point, Support, lets_twist_go, place
 
 if TYPE_CHECKING:
@@ -38,7 +36,7 @@ SHAPED = (
 )  # fmt: skip
 
 
-class SceneFields(Frozen):
+class SceneFields(Frozen, defer_build=True):
     """The fields of a scene, not yet checked against each other, and what follows from them."""
 
     model_config = ConfigDict(alias_generator=lambda key: LISTS.get(key, key))
@@ -77,7 +75,7 @@ class SceneFields(Frozen):
     """What moves edges that have no support."""
     initial: Initial | None = Field(default=None, kw_only=True)
     """The shape that a motion starts from; without this table nothing but the supports shapes the sheet."""
-    springs: SpringTable | None = None
+    springs: SpringSet | None = None
     """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
     them. Where cells differ, on a graded grid, a constant is a list of rows of cells from y0 to y1, each from
     x0 to x1."""
@@ -155,7 +153,7 @@ class SceneFields(Frozen):
         return bool(self.cutouts) or self.sheet.drawn
 
     @cached_property
-    def region(self) -> Polygon:
+    def region(self) -> "Polygon":
         """The sheet's plan [m], with its holes, as shapely has it."""
         return cutouts.region(self.sheet, self.cutouts)
 

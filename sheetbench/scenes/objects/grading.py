@@ -8,8 +8,6 @@ they are of one size.
 `places` are those that lines of the grid are moved to, the sides of a drawn sheet's shapes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

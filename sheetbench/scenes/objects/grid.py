@@ -5,8 +5,6 @@ the shorter side, and the cells are then as square as that allows; two are the c
 is the number of layers, 2 unless given.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -7,8 +7,6 @@ and `quad` (m, 4), numbers of points from 0. Exit status 2 with a line on standa
 none. It imports nothing of ours, so that it starts within a fifth of a second.
 """
 
-from __future__ import annotations
-
 import sys
 from contextlib import redirect_stderr, redirect_stdout
 from io import BytesIO, StringIO

@@ -4,8 +4,6 @@ Positions are of the obstacle's own surface: with φ(x) the distance of a point 
 sheet touches where φ = h/2. A plane that the flat sheet lies on is at z = −h/2.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, ClassVar, Literal
 

@@ -4,29 +4,31 @@ No number is larger than `LARGEST` in magnitude, and what must be positive not s
 them nothing is meant, and the products and quotients of the mechanics would overflow.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
 from inspect import Parameter, Signature
 from math import isfinite
-from typing import Annotated, Any, Self, dataclass_transform, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    Self,
+    dataclass_transform,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from pydantic import (
-    AfterValidator,
     BaseModel,
     ConfigDict,
-    Discriminator,
     Field,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
-    Strict,
-    Tag,
     ValidationError,
+    model_validator,
 )
-from pydantic.fields import FieldInfo
-from pydantic_core import CoreSchema, PydanticCustomError
-from pydantic_core.core_schema import no_info_before_validator_function
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.language.refusals import in_one_line
@@ -60,10 +62,22 @@ def _not_too_small(value: float) -> float:
     return _not_too_large(value)
 
 
-Finite = Annotated[float, Strict(), Field(allow_inf_nan=False)]
-Number = Annotated[Finite, AfterValidator(_not_too_large)]
-Positive = Annotated[Finite, Field(gt=0), AfterValidator(_not_too_small)]
-NonNegative = Annotated[Finite, Field(ge=0), AfterValidator(_not_too_large)]
+class Real:
+    """A finite number, no text, within bounds (`gt`, `ge`, `lt`, `le`), and what else is checked of it: its
+    schema at once, of which pydantic would apply every part anew wherever one stands."""
+
+    def __init__(self, check: Callable[[float], float] | None = None, **bounds: Any):
+        self.check, self.bounds = check, bounds
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        number = core_schema.float_schema(strict=True, allow_inf_nan=False, **self.bounds)
+        return core_schema.no_info_after_validator_function(self.check, number) if self.check else number
+
+
+Finite = Annotated[float, Real()]
+Number = Annotated[float, Real(_not_too_large)]
+Positive = Annotated[float, Real(_not_too_small, gt=0)]
+NonNegative = Annotated[float, Real(_not_too_large, ge=0)]
 Vector3 = tuple[Number, Number, Number]
 PlanPoint = tuple[Number, Number]
 
@@ -74,13 +88,17 @@ def _form(value: Any) -> str:
     return "a list" if isinstance(value, list | tuple) else "a number"
 
 
-# of a key that takes a number, a list or a table: which of them a value is
-FORM = Discriminator(_form)
-A_NUMBER, A_LIST, A_TABLE = Tag("a number"), Tag("a list"), Tag("a table")
+class Forms:
+    """Of a key that takes a number, a list or a table: what is wrong is said of that which the value is."""
+
+    NAMES: ClassVar[dict[Any, str]] = {Annotated: "a number", tuple: "a list", None: "a table"}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        choices = {self.NAMES[get_origin(one)]: handler.generate_schema(one) for one in get_args(source)}
+        return core_schema.tagged_union_schema(choices, _form)
 
 
-@dataclass(frozen=True)
-class Unit:
+class Unit(NamedTuple):
     """The SI unit of a number or of every number in a list; it stands as `unit` in the JSON Schema.
 
     The number may be text with a unit of its own, as "2 mm" (`sheetbench.scenes.language.units`).
@@ -89,7 +107,9 @@ class Unit:
     symbol: str
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return no_info_before_validator_function(lambda value: converted(value, self.symbol), handler(source))
+        return core_schema.no_info_before_validator_function(
+            lambda value: converted(value, self.symbol), handler(source)
+        )
 
     def __get_pydantic_json_schema__(self, core: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         return {**handler(core), "unit": self.symbol}
@@ -99,7 +119,7 @@ Length = Annotated[Positive, Unit("m")]
 Angle = Annotated[Number, Unit("rad")]
 Modulus = Annotated[Positive, Unit("Pa")]
 Density = Annotated[Positive, Unit("kg/m³")]
-PoissonRatio = Annotated[Finite, Field(gt=-1, lt=0.5)]  # of what is isotropic
+PoissonRatio = Annotated[float, Real(gt=-1, lt=0.5)]  # of what is isotropic
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(Field,))
@@ -133,7 +153,7 @@ class Frozen(BaseModel, frozen=True):
 
     @classmethod
     def __pydantic_init_subclass__(cls, **options: Any) -> None:
-        cls.__signature__ = _signature(cls.model_fields)
+        cls.__signature__ = _Keys()  # type: ignore[assignment]  # made when it is looked at
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise SceneError(
@@ -149,6 +169,21 @@ class Frozen(BaseModel, frozen=True):
 
     def __str__(self) -> str:
         return repr(self)
+
+    def _faults(self) -> Iterator[object]:
+        """Yield what is wrong with the values beside each other, in sentences, the first of which is said;
+        what is false where nothing is."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _sound(self) -> Self:
+        if fault := next(filter(None, self._faults()), None):
+            raise ValueError(fault)
+        return self
+
+    def given(self, names: Iterable[str]) -> dict[str, Any]:
+        """Return the values of these keys that are not None."""
+        return {name: value for name in names if (value := getattr(self, name)) is not None}
 
     def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some keys. Raises SceneError for what makes no sense."""
@@ -166,15 +201,18 @@ class Frozen(BaseModel, frozen=True):
         return schema
 
 
-def _signature(fields: dict[str, FieldInfo]) -> Signature:
-    """Return the keys of an object as `help` shows them, without bounds; first those that need no name."""
-    annotations = {name: field.annotation for name, field in fields.items()}
-    types = get_type_hints(type("Keys", (), {"__annotations__": annotations}))
-    parameters: list[Parameter] = []
-    needed = False  # by place, here or farther on
-    for name, field in sorted(fields.items(), key=lambda item: bool(item[1].kw_only))[::-1]:
-        kind = Parameter.KEYWORD_ONLY if field.kw_only else Parameter.POSITIONAL_OR_KEYWORD
-        needed = field.is_required() or (needed and not field.kw_only)
-        usual = Parameter.empty if needed else field.get_default(call_default_factory=True)
-        parameters.append(Parameter(name, kind, default=usual, annotation=types[name]))
-    return Signature(parameters[::-1])
+class _Keys:
+    """The keys of an object as `help` shows them, without bounds; first those that need no name."""
+
+    def __get__(self, one: Any, kind: type[BaseModel]) -> Signature:
+        fields = kind.model_fields
+        annotations = {name: field.annotation for name, field in fields.items()}
+        types = get_type_hints(type("Keys", (), {"__annotations__": annotations}))
+        parameters: list[Parameter] = []
+        needed = False  # by place, here or farther on
+        for name, field in sorted(fields.items(), key=lambda item: bool(item[1].kw_only))[::-1]:
+            how = Parameter.KEYWORD_ONLY if field.kw_only else Parameter.POSITIONAL_OR_KEYWORD
+            needed = field.is_required() or (needed and not field.kw_only)
+            usual = Parameter.empty if needed else field.get_default(call_default_factory=True)
+            parameters.append(Parameter(name, how, default=usual, annotation=types[name]))
+        return Signature(parameters[::-1])

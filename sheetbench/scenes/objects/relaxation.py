@@ -20,17 +20,14 @@ of second order, exact where X is linear in time. Source: Simo and Hughes, Compu
 10.3. What is remembered is a `memory` (1 + b, 2, m): X, then R of every branch.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from math import ceil, log10, pi
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from pydantic import Field
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.objects.quantities import Finite, Frozen, Positive, Unit
+from sheetbench.scenes.objects.quantities import Frozen, Positive, Real, Unit
 
 A_DECADE = 2  # branches
 HELD_WITHIN = 0.1  # of the loss factor, over the band
@@ -42,7 +39,7 @@ SAMPLES, SWEEPS = 100, 6
 class Relaxation(Frozen):
     """A Maxwell branch of every spring and every modulus: a share of the stiffness that fades."""
 
-    share: Annotated[Finite, Field(gt=0, lt=1)]
+    share: Annotated[float, Real(gt=0, lt=1)]
     """The branch's part of the instantaneous modulus; all of them add up to less than 1, and `young` is what
     is left in the end."""
     time: Annotated[Positive, Unit("s")]

@@ -26,10 +26,10 @@ from comparisons.models.grids import parse_grid
 from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
 from fem_reference.surface.mesh import divisions
-from fem_reference.verification import settling_strip
+from fem_reference.verification import strips
 from sheetbench.answers.solution import Status
 from sheetbench.face import solve
-from sheetbench.scenes import BadInput, Clamped, Pressure, Scene, Sheet, SpringTable, load
+from sheetbench.scenes import BadInput, Clamped, Pressure, Scene, Sheet, load
 from sheetbench.scenes.objects.grading import amount, as_settings, towards
 from sheetbench.scenes.objects.grid import grid_of, near_square
 from studies.promises.expected import stored
@@ -83,16 +83,13 @@ def test_springs_of_another_grid_are_refused(tmp_path, capsys):
 
 
 def test_masses_and_grading_of_pasted_springs():
-    springs = lumped.calibrate(LONG, RUBBER, 3).springs.model_dump()
-    table = {**springs, "grid": (5, 3, 2), "masses": "gregory"}
-    scene = OBLONG.model_copy(update={"springs": SpringTable(**table)})
-    assert lumped.given(scene).masses == "gregory"
-    graded = OBLONG.model_copy(update={"springs": SpringTable(**table, grading=0.5)})
+    springs = lumped.calibrate(LONG, RUBBER, 3).springs.replace(grid=(5, 3, 2), masses="gregory")
+    assert lumped.given(OBLONG.replace(springs=springs)).masses == "gregory"
     with pytest.raises(BadInput, match=r"grading = 0\.5"):
-        lumped.given(graded)
+        lumped.given(OBLONG.replace(springs=springs.replace(grading=0.5)))
     for wrong in ({"grid": (1, 3, 2)}, {"masses": "lumps"}, {"grading": 2.0}):
         with pytest.raises(BadInput, match=next(iter(wrong))):
-            SpringTable(**{**table, **wrong})
+            springs.replace(**wrong)
 
 
 def test_auto_says_why(capsys):
@@ -124,7 +121,7 @@ def test_auto_grades_the_scenes_that_grading_mends():
 @pytest.mark.parametrize(("edge", "graded"), [("x0", True), ("y0", False)])
 def test_a_sheet_that_juts_out_far_is_graded_at_its_clamp(edge, graded):
     """The layer of 72 mm beside the length of 180 mm that juts out, not beside the width."""
-    strip = settling_strip.scene().replace(supports=[Clamped(edge=edge)])
+    strip = strips.settling_scene().replace(supports=[Clamped(edge=edge)])
     assert (grading_of(strip, (33, 17, 2), AUTO)[0] == towards(0.5, ["x0"])) == graded
 
 

@@ -10,7 +10,7 @@ import fem_reference
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Lattice
 from comparisons.sweep.model_error import ModelError, model_error
-from fem_reference.pulled_strip import pulled
+from fem_reference.verification.strain_laws import pulled
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Clamped, Hinged, Material, Pressure, Sheet, Symmetric, load
 

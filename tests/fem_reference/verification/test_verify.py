@@ -10,28 +10,26 @@ from commands import run as command
 
 from fem_reference.verification import (
     CASES,
-    Case,
-    elliptic_plate,
-    large_deflections,
-    manufactured_solid,
-    mindlin_plates,
+    Verification,
+    manufactured,
     round_shapes,
-    run,
-    slit_annulus,
+    square_plates,
+    strips,
+    verify,
 )
-from fem_reference.verification.answer import Verification
+from fem_reference.verification.cases import Case
 from fem_reference.verification.rows import absolutely, relatively
 
 ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws", "rubber")  # test_locking, test_strain_laws
 HEAVIEST = ("disc-bending", "disc-frequencies", "nafems-fv16", "end-shear")  # by night
 SLOW = ("slit-annulus", "strip-with-hole", "nafems-le10", "manufactured-solid", "locking-solid")
 QUICK = [name for name in CASES if name not in (*SLOW, *ELSEWHERE)]
-LIFTED = {load: slit_annulus.PUBLISHED[load] for load in (0.1, 0.25)}
+LIFTED = {load: round_shapes.LIFTED[load] for load in (0.1, 0.25)}
 
 
 @cache
 def rows_of(name):
-    return list(run([name]))
+    return verify(name).rows
 
 
 def held(rows):
@@ -50,10 +48,10 @@ def test_quick_cases_pass(name):
 
 
 @pytest.mark.parametrize(("rows", "coarse"), [
-    (manufactured_solid.rows, {"ELEMENTS": (2, 4)}),
-    (elliptic_plate.rows, {"RADIAL": 4, "AROUND": 6, "LAYERS": 2, "TOLERANCE": 0.07}),
-    (large_deflections.roll_up, {"ELEMENTS": 8, "SHARES": (0.25, 1.0), "ROLLED": 2**4 * 2e-3}),
-    (slit_annulus.rows, {"RADIAL": 2, "AROUND": 16, "TOLERANCE": 0.013, "PUBLISHED": LIFTED}),
+    (manufactured.solid, {"BRICKS": (2, 4)}),
+    (round_shapes.elliptic_plate, {"BRICKS": (4, 6, 2), "WITHIN": 0.07}),
+    (strips.roll_up, {"ELEMENTS": 8, "SHARES": (0.25, 1.0), "ROLLED": 2**4 * 2e-3}),
+    (round_shapes.slit_annulus, {"RADIAL": 2, "AROUND": 16, "TOLERANCE": 0.013, "LIFTED": LIFTED}),
     (round_shapes.frequencies, {"ELEMENTS": 12}),
 ], ids=["manufactured-solid", "nafems-le10", "roll-up", "slit-annulus", "disc-frequencies"])  # fmt: skip
 def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, rows, coarse):
@@ -63,7 +61,7 @@ def test_slow_cases_come_near_on_coarse_meshes(monkeypatch, rows, coarse):
 
 
 def test_a_mesh_too_coarse_for_an_equilibrium_has_no_value():
-    assert np.isnan(large_deflections.rolled(1.0, 2)).tolist() == [True, True]
+    assert np.isnan(strips.rolled("shell", 1.0, 2)).tolist() == [True, True]
 
 
 @pytest.mark.slow
@@ -75,11 +73,11 @@ def test_all_cases_pass(tmp_path, capsys):
     assert {file.name for file in tmp_path.iterdir()} >= {"verification.json", "verification.csv"}
 
 
-@pytest.mark.parametrize("load", large_deflections.HEAVY)
+@pytest.mark.parametrize("load", strips.HEAVY)
 def test_the_heavy_elastica_s_values_are_its_equation_s(load):
     """In lengths L, β = qL³/EI: five digits by collocation."""
     x, z = elastica_tip(1.0, 1.0, weight=-load, turn=0.5)
-    assert (z, 1.0 - x) == pytest.approx(large_deflections.HEAVY[load], abs=6e-6)
+    assert (z, 1.0 - x) == pytest.approx(strips.HEAVY[load], abs=6e-6)
 
 
 def test_the_simply_supported_plate_s_values_are_navier_s_series():
@@ -87,7 +85,7 @@ def test_the_simply_supported_plate_s_values_are_navier_s_series():
     odd = np.arange(1, 200, 2)
     sign = np.where(odd % 4 == 1, 1.0, -1.0)
     alpha = np.pi**2 * (odd[:, None] ** 2 + odd**2)
-    for ratio, printed in mindlin_plates.HARD_SIMPLE.items():
+    for ratio, printed in square_plates.HARD_SIMPLE.items():
         by_shear = 1.0 + alpha * ratio**2 / (6.0 * (1.0 - 0.3) * 5.0 / 6.0)
         term = 16.0 * np.outer(sign / odd, sign / odd) / (np.pi**2 * alpha**2) * by_shear
         assert term.sum() == pytest.approx(printed, abs=5.1e-6)
@@ -107,7 +105,7 @@ def test_the_thin_clamped_plate_s_value_is_that_of_a_series():
     )
     load, middle = (np.kron(at, at) for at in (value @ weight, np.array([f(0.0) for f in along])))
     deflection = middle @ np.linalg.solve(stiffness, load) / 2.0**4
-    assert deflection == pytest.approx(mindlin_plates.CLAMPED[0.001], abs=5e-8)
+    assert deflection == pytest.approx(square_plates.CLAMPED[0.001], abs=5e-8)
 
 
 def test_relative_is_to_the_published_value_or_to_a_length():
@@ -148,7 +146,7 @@ def test_bad_options_leave_with_2(capsys):
 
 def test_a_table_shows_a_case_with_its_meshes():
     rows = [row for name in ("patch", "nafems-fv12") for row in rows_of(name)]
-    tables = list(Verification(rows).by_case())
+    tables = Verification(rows).printed()
     assert [len(table.rows) for table in tables] == [len(rows_of(name)) for name in ("patch", "nafems-fv12")]
     assert "shell 9 elements, distorted" in tables[0].to_markdown()
     assert "relative" not in tables[0].to_markdown()

@@ -10,7 +10,6 @@ from numpy.testing import assert_allclose
 import lumped
 from lumped.actuators import Drive
 from lumped.actuators.chain import BoundChain
-from lumped.actuators.corners import SharedEnd
 from lumped.dynamics import INTEGRATORS
 from lumped.lattice import build
 from sheetbench.numerics.saddle_point import CORRECTIONS, minimal_residual
@@ -25,9 +24,9 @@ PLANES, BASES = ("normal", "inplane", "spatial"), ("free", "start", "middle", "e
 ENDS = {base: (base,) for base in BASES} | {
     "held at the start": ("free", (0,)),
     "held at the end": ("free", (1,)),
-    "held and shared": ("free", (0,), {1: SharedEnd(own=True)}),
-    "shared": ("free", (), {0: SharedEnd(own=True), 1: SharedEnd(own=False)}),
-    "based and shared": ("middle", (), {0: SharedEnd(own=True), 1: SharedEnd(False, False, False, False)}),
+    "held and shared": ("free", (0,), {1: True}),
+    "shared": ("free", (), {0: True, 1: False}),
+    "based and shared": ("middle", (), {0: True, 1: False}),
 }
 
 

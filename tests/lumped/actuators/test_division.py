@@ -44,7 +44,7 @@ def test_parts_keep_curvatures_and_forces_of_the_segments(base, segments):
     chain = scene.actuators[0].replace(base=base, segments=segments)
     chain = chain.replace(curvature=tuple(1.0 + np.arange(chain.joints)))
     whole = lattice_answer(scene, chain)
-    parts = -(-8 // segments)
+    parts = 4 if (base, segments) == ("middle", 3) else -(-8 // segments)  # a joint is in the middle
     finer = chain.replace(segments=parts * segments, curvature=0.0)
     ends = joint_lengths(finer)
     bounds, values = parts * chain.pieces(), chain.curvatures().at()

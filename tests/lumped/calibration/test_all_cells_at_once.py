@@ -1,5 +1,7 @@
 """The springs of unequal cells: all at once as each alone, and as before they were found all at once."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from cases import calibrated, sheet
@@ -36,8 +38,8 @@ def test_a_cells_springs_are_those_of_a_sheet_of_such_cells(gradients):
     springs = springs_of_cells(each, gradients=gradients)
     for row, column in ((0, 0), (1, 2), (2, 1), (4, 5)):
         at = slice(row, row + 1), slice(column, column + 1)
-        one = each._replace(sides=each.sides[at], section=each.section.each(lambda part, at=at: part[at]))
-        one = one._replace(there=each.there[at])
+        section = each.section.each(lambda part, at=at: part[at])
+        one = replace(each, sides=each.sides[at], section=section, there=each.there[at])
         alone = springs_of_cells(one, springs.layer_distance, gradients=gradients)
         for name, values in springs.of.items():
             for axis in (0, 1):

@@ -6,7 +6,7 @@ from cases import sheet
 from scipy.interpolate import PchipInterpolator
 
 import lumped
-from fem_reference.verification import settling_strip
+from fem_reference.verification import strips
 from sheetbench.scenes import load
 
 TIME = [round(0.005 * i, 3) for i in range(25)]
@@ -52,7 +52,7 @@ def test_a_support_that_speeds_up_pulls_its_own_masses_along():
 
 def test_dampers_of_a_fine_narrow_lattice_take_what_the_motion_loses():
     """The settling strip's first half second; with velocities before a stage's last correction 6 % off."""
-    strip = settling_strip.scene()
+    strip = strips.settling_scene()
     cell = strip.sheet.length_x / 32
     narrow = strip.replace(sheet=strip.sheet.replace(length_y=2.0 * cell), probes={"tip": (0.18, cell)})
     history = run(narrow, (33, 3), 0.5)

@@ -1,7 +1,5 @@
 """References solve, and springs are fitted, on one BLAS thread whatever is set, which stays as it was."""
 
-from dataclasses import replace
-
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
@@ -44,13 +42,13 @@ def test_a_reference_is_solved_on_one_thread(model, monkeypatch):
 
 def test_springs_are_found_on_one_thread(monkeypatch):
     seen: list[int] = []
-    moduli = methods.CALIBRATIONS["moduli"]
+    moduli = methods.MAKERS["moduli"]
 
     def watched(*sheet, **options):
         seen.extend(blas_threads())
-        return moduli.make(*sheet, **options)
+        return moduli(*sheet, **options)
 
-    monkeypatch.setitem(methods.CALIBRATIONS, "moduli", replace(moduli, make=watched))
+    monkeypatch.setitem(methods.MAKERS, "moduli", watched)
     with threadpool_limits(2, user_api="blas"):
         lumped.calibrate(SCENE.sheet, SCENE.material, grid=3, method="moduli")
         assert 2 in blas_threads()

@@ -1,0 +1,224 @@
+"""Square plates: deflections under a uniform load, locking, natural frequencies, fibres, plates not flat at
+rest.
+
+Mindlin plates, ν 0.3, shear correction 5/6: w D/(q L⁴) at the centre, with hard simple support (deflection
+and the tilt along the edge held) and clamped, h/L 0.001 to 0.2. The shell answers for the clamped ones under
+a load so small that it is linear. The thick clamped plates have no closed form: theirs is this project's
+plate on 48 × 48 elements.
+
+Locking: a model that locks answers with a fraction of the deflection. On fixed 8 × 8 meshes each answer
+stands beside the same model's on a mesh that is two or three times finer, which is converged to 0.1 % and
+better. The plate and the shell go from h/L = 1e-5 to 0.2; so does the solid for ν up to 0.4999, from 1e-3:
+below that its stiffness through the thickness, (L/h)² of that in bending and more as ν → ½, leaves no digits.
+Both meshes of the solid have one layer, whose shear is a little stiff in a thick sheet: that is no locking.
+
+Frequencies: NAFEMS FV16 and FV12, and Leissa's thin plates. NAFEMS' targets and Leissa's coefficients are
+upper bounds, above what plates converge to by up to 1.3 %, and held to 1.5 %. The converged values are this
+project's own, of the plate on 36 × 36 elements and more, the thin plates' at h/a = 1e-4; where there are any,
+models are held to 0.3 % of them.
+
+Thin plates with fibres along their sides, simply supported, deflect by
+
+    w = 16 q/π⁶ Σ sin(mπ/2) sin(nπ/2)/(m n Δ),   Δ = (D₁₁ m⁴ + 2 (D₁₂ + 2 D₆₆) m² n² + D₂₂ n⁴)/a⁴,  m, n odd
+
+in the middle under a uniform load q, and have the frequencies ω = π² √(Δ/ρh), m, n any. With the laminate
+[0/90]s D₁₁ and D₂₂ are those of its layers: the outer ones, along x, have 7/8 of the second moment.
+
+Not flat at rest:
+
+    arc         a cantilever of natural curvature k0, ¼ turn: tip at (sin kL/k, (1 − cos kL)/k), no energy
+    buckling    a square hinged all round, heated: e0 = π² h²/6 (1 + ν) a² (Kirchhoff)
+    frequency   the same stretched by N: ω² = (D q² + N q)/ρh, q = 2π²/a²
+
+Sources: Navier's series in Wang, Reddy & Lee, Shear Deformable Beams and Plates (2000), and in Timoshenko &
+Woinowsky-Krieger, Theory of Plates and Shells (1959), 85; Taylor & Govindjee, Solution of clamped rectangular
+plate problems, Commun. Numer. Meth. Engng 20 (2004) 757–765, report UCB/SEMM-2002/09: 0.00126532; NAFEMS,
+Selected Benchmarks for Natural Frequency Analysis (1987); Leissa, J. Sound Vib. 31 (1973) 257–293, and of
+fibres Vibration of Plates, NASA SP-160 (1969), 9.1; Reddy, Mechanics of Laminated Composite Plates and Shells
+(2004), 5.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import product
+from math import pi, sin, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from fem_reference.linear_buckling import buckling
+from fem_reference.surface.materials import bending_stiffness
+from fem_reference.verification.rows import EXACT, OURS, Row, curve, lowest, mesh_change, relatively
+from fem_reference.verification.specimens import E1, E2, FIBRES, NU, G, around, moved, specimen
+from fem_reference.vibration import modes
+from sheetbench.scenes import EDGES, Clamped, Hinged, Layer, Material, Scene, Sheet
+from sheetbench.scenes.objects.natural import Natural
+
+ELEMENTS = 16
+MESH = f"{{}} {ELEMENTS} × {ELEMENTS}"
+THIN = Sheet(length_x=1.0, length_y=1.0, thickness=1e-3)
+SMALL = 1e-4  # a deflection at the centre over the thickness
+
+HARD_SIMPLE = {0.001: 0.00406, 0.1: 0.00427, 0.2: 0.00490}
+CLAMPED = {0.001: 0.0012653, 0.1: 0.001505, 0.2: 0.002172}
+FINER = f"{OURS}, 48 × 48"
+LOADED = {
+    "hinged": (HARD_SIMPLE, dict.fromkeys(HARD_SIMPLE, "Wang, Reddy & Lee 2000")),
+    "clamped": (CLAMPED, {0.001: "Taylor & Govindjee 2004", 0.1: FINER, 0.2: FINER}),
+}
+FIXED = 8  # elements of what may lock
+THICK = (1e-3, 1e-2, 0.05, 0.1, 0.2)
+SWEEPS = {  # elements of the finer mesh, tolerance, h/L and ν
+    "plate": (24, 2e-2, (1e-5, 1e-4, *THICK), (0.3,)),
+    "shell": (24, 2e-2, (1e-5, 1e-4, *THICK), (0.3,)),
+    "solid": (16, 1e-2, THICK, (0.3, 0.48, 0.499, 0.4999)),
+}
+
+CONVERGED, BOUND = 3e-3, 1.5e-2  # tolerances
+STEEL = Material(young=200e9, poisson=0.3, density=8000.0)
+NAFEMS = Sheet(length_x=10.0, length_y=10.0, thickness=0.05)
+COEFFICIENT = "ω a² √(ρh/D)"
+LAYERS = tuple(Layer(2.5e-4, angle=angle) for angle in (0.0, pi / 2, pi / 2, 0.0))
+
+
+class Benchmark(NamedTuple):
+    """A sheet clamped along edges and its first six frequencies; unit: "Hz" or COEFFICIENT."""
+
+    title: str
+    sheet: Sheet
+    edges: tuple[str, ...]
+    source: str
+    unit: str
+    converged: Sequence[float | None]
+    bounds: Sequence[float | None]
+    models: tuple[str, ...] = ("plate", "shell")
+
+
+BENCHMARKS = {
+    "nafems-fv16": Benchmark(
+        "cantilevered square plate", NAFEMS, ("x0",), "NAFEMS 1987, FV16", "Hz",
+        (0.4179, 1.0227, 2.5618, 3.272, 3.7214, 6.5105), (0.421, 1.029, 2.582, 3.306, 3.753, 6.555),
+        ("plate", "shell", "solid"),
+    ),
+    "nafems-fv12": Benchmark(
+        "free square plate", NAFEMS, (), "NAFEMS 1987, FV12", "Hz",
+        (None, None, None, 4.182, 4.182, None), (1.622, 2.360, 2.922, 4.233, 4.233, 7.416),
+    ),
+    "leissa-one-edge": Benchmark(
+        "thin square plate, one edge clamped", THIN, ("x0",), "Leissa 1973", COEFFICIENT,
+        (3.471, 8.506, 21.28, 27.20, 30.95, 54.18), (3.492, 8.525, 21.43, 27.33, 31.11, 54.44),
+    ),
+    "leissa-two-edges": Benchmark(
+        "thin square plate, two edges clamped", THIN, ("x0", "y0"), "Leissa 1973", COEFFICIENT,
+        (6.919, 23.90, 26.58, 47.65, 62.71, 65.53), (6.942, 24.03, 26.68, 47.79, 63.04, 65.83),
+    ),
+}  # fmt: skip
+
+
+def loaded(kind: str, *models: str) -> Iterator[Row]:
+    """Deflections of models with edges of a kind, "hinged" or "clamped"."""
+    published, sources = LOADED[kind]
+    values = {ratio: (value,) for ratio, value in published.items()}
+    meshes = {model: MESH.format(model) for model in models}
+
+    def answer(model: str, ratio: float, elements: int) -> np.ndarray:
+        return np.array([deflection(model, kind, ratio, elements)])
+
+    yield from curve(("w D/qL⁴ at h/L = {:g}",), meshes, values, sources, 3e-3, answer, ELEMENTS)
+
+
+def locking(model: str) -> Iterator[Row]:
+    """Rows of a model, thin to thick; what is expected is the finer mesh's answer."""
+    finer, tolerance, ratios, poissons = SWEEPS[model]
+    source, mesh = f"{OURS}, {finer} × {finer}", f"{model} {FIXED} × {FIXED}"
+    for poisson, ratio in product(poissons, ratios):
+        fixed, converged = (deflection(model, "clamped", ratio, n, poisson) for n in (FIXED, finer))
+        quantity = f"w D/qL⁴ at h/a = {ratio:g}, ν = {poisson:g}"
+        yield relatively(quantity, mesh, converged, source, fixed, tolerance)
+
+
+def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:
+    """w D/(q L⁴) at the centre, D the thin plate's; kind: "hinged" is hard (plate only), or "clamped"."""
+    material = Material(young=1e7, poisson=poisson, density=1000.0)
+    rigidity = bending_stiffness(material, ratio)[0, 0]
+    load = SMALL * ratio * rigidity / CLAMPED[0.001]
+    scene = specimen(Sheet(1.0, 1.0, ratio), material, around(Hinged if kind == "hinged" else Clamped), load)
+    return _middle(scene, model, elements, hard=kind == "hinged") * rigidity / load
+
+
+def _middle(scene: Scene, model: str, elements: int, hard: bool) -> float:
+    """w [m] at the centre; hard: edges, which the plate alone knows."""
+    options: dict[str, Any] = {"hard_edges": tuple(EDGES)} if hard else {}
+    return float(moved(scene, (0.5, 0.5), model, elements, **options)[2])
+
+
+def frequencies(case: str) -> Iterator[Row]:
+    """Six modes of every model of a case of `BENCHMARKS`."""
+    _, sheet, edges, source, unit, converged, bounds, models = BENCHMARKS[case]
+    scene, scale = specimen(sheet, STEEL, around(Clamped, edges)), 1.0
+    if unit == COEFFICIENT:
+        rigidity = bending_stiffness(STEEL, sheet.thickness)[0, 0]
+        scale = 2.0 * np.pi * sheet.length_x**2 * np.sqrt(STEEL.density * sheet.thickness / rigidity)
+    for model in models:
+        coarse, found = (scale * modes(scene, model, n, 6).frequencies for n in (ELEMENTS // 2, ELEMENTS))
+        mesh, own = MESH.format(model), f"{OURS}, finer mesh"
+        yield from lowest(f"mode {{}} [{unit}], converged", mesh, converged, own, found, CONVERGED)
+        yield from lowest(f"mode {{}} [{unit}], bound", mesh, bounds, source, found, BOUND)
+        yield mesh_change(mesh, coarse, found, CONVERGED)
+
+
+def ply() -> Iterator[Row]:
+    """A single ply, fibres along x."""
+    yield from _fibres((), 1.0, "Navier's series, Timoshenko & Woinowsky-Krieger 1959")
+
+
+def laminate() -> Iterator[Row]:
+    """[0/90]s."""
+    yield from _fibres(LAYERS, 0.875, "Navier's series of the laminate, Reddy 2004")
+
+
+def _fibres(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
+    """w D22/(q a⁴) in the middle, of the plate and of the shell under so small a load that it is linear, and
+    their first six frequencies [Hz]; outer: the outer layers' share of the second moment, along x."""
+    moment, left = THIN.thickness**3 / 12.0, 1.0 - NU**2 * E2 / E1
+    mixed = moment * (NU * E2 / left + 2.0 * G)
+    along, across = (moment * (a * E1 + (1.0 - a) * E2) / left for a in (outer, 1.0 - outer))
+
+    def delta(m: int, n: int) -> float:
+        return along * m**4 + 2.0 * mixed * m**2 * n**2 + across * n**4
+
+    odd = product(range(1, 80, 2), repeat=2)
+    unit = 16.0 / pi**6 * sum(sin(m * pi / 2) * sin(n * pi / 2) / (m * n * delta(m, n)) for m, n in odd)
+    load, inertia = SMALL * THIN.thickness / unit, FIBRES.density * THIN.thickness
+    exact = sorted(0.5 * pi * sqrt(delta(*mn) / inertia) for mn in product(range(1, 12), repeat=2))[:6]
+    scene = specimen(THIN, FIBRES, around(Hinged), load, layers=layers)
+    for model in ("plate", "shell"):
+        mesh, middle = MESH.format(model), _middle(scene, model, ELEMENTS, hard=model == "plate")
+        yield relatively("w D22/qa⁴", mesh, unit * across, source, middle / load * across, 5e-3)
+        found = modes(scene, model, ELEMENTS, count=6).frequencies
+        yield from lowest("mode {} [Hz]", mesh, exact, "Leissa 1969", found, 1e-2)
+
+
+def self_bending() -> Iterator[Row]:
+    """A cantilever's quarter turn, a heated plate's buckling, a stretched plate's frequency."""
+    length, h, poisson, kirchhoff = 0.2, 0.002, 0.3, "Kirchhoff's plate"
+    material, hinges = Material(young=1e6, poisson=poisson, density=1e3), around(Hinged)
+    k, mesh, half = 0.5 * np.pi / length, "16 × 8", 0.5 * length
+    curled = Natural(curvature=(k, 0.0, 0.0))
+    scene = specimen(Sheet(length, half, h), material, (Clamped(edge="x0"),), natural=curled)
+    tip = moved(scene, (length, 0.5 * half), "shell", (16, 8))
+    for name, exact, found in (("ux", 1.0 / k - length, tip[0]), ("uz", 1.0 / k, tip[2])):
+        yield relatively(f"{name} of the tip of a quarter turn [m]", mesh, exact, EXACT, found, 1e-6)
+    strain = np.pi**2 * h**2 / (6.0 * (1.0 + poisson) * length**2)
+    hot = Natural(strain=(strain, strain, 0.0))
+    heated = specimen(Sheet(length, length, h), material, hinges, natural=hot)
+    found = buckling(heated, "shell", 12).load_factors[0] * strain
+    yield relatively("strain that buckles a heated plate", "12 × 12", strain, kirchhoff, found, 0.012)
+    h, tension, q = h / 8.0, 0.05, 2.0 * np.pi**2 / length**2
+    pulled = Natural(pretension=(tension, tension))
+    stretched = specimen(Sheet(length, length, h), material, hinges, natural=pulled)
+    rigidity = bending_stiffness(material, h)[0, 0]
+    exact = np.sqrt((rigidity * q**2 + tension * q) / (material.density * h)) / (2.0 * np.pi)
+    found = modes(stretched, "shell", 8, 1, about="deformed").frequencies[0]
+    yield relatively("frequency of a stretched plate [Hz]", "8 × 8", exact, kirchhoff, found, 1e-3)

@@ -97,10 +97,8 @@ class Loads:
                     turn = np.cross(EDGES[load.edge].outward, [0.0, 0.0, 1.0]) @ along
                     part.moments.append((edge, length * load.moment_per_length, float(turn)))
             elif isinstance(load, AreaLoad):
-                area = areas_of_masses(scene, lattice, load.where).ravel() / lattice.grid[2]
-                part.dead[lattice.columns().reshape(len(area), -1)] += area[:, None, None] * np.array(
-                    load.force_per_area
-                )
+                area = areas_of_masses(scene, lattice, load.where)
+                part.dead[: len(area)] += area[:, None] * np.array(load.force_per_area)
             elif isinstance(load, Pressure):
                 part.pressure += load.value * cell_shares(scene, lattice, load.where)
         last = [(part.factor(None), part) for part in self._parts.values()]

@@ -150,16 +150,15 @@ def held_columns(
         return np.asarray(columns[np.any(near, axis=0)])
     columns = lattice.columns()
     inside = held_crossings(lattice.lines, shape)
+    grid = "x".join(map(str, lattice.grid[:2]))
     if isinstance(support, Point) and not inside.any():
         where = ", ".join(f"{at:g}" for at in support.at)
-        grid = "x".join(map(str, lattice.grid[:2]))
         raise BadInput(
             f"{name}.at = [{where}]: no mass of a grid of {grid} is there; take a grid with lines through it "
             "(lumped.calibrate: grading), or a point that has one"
         )
     inside[np.isin(columns[:, :, 0], lattice.absent_masses)] = False
     if not inside.any():
-        grid = "x".join(map(str, lattice.grid[:2]))
         raise BadInput(
             f"{name}.where: {shape.in_words()}: it holds no mass of a grid of {grid}; take a finer one"
         )

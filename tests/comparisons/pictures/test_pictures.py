@@ -130,7 +130,7 @@ def test_what_a_figure_may_be():
     assert parse_figure(None) == (PLAIN,) and not PLAIN.formats
     assert parse_figure("pdf") == (pdf,)
     assert parse_figure("PNG, svg:single") == (replace(png, formats=("png", "svg")),)
-    assert parse_figure("pdf:single,png:single") == (replace(png, formats=("pdf",)), png)
+    assert parse_figure("pdf:single,png:single") == (replace(png, formats=("pdf", "png")),)
     assert parse_figure("png:single, pdf") == parse_figure("png:single,pdf:double") == (png, pdf)
     for wrong in ("", " ,", "eps", "pdf:wide", "pdf;png", "pdf:single,pdf"):
         with pytest.raises(BadInput, match="--figure"):

@@ -106,14 +106,13 @@ class Lattice:
 
     @cached_property
     def joined(self) -> tuple[np.ndarray, ...]:
-        """Nodes, offsets and rest lengths of the links of all families, numbers of their names among
-        `link_names`, weights, and numbers of their families."""
+        """Nodes, offsets and rest lengths of the links of all families, and numbers of their names among
+        `link_names`."""
         parts = [
-            (f.nodes, f.offset, f.rest_length, np.full(len(f.nodes), self.link_names.index(f.name)), f.weight)
+            (f.nodes, f.offset, f.rest_length, np.full(len(f.nodes), self.link_names.index(f.name)))
             for f in self.links
         ]
-        families = np.repeat(np.arange(len(parts)), [len(nodes) for nodes, *_ in parts])
-        return *(np.concatenate(part) for part in zip(*parts, strict=True)), families
+        return tuple(np.concatenate(part) for part in zip(*parts, strict=True))
 
     @cached_property
     def link_names(self) -> tuple[str, ...]:

@@ -32,7 +32,7 @@ class Rest:
         if found is None:
             if len(self._found) == PATTERN_CACHE:
                 self._found.clear()
-            joined = self._lattice.joined[:4]
+            joined = self._lattice.joined
             nodes, offset, rest, kind = joined if which.all() else (part[which] for part in joined)
             found = self._found[key] = (nodes, self._pattern.among(nodes).reshape(-1, 4), offset, rest, kind)
         return found

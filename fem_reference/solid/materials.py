@@ -25,12 +25,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from fem_reference.surface.biquadratic import IN_SPACE, pulled_back
 from fem_reference.surface.plies import in_space
 from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Constants, Material
 from sheetbench.scenes.objects.material import WORDS, Energy
 
-PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 _TRACE = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 _DOUBLE = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
 
@@ -91,18 +91,14 @@ def _green_volume(strain: np.ndarray) -> Triad:
 
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
     c = np.tile(np.eye(3), (*strain.shape[:-1], 1, 1))  # 2E + 1
-    for place, (i, j) in enumerate(PAIRS):
+    for place, (i, j) in enumerate(IN_SPACE):
         c[..., i, j] += (2.0 if i == j else 1.0) * strain[..., place]
         c[..., j, i] = c[..., i, j]
     inverse, determinant = np.linalg.inv(c), np.linalg.det(c)
-    first = np.stack([inverse[..., i, j] for i, j in PAIRS], axis=-1)
+    first = np.stack([inverse[..., i, j] for i, j in IN_SPACE], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
         value = 0.5 * np.log(determinant)
-    rows = [
-        [-inverse[..., i, a] * inverse[..., j, b] - inverse[..., i, b] * inverse[..., j, a] for a, b in PAIRS]
-        for i, j in PAIRS
-    ]
-    return Triad(value, first, np.stack([np.stack(row, axis=-1) for row in rows], axis=-2))
+    return Triad(value, first, -_DOUBLE @ pulled_back(inverse, IN_SPACE))
 
 
 def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:

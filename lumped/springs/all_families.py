@@ -245,17 +245,11 @@ def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     """Central links, first and even where there are none; then those of a per-direction law."""
     rest, names = rest_of(lattice, pattern), lattice.link_names
     each = [springs.of_links(family.name, family.direction) for family in lattice.links]
-    if all(k.size == 1 for k in each):
-        *_, weight, family_of = lattice.joined
-        central = weight * np.concatenate(each)[family_of, 0]
-        yield _links(Links, rest, central > 0.0, central, names)
-        return
-    stiffness = []
+    components, parts = np.ones(max(k.shape[1] for k in each)), []
     for family, k in zip(lattice.links, each, strict=True):
-        of_links = (family.shares * k[family.cells, 0]).sum(axis=1, keepdims=True) if len(k) > 1 else None
-        of_links = family.weight[:, None] * k if of_links is None else of_links
-        stiffness.append(np.broadcast_to(of_links, (len(of_links), 3)))
-    k = np.concatenate(stiffness)
+        of_cells = (family.shares[:, :, None] * k[family.cells]).sum(axis=1) if len(k) > 1 else None
+        parts.append((family.weight[:, None] * k if of_cells is None else of_cells) * components)
+    k = np.concatenate(parts)
     unequal = (k != k[:, :1]).any(axis=1)
     yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
     if unequal.any():

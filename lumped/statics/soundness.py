@@ -9,7 +9,6 @@ import math
 import numpy as np
 
 from lumped.springs.links import LinkArrays, strains
-from sheetbench.numerics.maps import Rows
 from sheetbench.numerics.typed import inner, njit
 
 TINY = float(np.finfo(float).tiny)
@@ -56,7 +55,6 @@ def examine(
     when flat. shortest: of a link, over its length at rest; areas (ny − 1, nx − 1) [m²], 0 of absent cells,
     the rest as in `surface`."""
     ny, nx, _ = columns.shape
-    first, second, mean = np.empty(3), np.empty(3), np.empty(3)
     sound, kind, mass = len(states), -1, 0
     for k in range(len(states)):
         for i in range(len(positions)):
@@ -71,15 +69,12 @@ def examine(
         least, which = np.inf, 0
         for j in range(ny - 1):
             for i in range(nx - 1):
-                for q in range(3):
-                    first[q] = middle[j + 1, i + 1, q] - middle[j, i, q]
-                    second[q] = middle[j + 1, i, q] - middle[j, i + 1, q]
-                    mean[q] = director[j, i, q] + director[j, i + 1, q]
-                    mean[q] += director[j + 1, i + 1, q] + director[j + 1, i, q]
+                a, b, c, d = middle[j, i], middle[j, i + 1], middle[j + 1, i + 1], middle[j + 1, i]
                 facing = 0.0
-                for q in range(3):
-                    r, s = (q + 1) % 3, (q + 2) % 3
-                    facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
+                for q, r, s in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+                    normal = (c[r] - a[r]) * (d[s] - b[s]) - (c[s] - a[s]) * (d[r] - b[r])
+                    mean = director[j, i, q] + director[j, i + 1, q]
+                    facing += normal * (mean + director[j + 1, i + 1, q] + director[j + 1, i, q])
                 if areas[j, i] > 0.0 and facing < least * areas[j, i]:
                     least, which = facing / areas[j, i], columns[j, i, 0]
         if least <= 0.0:
@@ -119,10 +114,8 @@ def sharpest_bend(
 
 
 @njit(cache=True)
-def rounded_forces(
-    u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray, sample: np.ndarray, free: Rows, n: int
-) -> np.ndarray:
-    """Return Tᵀ f (n,) [N] of a sample (k, 3) times k |Δu| of the links at every mass, summed; free: T."""
+def carried_by_links(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    """Return k |Δu| of the links at every mass, summed, (k, 1) [N]."""
     carried = np.zeros(len(u))
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
@@ -132,8 +125,4 @@ def rounded_forces(
         pull = stiffness[m] * math.sqrt(square)
         carried[a] += pull
         carried[b] += pull
-    out = np.zeros(n)
-    for row in range(len(free.pointers) - 1):
-        for e in range(free.pointers[row], free.pointers[row + 1]):
-            out[free.columns[e]] += free.values[e] * carried[row // 3] * sample[row // 3, row % 3]
-    return out
+    return carried.reshape(-1, 1)

@@ -210,8 +210,7 @@ def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_o
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr(direct, "splu", None)
     problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
-    outcome = solve_path(scene, problem)
-    assert outcome.status == "unstable" and outcome.path.factor.negative == 1
-    state, factor = outcome.path.state, outcome.path.factor
-    beside = _disturbed(outcome.path, problem, state, factor, share=0.1)
-    assert problem.potential(beside, 1.0) < problem.potential(outcome.state.u, 1.0)
+    path = solve_path(problem)
+    assert path.status == "unstable" and path.factor.negative == 1
+    beside = _disturbed(path, problem, path.state, path.factor, share=0.1)
+    assert problem.potential(beside, 1.0) < problem.potential(path.state.u, 1.0)

@@ -146,9 +146,9 @@ def _times(factor):
 OFF = _times(1.001)
 LOADED, HUNG = "clamped, all loads", "unequal chains"
 FAULTS = {
-    "weight": ("loads.area_force", OFF, LOADED),
-    "force on an edge": ("loads.line_force", OFF, LOADED),
-    "force at a point": ("loads.point_force", OFF, LOADED),
+    "weight": ("loads.areas", OFF, LOADED),
+    "force on an edge": ("loads.Line.shares", OFF, LOADED),
+    "force at a point": ("loads.shares", lambda f: lambda *at: (f(*at)[0], 1.001 * f(*at)[1]), LOADED),
     "pressure": ("loads.FollowerPressure.force", OFF, LOADED),
     "moment on an edge": ("loads.FollowerMoment.force", OFF, LOADED),
     "sense of a moment": ("loads.FollowerMoment.force", _times(-1.0), LOADED),

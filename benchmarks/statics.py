@@ -49,9 +49,9 @@ def lattice(masses: int) -> dict[str, Any]:
         call = min(timed(lambda: lumped.solve(SCENE, springs)) for _ in range(repeats + 1))
         setup = min(timed(lambda: lumped.build_problem(SCENE, springs)) for _ in range(repeats))
         problems = [lumped.build_problem(SCENE, springs) for _ in range(repeats)]
-        solve = min(timed(lambda p=problem: solve_from_best_start(SCENE, p, springs)) for problem in problems)
+        solve = min(timed(lambda p=problem: solve_from_best_start(p, springs)) for problem in problems)
         problem = problems[-1]
-        outcome = solve_from_best_start(SCENE, problem, springs)
+        path = solve_from_best_start(problem, springs)
         factor, flops = factorisation(problem, problem.tangent(np.zeros_like(problem.loads.dead), 0.0))
         once = min(timed(factor) for _ in range(max(1, repeats // 3)))
     return {
@@ -60,7 +60,7 @@ def lattice(masses: int) -> dict[str, Any]:
         "solve_seconds": solve,
         "setup_seconds": setup,
         "call_over_solve": call / solve,
-        "factorisations": outcome.path.factorisations,
+        "factorisations": path.factorisations,
         "one_factorisation_seconds": once,
         "gflops": flops / once / 1e9,
         "peak_bytes": 1024 * getrusage(RUSAGE_SELF).ru_maxrss,

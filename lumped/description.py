@@ -14,7 +14,6 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.check_states import CheckState, check_states
-from lumped.loads import Loads
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
 from lumped.springs.cell_laws import AREA_AND_STRAINS, ENERGIES
@@ -113,92 +112,60 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     if scene.air is not None:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)
-    assembly, lattice = problem.assembly, problem.assembly.lattice
+    assembly, lattice, loads = problem.assembly, problem.assembly.lattice, problem.loads
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
     nx, ny, layers = lattice.grid
-    j, i, k = (at.ravel() for at in np.meshgrid(*map(np.arange, (ny, nx, layers)), indexing="ij"))
-    moments, pressures = problem.loads.at_time(None)
+    there = np.setdiff1d(np.arange(lattice.mass_count), lattice.absent_masses)
+    number = np.full(lattice.mass_count, -1)  # of every mass of the lattice among those that are there
+    number[there] = np.arange(len(there))
+    flat = np.zeros_like(loads.dead)
+    moments, pressures = loads.at_time(None)
     pressed = pressures != 0.0
-    couples = tuple(c for edge, moment, turn in moments for c in _couples(edge, turn * moment))
     states, why = check_states(scene, calibration, problem)
     none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
     points = zip(none, *(one.table() for one in problem.contacts), strict=True)
-    found = Description(
-        index=np.stack([i, j, k], axis=1),
-        positions=lattice.positions,
-        mass=masses(scene, lattice, calibration.masses, calibration.cells),
+    touching, *contact = map(np.concatenate, points)
+    return Description(
+        index=np.indices((ny, nx, layers)).reshape(3, -1)[[1, 0, 2]].T[there],
+        positions=lattice.positions[there],
+        mass=masses(scene, lattice, calibration.masses, calibration.cells)[there],
         damping_rate=scene.material.damping_rate,
-        links=_links(scene, assembly),
-        cells=tuple(_cells(scene, assembly)),
-        holds=_holds(problem),
-        dead=_constant(problem.loads),
+        links=_links(scene, assembly, number),
+        cells=tuple(_cells(scene, assembly, number)),
+        holds=_holds(problem, number),
+        dead=(loads.force(flat) - loads.followers(flat))[there],  # with the last factors of their histories
         pressure=pressures[pressed],
-        pressed=lattice.mid_cells[pressed],
-        couples=couples,
-        contact=tuple(map(np.concatenate, points)),
-        states=states,
+        pressed=number[lattice.mid_cells[pressed]],
+        couples=tuple(c for edge, moment, turn in moments for c in _couples(number[edge], turn * moment)),
+        contact=(number[touching], *contact),
+        states=tuple(
+            replace(one, displacement=one.displacement[there], force=one.force[there]) for one in states
+        ),
         notes=(*_left_out(scene), *why),
     )
-    return _without(found, lattice.absent_masses) if len(lattice.absent_masses) else found
 
 
-def _without(found: Description, absent: np.ndarray) -> Description:
-    """The description without some masses, the others numbered on from 0."""
-    there = np.ones(len(found.mass), dtype=bool)
-    there[absent] = False
-    new = np.cumsum(there) - 1
-
-    def several(masses: tuple[int, ...]) -> tuple[int, ...]:
-        return tuple(new[list(masses)].tolist())
-
-    return replace(
-        found,
-        **{name: getattr(found, name)[there] for name in ("index", "positions", "mass", "dead")},
-        links=replace(found.links, masses=new[found.links.masses]),
-        cells=tuple(replace(table, corners=new[table.corners]) for table in found.cells),
-        holds=tuple(replace(h, masses=several(h.masses)) for h in found.holds if there[h.masses[0]]),
-        pressed=new[found.pressed],
-        contact=(new[found.contact[0]], *found.contact[1:]),
-        couples=tuple(
-            replace(
-                c,
-                top=int(new[c.top]),
-                bottom=int(new[c.bottom]),
-                before=several(c.before),
-                after=several(c.after),
-            )
-            for c in found.couples
-        ),
-        states=tuple(
-            replace(state, displacement=state.displacement[there], force=state.force[there])
-            for state in found.states
-        ),
-    )
-
-
-def _links(scene: Scene, assembly: Assembly) -> LinkTable:
+def _links(scene: Scene, assembly: Assembly, number: np.ndarray) -> LinkTable:
     """The links, also those that have only a damper of the scene's own table."""
-    springs = assembly.links
-    table = _table(springs, springs.stiffness, scene.material.dashpot_time * springs.stiffness)
-    if scene.dampers is None:
-        return table
-    own = table_dampers(assembly.lattice, assembly.pattern, scene.dampers)
-    beside = _table(own, np.zeros(len(own)), own.stiffness)
-    places = {tuple(pair): row for row, pair in enumerate(table.masses.tolist())}
-    at = np.array([places.get(tuple(pair), -1) for pair in beside.masses.tolist()], dtype=int)
-    damping = np.zeros(len(springs))
-    damping[at[at >= 0]] = beside.damping[at >= 0]
-    joined = zip(vars(replace(table, damping=damping)).values(), vars(beside).values(), strict=True)
-    return LinkTable(*(np.concatenate([first, second[at < 0]]) for first, second in joined))
+    springs, time = assembly.links, scene.material.dashpot_time
+    dampers, times = springs, time * springs.stiffness
+    if scene.dampers is not None:
+        dampers = table_dampers(assembly.lattice, assembly.pattern, scene.dampers)
+        times = dampers.stiffness
+    left = dict(zip(map(tuple, dampers.nodes.tolist()), times.tolist(), strict=True))
+    damping = np.array([left.pop((a, b), 0.0) for a, b in springs.nodes.tolist()])
+    alone = np.array([(a, b) in left for a, b in dampers.nodes.tolist()], dtype=bool)
+
+    def rows(links: Links, *values: np.ndarray) -> tuple[np.ndarray, ...]:
+        return number[links.nodes], np.array(links.names)[links.kind], links.rest_length, *values
+
+    others = rows(dampers, np.zeros(len(dampers)), times)
+    both = zip(rows(springs, springs.stiffness, damping), others, strict=True)
+    return LinkTable(*(np.concatenate([first, second[alone]]) for first, second in both))
 
 
-def _table(links: Links, stiffness: np.ndarray, damping: np.ndarray) -> LinkTable:
-    names = np.array(links.names)[links.kind]
-    return LinkTable(links.nodes, names, links.rest_length.copy(), stiffness, damping)
-
-
-def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
+def _cells(scene: Scene, assembly: Assembly, number: np.ndarray) -> Iterator[CellTable]:
     """Yield the springs of each kind, and dampers where there are no springs."""
     time = 0.0 if scene.dampers is not None else scene.material.dashpot_time
     families = [family for family in assembly.springs if isinstance(family, SpringCells)]
@@ -211,7 +178,8 @@ def _cells(scene: Scene, assembly: Assembly) -> Iterator[CellTable]:
             pair.append(np.zeros_like(pair[0]) if damping is None else damping)
             if (on := np.any(pair[0], axis=-1) | np.any(pair[1], axis=-1)).any():
                 springs, dampers = (each[on] for each in pair)
-                yield CellTable(kind, family.nodes[on], area[on], natural[on], springs, dampers, energy)
+                nodes = number[family.nodes[on]]
+                yield CellTable(kind, nodes, area[on], natural[on], springs, dampers, energy)
 
 
 def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -230,17 +198,17 @@ def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndar
     return cells.constants * np.stack(units, axis=1) / area[:, None], natural, area
 
 
-def _holds(problem: Problem) -> tuple[Hold, ...]:
+def _holds(problem: Problem, number: np.ndarray) -> tuple[Hold, ...]:
     """What is held, once each; a corner's under the support that comes first."""
     constraints, place = problem.constraints, problem.prescribed(1.0)
-    found: dict[tuple[tuple[int, ...], int], Hold] = {}
+    found: dict[tuple[int, ...], Hold] = {}
     for edge, (columns, axes) in constraints.holders.items():
-        for column in columns.tolist():
+        for column in columns[number[columns[:, 0]] >= 0]:
             for axis in axes:
                 fixed = constraints.fixed[column[0], axis]
-                for held_masses in [(mass,) for mass in column] if fixed else [tuple(column)]:
-                    mean = float(place[list(held_masses), axis].mean())
-                    found.setdefault((held_masses, axis), Hold(edge, held_masses, axis, mean))
+                for held in column[:, None] if fixed else column[None]:
+                    hold = Hold(edge, tuple(number[held].tolist()), axis, float(place[held, axis].mean()))
+                    found.setdefault((*hold.masses, axis), hold)
     return tuple(found.values())
 
 
@@ -256,12 +224,6 @@ def _couples(edge: np.ndarray, moment: np.ndarray) -> list[Couple]:
         )
         for at, column in enumerate(edge)
     ]
-
-
-def _constant(loads: Loads) -> np.ndarray:
-    """The dead loads with the last factors of their histories."""
-    rest = np.zeros_like(loads.dead)
-    return loads.force(rest) - loads.followers(rest)
 
 
 def _left_out(scene: Scene) -> tuple[str, ...]:

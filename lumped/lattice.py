@@ -63,30 +63,30 @@ class LinkFamily:
         return np.linalg.norm(self.offset, axis=1)
 
 
-@dataclass(frozen=True)
-class CellFamily:
-    """The area cells of the layers ("area") or of the mid-surface ("mid_area").
+class Faces(NamedTuple):
+    """nodes (m, 4, 1) masses; cells, shares (m, q): the plan cells beside each and their shares; axis: (m,) 0
+    along x, 1 along y, 2 over diagonals along x and y, 3 over the others."""
 
-    nodes: (c, 4, p) mass numbers: four corners in turn, the p masses whose mean is that corner.
-    """
-
-    name: str
     nodes: np.ndarray
+    cells: np.ndarray
+    shares: np.ndarray
+    axis: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
     """Topology and rest geometry. lines: across x and across y; layer_distance: lz [m]; positions: (n, 3)
-    [m]; share: (n,) of each mass in the plan area, in mean cells; twisting: the edges along which nothing
-    holds the director; present: (ny − 1, nx − 1) of the cells, and the mass per area that their shares of the
-    sheet have [kg/m²], None where all are."""
+    [m]; mid_cells: (c, 4, layers) columns of masses at the corners in turn of the mid-surface's cells; share:
+    (n,) of each mass in the plan area, in mean cells; twisting: the edges along which nothing holds the
+    director; present: (ny − 1, nx − 1) of the cells, and the mass per area that their shares of the sheet
+    have [kg/m²], None where all are."""
 
     grid: Grid
     lines: tuple[Lines, Lines]
     layer_distance: float
     positions: np.ndarray
     links: tuple[LinkFamily, ...]
-    cells: tuple[CellFamily, ...]
+    mid_cells: np.ndarray
     share: np.ndarray
     twisting: frozenset[str] = frozenset()
     present: np.ndarray | None = None
@@ -105,20 +105,33 @@ class Lattice:
         return np.flatnonzero(~there)
 
     @cached_property
-    def joined(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Nodes, offsets and rest lengths of the links of all families, and the number of the name that each
-        one's family has among them."""
-        names = self.link_names
+    def joined(self) -> tuple[np.ndarray, ...]:
+        """Nodes, offsets and rest lengths of the links of all families, and numbers of their names among
+        `link_names`."""
         parts = [
-            (f.nodes, f.offset, f.rest_length, np.full(len(f.nodes), names.index(f.name))) for f in self.links
+            (f.nodes, f.offset, f.rest_length, np.full(len(f.nodes), self.link_names.index(f.name)))
+            for f in self.links
         ]
-        nodes, offset, rest, number = (np.concatenate(part) for part in zip(*parts, strict=True))
-        return nodes, offset, rest, number
+        return tuple(np.concatenate(part) for part in zip(*parts, strict=True))
 
     @cached_property
     def link_names(self) -> tuple[str, ...]:
         """The names of the families of links, once each."""
         return tuple(dict.fromkeys(family.name for family in self.links))
+
+    @cached_property
+    def faces(self) -> Faces:
+        """The faces between layers above links along x, along y, and over the cells' diagonals."""
+        layers, parts = self.grid[2], []
+        for axis, family in enumerate(f for f in self.links if f.name in ("axial", "diagonal")):
+            low = family.nodes[:, 0] % layers < layers - 1
+            a, b = family.nodes[low].T
+            nodes = np.stack([a, b, b + 1, a + 1], axis=1)[:, :, None]
+            cells, shares = family.cells[low], family.shares[low]
+            if axis > 1:  # of one cell each
+                cells, shares = np.repeat(cells, 2, axis=1), 0.5 * np.repeat(shares, 2, axis=1)
+            parts.append((nodes, cells, shares, np.full(len(a), axis)))
+        return Faces(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
     @property
     def mass_count(self) -> int:
@@ -142,20 +155,10 @@ class Lattice:
         """Masses by plan position, positions at rest, and areas of the cells."""
         return self.columns(), self.positions, self.cell_areas
 
-    @cached_property
-    def sides(self) -> dict[str, np.ndarray]:
-        """Mean sides at rest (c, 2, 3) [m], along x and along y, of the cells of each family."""
-        return {family.name: mean_sides(self.positions, family.nodes) for family in self.cells}
-
     @property
-    def mid_cells(self) -> np.ndarray:
-        """The columns of masses at the corners of the mid-surface's cells (c, 4, layers)."""
-        return next(cells.nodes for cells in self.cells if cells.name == "mid_area")
-
-    def number(self, i: np.ndarray, j: np.ndarray, k: np.ndarray) -> np.ndarray:
-        """Mass numbers of grid indices (broadcast)."""
-        nx, _, layers = self.grid
-        return (np.asarray(j) * nx + np.asarray(i)) * layers + np.asarray(k)
+    def layer_cells(self) -> np.ndarray:
+        """The masses at the corners of the layers' cells (layers × c, 4, 1)."""
+        return np.moveaxis(self.mid_cells, 2, 0).reshape(-1, 4, 1)
 
     def columns(self) -> np.ndarray:
         """Mass numbers by plan position, (ny, nx, layers)."""
@@ -166,13 +169,6 @@ class Lattice:
         """Mass numbers along an edge in the direction of its axis, (m, layers)."""
         columns = self.columns()
         return {"x0": columns[:, 0], "x1": columns[:, -1], "y0": columns[0], "y1": columns[-1]}[edge]
-
-
-def mean_sides(positions: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Mean sides (c, 2, 3) of cells whose corners are the means of p masses each, (c, 4, p)."""
-    corners = positions[nodes].mean(axis=2)
-    across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
-    return 0.5 * np.stack([across - along, across + along], axis=1)
 
 
 # family, direction, step in the grid; of each pair of opposite steps one is listed.
@@ -223,27 +219,23 @@ def build(
     positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)
 
     families = []
-    for step in _steps(grid):
-        nodes, cells, shares, row, column = step.nodes, step.cells, step.shares, step.row, step.column
+    for (name, direction, step), (nodes, cells, shares) in zip(STEPS, _steps(grid), strict=True):
         if present is not None:
             shares = shares * present.ravel()[cells]
             there = shares.any(axis=1)
-            nodes, cells, shares, row, column = (part[there] for part in (nodes, cells, shares, row, column))
+            nodes, cells, shares = nodes[there], cells[there], shares[there]
         if weights == "full":
             shares = shares / shares.sum(axis=1, keepdims=True)
-        di, dj, dk = step.by
-        offset = np.empty((len(nodes), 3))
-        offset[:, 0] = di * across_x.widths[column]
-        offset[:, 1] = dj * across_y.widths[row]
-        offset[:, 2] = dk * layer_distance
-        families.append(LinkFamily(step.name, step.direction, nodes, *frozen((offset, cells, shares))))
+        row, column = j[nodes].min(axis=1).clip(max=ny - 2), i[nodes].min(axis=1).clip(max=nx - 2)
+        widths = across_x.widths[column], across_y.widths[row], np.full(len(nodes), layer_distance)
+        offset = np.array(step) * np.stack(widths, axis=1)
+        families.append(LinkFamily(name, direction, nodes, *frozen((offset, cells, shares))))
 
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
     corners = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
     corners = corners.reshape(-1, 4, layers)
     if present is not None:
         corners = corners[present.ravel()]
-    layer_cells = np.moveaxis(corners, 2, 0).reshape(-1, 4, 1)
     x_share, y_share = (side.tributary / side.mean for side in lines)
     share = np.repeat(np.outer(y_share, x_share).ravel(), layers)
     if weights == "full":
@@ -255,26 +247,12 @@ def build(
         layer_distance=layer_distance,
         positions=positions,
         links=tuple(families),
-        cells=(CellFamily("area", layer_cells), CellFamily("mid_area", corners)),
+        mid_cells=corners,
         share=share,
         twisting=twisting,
         present=present,
         per_area=per_area,
     )
-
-
-class _Step(NamedTuple):
-    """The links of one row of STEPS on a grid: nodes, cells and shares as `LinkFamily`; row and column: of
-    the cells whose widths they span, (m,)."""
-
-    name: str
-    direction: str
-    by: tuple[int, int, int]
-    nodes: np.ndarray
-    cells: np.ndarray
-    shares: np.ndarray
-    row: np.ndarray
-    column: np.ndarray
 
 
 def _indices(grid: Grid) -> tuple[np.ndarray, ...]:
@@ -286,20 +264,16 @@ def _indices(grid: Grid) -> tuple[np.ndarray, ...]:
 
 
 @kept(last=16, most=SHARED_UP_TO, size=math.prod)
-def _steps(grid: Grid) -> tuple[_Step, ...]:
-    """The links of a grid, whatever its sides."""
+def _steps(grid: Grid) -> tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]:
+    """The nodes, cells and shares, as `LinkFamily` has them, of the links of each row of STEPS on a grid."""
     nx, ny, layers = grid
     j, i, k = _indices(grid)
     found = []
-    for name, direction, (di, dj, dk) in STEPS:
+    for _, _, (di, dj, dk) in STEPS:
         inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
         first = np.flatnonzero(inside)
-        second = first + (dj * nx + di) * layers + dk
-        cells, shares = _cells_of_links(i[first], j[first], (di, dj), (nx, ny))
-        row = np.minimum(j[first], j[second]).clip(max=ny - 2)
-        column = np.minimum(i[first], i[second]).clip(max=nx - 2)
-        nodes = np.stack([first, second], axis=1)
-        found.append(_Step(name, direction, (di, dj, dk), nodes, cells, shares, row, column))
+        nodes = np.stack([first, first + (dj * nx + di) * layers + dk], axis=1)
+        found.append((nodes, *_cells_of_links(i[first], j[first], (di, dj), (nx, ny))))
     return tuple(found)
 
 

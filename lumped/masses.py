@@ -77,26 +77,23 @@ def sheet_masses(
 
     Raises BadInput for an unknown distribution, and for one that is not tributary of cells that differ.
     """
-    if cells is not None:
-        quarter = 0.25 * cells.per_area * lattice.cell_areas / lattice.grid[2]
-        plan = np.asarray(sum(np.pad(quarter, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2)))
-        for axis, lines in enumerate(lattice.lines) if distribution == "gregory" else ():
-            beside, moved = _moved(lines)
-            by_line = np.moveaxis(plan, 1 - axis, 0)
-            taken = (moved / lines.tributary)[:, None] * by_line
-            by_line += taken
-            np.subtract.at(by_line, beside, taken)
-        if distribution in ("tributary", "gregory"):
-            return np.repeat(plan.ravel(), lattice.grid[2])
-    lx, ly, _ = lattice.spacing
-    layers = lattice.grid[2]
-    per_area = scene.material.density * scene.sheet.thickness / layers
-    if distribution == "tributary":
-        return per_area * lx * ly * lattice.share
-    if distribution != "gregory":
+    if distribution not in ("tributary", "gregory"):
         raise BadInput(f"masses = {distribution!r}: choose from tributary, gregory")
-    x, y = (_gregory(lines) for lines in lattice.lines)
-    return per_area * np.repeat(np.outer(y, x).ravel(), layers)
+    (nx, ny, layers), (lx, ly, _) = lattice.grid, lattice.spacing
+    if cells is None:
+        per_area = scene.material.density * scene.sheet.thickness / layers
+        plan = per_area * lx * ly * lattice.share[::layers].reshape(ny, nx)
+    else:
+        quarter = 0.25 * cells.per_area * lattice.cell_areas / layers
+        plan = np.asarray(sum(np.pad(quarter, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2)))
+    for axis, lines in enumerate(lattice.lines) if distribution == "gregory" else ():
+        left, right, corrections = _corrections(lines)
+        wider = np.where(right >= left, 1, -1)  # from the neighbour over the wider of its cells
+        by_line = np.moveaxis(plan, 1 - axis, 0)
+        taken = (corrections * wider / np.maximum(left, right) / lines.tributary)[:, None] * by_line
+        by_line += taken
+        np.subtract.at(by_line, np.arange(len(left)) + wider, taken)
+    return np.repeat(plan.ravel(), layers)
 
 
 def mass_matrix(
@@ -144,21 +141,6 @@ def _corrected(lines: Lines, axis: str, twisting: frozenset[str], free: frozense
             if f"{axis}{-end}" in free:
                 slopes[inner] -= _curl(lines, end)
     return sp.csr_array(np.diag(lines.tributary) - slopes - slopes.T)
-
-
-def _gregory(lines: Lines) -> np.ndarray:
-    """Gregory's weights of the lines across an axis, (n,) [m]."""
-    beside, moved = _moved(lines)
-    weights = lines.tributary + moved
-    np.subtract.at(weights, beside, moved)
-    return weights
-
-
-def _moved(lines: Lines) -> tuple[np.ndarray, np.ndarray]:
-    """The neighbour of every line over the wider of its cells, and the length [m] that it takes from it."""
-    left, right, corrections = _corrections(lines)
-    wider = np.where(right >= left, 1, -1)
-    return np.arange(len(left)) + wider, corrections * wider / np.maximum(left, right)
 
 
 def _corrections(lines: Lines) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -16,7 +16,8 @@ as loads do it among the four next to it (order 1).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import cache
+from itertools import product
 
 import numpy as np
 import scipy.sparse as sp
@@ -81,117 +82,70 @@ def _near_rims(
     lattice: Lattice, per_area: np.ndarray, points: np.ndarray, order: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Those on a lattice with absent cells: of the lines around each point's cell."""
-    own = [_own_cell(lattice, per_area, point) for point in points]
-    reach = 0 if order == 1 else REACH + 1
-    around = np.arange(-reach, reach + 2)
-    first = np.array(own).reshape(-1, 2, 1)
-    rows, over = (np.clip(first[:, axis] + around, 0, per_area.shape[axis]) for axis in (0, 1))
-    columns = lattice.columns()[rows[:, :, None], over[:, None, :]]
-    share = np.zeros((len(points), len(around), len(around)))
-    known: dict[tuple[int, int], _Polynomial] = {}
-    for cell in set(own):
-        which = np.array([n for n, each in enumerate(own) if each == cell])
-        weights = {cell: np.ones(len(which))}
-        for other, weight in (
-            _blend(lattice, per_area, cell, points[which]) if order > 1 else weights
-        ).items():
-            if other not in known:
-                known[other] = _Polynomial.near(lattice, per_area, other, order)
-            found = known[other]
-            row, column = found.rows - cell[0] + reach, found.over - cell[1] + reach
-            share[which[:, None], row, column] += weight[:, None] * found.at(points[which])
-    nodes = columns.reshape(len(points), -1, lattice.grid[2])
+    wide, around, (x, y) = np.pad(per_area, 1), _around(per_area), lattice.lines
+    own = np.array([_own_cell(lattice, wide, point) for point in points]).reshape(-1, 2)
+    reach, connected = (0, 0) if order == 1 else (REACH + 1, REACH)
+
+    def places(at: np.ndarray, row: int, column: int) -> np.ndarray:
+        """Plan points (n, 2) [m] from the middle of a cell in its sides."""
+        first, sides = np.array([x.at[column], y.at[row]]), np.array([x.widths[column], y.widths[row]])
+        return np.asarray((at - first) / sides - 0.5)
+
+    @cache
+    def nearest(row: int, column: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Rows and columns of the lines that cross at the masses (k,) of a cell and those connected with it,
+        and the map from their values to the terms of the polynomial nearest to them, (terms, k)."""
+        rows, over = _corners(per_area, row, column, connected)
+        at = places(np.stack([x.at[over], y.at[rows]], axis=1), row, column)
+        near = np.sqrt(around[rows, over]) / (0.5 + (at**2).sum(axis=1))
+        return rows, over, np.linalg.pinv(_terms(at, order) * near[:, None], rcond=1e-9) * near
+
+    lines = np.arange(-reach, reach + 2)
+    share = np.zeros((len(points), len(lines), len(lines)))
+    for row, column in set(map(tuple, own.tolist())):
+        which = np.flatnonzero((own == (row, column)).all(axis=1))
+        at = places(points[which], row, column)
+        beside = 0.0 * at if order == 1 else at
+        blend = np.stack([np.maximum(0.0, -beside), 1.0 - np.abs(beside), np.maximum(0.0, beside)])
+        weight = blend[:, None, :, 1] * blend[None, :, :, 0]
+        weight *= wide[row : row + 3, column : column + 3, None]
+        weight /= weight.sum(axis=(0, 1))
+        for j, i in np.argwhere(weight.any(axis=2)).tolist():
+            rows, over, fit = nearest(row + j - 1, column + i - 1)
+            found = _terms(places(points[which], row + j - 1, column + i - 1), order) @ fit
+            share[which[:, None], rows - row + reach, over - column + reach] += weight[j, i, :, None] * found
+    rows, over = (np.clip(own[:, axis, None] + lines, 0, per_area.shape[axis]) for axis in (0, 1))
+    nodes = lattice.columns()[rows[:, :, None], over[:, None, :]].reshape(len(points), -1, lattice.grid[2])
     return nodes, share.reshape(len(points), -1) / lattice.grid[2]
 
 
-@dataclass(frozen=True, eq=False)
-class _Polynomial:
-    """The polynomial nearest to masses at the crossings of lines (k,), rows and over: its terms are
-    fit (terms, k) @ values of these, in places from the middle of its cell in its sides, (2,) [m] each."""
-
-    rows: np.ndarray
-    over: np.ndarray
-    fit: np.ndarray
-    middle: np.ndarray
-    sides: np.ndarray
-    order: int
-
-    @classmethod
-    def near(cls, lattice: Lattice, per_area: np.ndarray, cell: tuple[int, int], order: int) -> _Polynomial:
-        """Of a cell (row, column) and those connected with it."""
-        (row, column), (x, y) = cell, lattice.lines
-        rows, over = _connected(per_area, cell, 0 if order == 1 else REACH)
-        sides = np.array([x.widths[column], y.widths[row]])
-        middle = np.array([x.at[column], y.at[row]]) + 0.5 * sides
-        places = (np.stack([x.at[over], y.at[rows]], axis=1) - middle) / sides
-        near = np.sqrt(around(per_area)[rows, over]) / (0.5 + (places**2).sum(axis=1))
-        fit = np.linalg.pinv(_terms(places, order) * near[:, None], rcond=1e-9) * near
-        return cls(rows, over, fit, middle, sides, order)
-
-    def at(self, points: np.ndarray) -> np.ndarray:
-        """What share every mass has in the values at plan points (n, 2) [m], (n, k)."""
-        return np.asarray(_terms((points - self.middle) / self.sides, self.order) @ self.fit)
-
-
-def around(per_area: np.ndarray) -> np.ndarray:
-    """The mean of the cells around each crossing of lines, (rows + 1, columns + 1)."""
-    wide = np.pad(per_area, 1)
-    return 0.25 * (wide[1:, 1:] + wide[1:, :-1] + wide[:-1, 1:] + wide[:-1, :-1])
-
-
-def _blend(
-    lattice: Lattice, per_area: np.ndarray, cell: tuple[int, int], points: np.ndarray
-) -> dict[tuple[int, int], np.ndarray]:
-    """What weight (n,) the polynomials of a cell and of those around have at plan points (n, 2) [m] in it."""
-    (row, column), (x, y) = cell, lattice.lines
-    right = (points[:, 0] - x.at[column]) / x.widths[column] - 0.5
-    up = (points[:, 1] - y.at[row]) / y.widths[row] - 0.5
-    found: dict[tuple[int, int], np.ndarray] = {}
-    for dj, by_row in ((-1, np.maximum(0.0, -up)), (0, 1.0 - np.abs(up)), (1, np.maximum(0.0, up))):
-        for di, by_column in (
-            (-1, np.maximum(0.0, -right)),
-            (0, 1.0 - np.abs(right)),
-            (1, np.maximum(0.0, right)),
-        ):
-            beside = row + dj, column + di
-            if _there(per_area, beside):
-                found[beside] = by_row * by_column * per_area[beside]
-    total = np.sum([*found.values()], axis=0)
-    return {one: weight / total for one, weight in found.items()}
-
-
-def _there(per_area: np.ndarray, cell: tuple[int, int]) -> bool:
-    """Whether there is a cell of this row and column."""
-    inside = all(0 <= at < count for at, count in zip(cell, per_area.shape, strict=True))
-    return inside and bool(per_area[cell] > 0.0)
-
-
-def _own_cell(lattice: Lattice, per_area: np.ndarray, point: np.ndarray) -> tuple[int, int]:
-    """Row and column of the cell present in which, or on whose rim, a plan point [m] lies. Raises BadInput
-    where there is none."""
+def _own_cell(lattice: Lattice, wide: np.ndarray, point: np.ndarray) -> tuple[int, int]:
+    """Row and column of the cell present in which, or on whose rim, a plan point [m] lies; wide: what the
+    cells have, and nothing beyond. Raises BadInput where there is none."""
     (column, x), (row, y) = (lines.index(c) for c, lines in zip(point, lattice.lines, strict=True))
-    near = [
-        (row + j, column + i)
-        for j in (0, *([-1] if y < ON_LINE else [1] if y > 1.0 - ON_LINE else []))
-        for i in (0, *([-1] if x < ON_LINE else [1] if x > 1.0 - ON_LINE else []))
-    ]
-    for j, i in near:
-        if _there(per_area, (int(j), int(i))):
-            return int(j), int(i)
+    over, up = ((0, -1) if at < ON_LINE else (0, 1) if at > 1.0 - ON_LINE else (0,) for at in (x, y))
+    for j, i in product(up, over):
+        if wide[row + j + 1, column + i + 1] > 0.0:
+            return int(row + j), int(column + i)
     raise BadInput(f"point {point.tolist()} m: there is no sheet, by its outline or a cutout")
 
 
-def _connected(per_area: np.ndarray, cell: tuple[int, int], reach: int) -> tuple[np.ndarray, np.ndarray]:
+def _corners(per_area: np.ndarray, row: int, column: int, reach: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows and columns of the lines that cross at the corners of a cell, and of those that can be reached
     from it over so many sides."""
-    found, last = {cell}, {cell}
-    for _ in range(reach):
-        beside = {(j + dj, i + di) for j, i in last for dj, di in ((0, 1), (0, -1), (1, 0), (-1, 0))}
-        last = {one for one in beside - found if _there(per_area, one)}
-        found |= last
-    corners = sorted({(j + dj, i + di) for j, i in found for dj in (0, 1) for di in (0, 1)})
-    rows, over = np.array(corners).T
+    from scipy.ndimage import binary_dilation
+
+    cell = np.zeros(per_area.shape, dtype=bool)
+    cell[row, column] = True
+    found = binary_dilation(cell, iterations=reach, mask=per_area > 0.0) if reach else cell
+    rows, over = np.nonzero(_around(found))
     return rows, over
+
+
+def _around(cells: np.ndarray) -> np.ndarray:
+    """The mean of the cells around each crossing of lines, (rows + 1, columns + 1)."""
+    wide = np.pad(cells, 1).astype(float)
+    return np.asarray(0.25 * (wide[1:, 1:] + wide[1:, :-1] + wide[:-1, 1:] + wide[:-1, :-1]))
 
 
 def _terms(at: np.ndarray, order: int) -> np.ndarray:

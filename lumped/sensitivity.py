@@ -67,7 +67,7 @@ def sensitivity(
     with one_blas_thread():
         require_static(scene)
         problem = build_problem(scene, calibration)
-        state = stable_equilibrium(scene, problem)
+        state = stable_equilibrium(problem)
         factor = problem.system.factor(problem.tangent(state.u, 1.0))  # that of the path's end may be older
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives = {}

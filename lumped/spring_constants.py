@@ -22,7 +22,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.objects.grid import Grid
 from sheetbench.scenes.objects.quantities import LARGEST
-from sheetbench.scenes.objects.springs import DamperSet, Either
+from sheetbench.scenes.objects.springs import CONSTANTS, LATTICE, DamperSet, Either
 
 EDGES_OWN = (
     "edge_shear",
@@ -88,7 +88,7 @@ class Springs:
         of: dict[str, np.ndarray] = {}
         edges: dict[str, tuple[np.ndarray, ...]] = {}
         for name, value in table:
-            if value is None or (value == 0.0 and not name.startswith("far")):
+            if value is None or name in LATTICE or (value == 0.0 and not name.startswith("far")):
                 continue
             parts = [part for _, part in _parts(value)]
             if name in EDGES_OWN:
@@ -178,7 +178,7 @@ class Springs:
     def names(self) -> list[str]:
         """Names of the constants that are not zero, one a direction where directions differ."""
         found: list[str] = []
-        for name in SpringSet.model_fields:
+        for name in CONSTANTS:
             parts = self.edges.get(name) or [*self.of.get(name, ())]
             if len(parts) > 1:
                 found += [f"{name}_{axis}" for axis, part in zip("xy", parts, strict=False) if part.any()]
@@ -209,7 +209,7 @@ class Springs:
 
     def _named(self, name: str) -> tuple[str, slice]:
         """The constant, and which of its directions are meant."""
-        if name in SpringSet.model_fields:
+        if name in CONSTANTS:
             return name, slice(None)
         family, _, direction = name.rpartition("_")
         if len(self.edges.get(family) or self[family]) == 1 or direction not in ("x", "y"):
@@ -319,8 +319,8 @@ def require_cells(table: SpringSet, grid: Grid, whose: str) -> None:
     """Raise BadInput for a table that is not one of the grid's cells. whose: how the message begins."""
     rows, columns = grid[1] - 1, grid[0] - 1
     along = {"x": (rows,), "y": (columns,)}
-    for name, value in table:
-        for axis, part in _parts(value):
+    for name in CONSTANTS:
+        for axis, part in _parts(getattr(table, name)):
             if not isinstance(part, tuple):
                 continue
             wanted = along[axis] if name in EDGES_OWN else (rows, columns)

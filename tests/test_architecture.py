@@ -210,7 +210,7 @@ def test_every_figure_is_there():
 SLOW = (
     "lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas", "xarray",
 )  # fmt: skip
-SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "pypardiso", "comparisons.models.training")
+SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "comparisons.models.training")
 SLOW += ("ezc3d", "shapely", "comparisons.sweep.campaign")  # the last: multiprocessing, sqlite3
 SLOW += ("numba.core.extending", "numba.np")  # what compiles, where nothing is compiled
 DRAWS = ("figure", "style", "layout", "motion_figure", "comparison_figure", "animation")

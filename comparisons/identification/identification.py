@@ -53,7 +53,7 @@ from comparisons.models.spec import Elements, Lattice, items
 from lumped import Identifiability, identifiability
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import BadInput, require_choice, require_effect
-from sheetbench.scenes import AnyScene, Scene, SpringTable, require_static, scene_of
+from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
 from sheetbench.scenes.meaning.region import off_sheet
 from sheetbench.scenes.objects.grading import of_settings
 
@@ -187,7 +187,7 @@ def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> I
     step = bound = np.full(len(unknowns), np.nan)
     grids: list[Any] = [fit.model.settings.get("grid")]
     if refine and isinstance(spec, Lattice):
-        own = isinstance(scene.springs, SpringTable) and scene.springs.grid
+        own = scene.springs and scene.springs.grid
         fit, best, step, grids = refined(scene, spec, fit, best, free=spec.grid is None and not own)
         bound = GRID_ERROR * np.abs(step)
     elif refine and isinstance(spec, Elements):

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, Sheet, SpringTable
+from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
 
 GridLike = int | Sequence[int] | str | None
@@ -49,7 +49,7 @@ def scene_grid(scene: Scene, grid: GridLike = None) -> Grid:
     one, or nine masses along the shorter side."""
     if isinstance(grid, str):
         return parse_grid(scene.sheet, grid)
-    own = scene.springs.grid if isinstance(scene.springs, SpringTable) else None
+    own = scene.springs and scene.springs.grid
     return grid_of(scene.sheet, grid if grid is not None else own or MASSES)
 
 

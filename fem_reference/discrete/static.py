@@ -54,16 +54,9 @@ class Static(Creeping[StaticState, Forces]):
     def __init__(self, sheet: DiscreteElements):
         self.sheet, self.prestrained = sheet, sheet.natural is not None
         self.contacts, self.linear = sheet.contacts, sheet.linear
+        self.symmetric, self.unknowns = sheet.symmetric, sheet.unknowns
         self.size = max(sheet.scene.sheet.lengths)
         self._last: SheetShape | None = None
-
-    @property
-    def symmetric(self) -> bool:
-        return self.sheet.symmetric
-
-    @property
-    def unknowns(self) -> int:
-        return self.sheet.unknowns
 
     def shape(self, state: StaticState, load_factor: float) -> SheetShape:
         """The sheet at a state, one and the same for all who look at that in turn."""
@@ -116,7 +109,7 @@ class Static(Creeping[StaticState, Forces]):
         step = sheet.short(self.shape(state, load_factor)) * sheet.scale
         return float(np.abs(step).max() / sheet.lever)
 
-    def system(
+    def linearised(
         self, state: StaticState, forces: Forces, load_factor: float, mixed: bool = True
     ) -> tuple[csr_matrix, np.ndarray]:
         sheet, shape, residual = self.sheet, forces.shape, forces.residual

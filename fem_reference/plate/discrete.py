@@ -28,20 +28,20 @@ from skfem import MeshQuad
 
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
-from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
+from fem_reference.plate.element import PlateElements
 from fem_reference.plate.validity import buckling_load, strained
 from fem_reference.shell.directors import projected
 from fem_reference.shell.discrete import DiscreteShell
+from fem_reference.shell.natural import natural_strains
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.balance import Surface
-from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.mesh import on_boundary, require_upright
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.scenes import EDGES, Scene, outside_model
-from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
 class DiscretePlate(DiscreteShell):
@@ -54,7 +54,7 @@ class DiscretePlate(DiscreteShell):
     model = "plate"
     linear: ClassVar[bool] = True
     creeps: ClassVar[bool] = False
-    element: PlateElements  # type: ignore[assignment]
+    element: PlateElements
     moved, centripetal = Discrete.moved, Discrete.centripetal
 
     def __init__(
@@ -71,9 +71,8 @@ class DiscretePlate(DiscreteShell):
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:
         nodes = self.plan.corners
-        state = natural_at(self.scene, AT_GAUSS[0] @ nodes)
-        made = PlateElements.build(nodes, section or section_at(self.scene, nodes))
-        return made, state and state.made(_own)
+        self.section = section or section_at(self.scene, nodes)
+        return PlateElements.build(nodes, self.section), natural_strains(self.scene, nodes, linear=True)
 
     def supports_of(self, mesh: MeshQuad) -> Supports:
         found = surface_supports.of_scene(self.scene, mesh)
@@ -125,7 +124,8 @@ class DiscretePlate(DiscreteShell):
     @cached_property
     def _stiffness(self) -> np.ndarray:
         """Data of K, which moduli are a multiple of everywhere."""
-        return self.folded(self.element.tangent(self.element.stiffness)).data
+        rest = self.shape(np.zeros(self.size), 0.0)
+        return super().stiffness(rest, self.element.stiffness, np.zeros_like(rest.strain), rest.q, 0.0)
 
     @cached_property
     def _mass(self) -> np.ndarray:
@@ -149,18 +149,10 @@ class DiscretePlate(DiscreteShell):
         return ""
 
     def stretch(self, shape: SheetShape) -> float:
-        return strained(self.element, shape.change, shape.strain)
+        return strained(shape)
 
     def beyond(self, stretch: float) -> str:
         if not stretch > 1.0:
             return outside_model(self.scene, 0.0)
         ends = f"linear theory ends at {100.0 / stretch:.3g} % of the load or before"
         return f"slopes, turns or twice the strain of {stretch:.3g}, beyond 1: {ends}"
-
-
-def _own(strain: np.ndarray, curvature: np.ndarray) -> np.ndarray:
-    """Return the strains (9 m, 8) that e0 and k0 (m, 9, 2, 2) leave without stress."""
-    out = np.zeros((*strain.shape[:2], 8))
-    for part, form in ((MEMBRANE, strain), (BENDING, -curvature)):
-        out[..., part] = [1.0, 1.0, 2.0] * form[..., [0, 1, 0], [0, 1, 1]]
-    return out.reshape(-1, 8)

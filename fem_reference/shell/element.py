@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -37,12 +37,14 @@ from fem_reference.surface.biquadratic import (
     AT_GAUSS,
     GAUSS,
     GAUSS_WEIGHTS,
+    IN_PLANE,
     THREE,
     TYING,
     integrated,
     interpolation,
     jacobians,
     product_grid,
+    pulled_back,
     shape,
 )
 from fem_reference.surface.materials import Section
@@ -112,7 +114,7 @@ class Element:
         return False
 
     @classmethod
-    def build(cls, nodes: np.ndarray, section: Section) -> Element:
+    def build(cls, nodes: np.ndarray, section: Section) -> Self:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
         return cls(*_built(nodes, *section))
 
@@ -230,36 +232,17 @@ def _geometry(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np
         raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
     inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
     areas = GAUSS_WEIGHTS * np.abs(area)
-    in_plane, bending = _cartesian_in_plane(inverse, areas), _cartesian_in_plane(inverse, areas, np.eye(9))
-    return areas, in_plane, bending, _cartesian_shear(inverse)
-
-
-def _cartesian_in_plane(
-    inverse: np.ndarray, areas: np.ndarray, sheared: np.ndarray = _TO_GAUSS["rs"]
-) -> np.ndarray:
-    """[xx, yy, 2xy] at the Gauss points from the 21 sampled rr, ss, rs: (m, 9, 3, 21). E = J⁻ᵀ e J⁻¹.
-
-    sheared: interpolation of rs (9, 9).
-    """
-    r, s = inverse[..., 0, :], inverse[..., 1, :]
-    rows = [(0, 0, 1.0), (1, 1, 1.0), (0, 1, 2.0)]
-    weights = {
-        "rr": np.array([f * r[..., a] * r[..., b] for a, b, f in rows]),
-        "ss": np.array([f * s[..., a] * s[..., b] for a, b, f in rows]),
-        "rs": np.array([f * (r[..., a] * s[..., b] + s[..., a] * r[..., b]) for a, b, f in rows]),
-    }
-    onto = {**_TO_GAUSS, "rs": sheared}
-    spread = {name: _spread(weight, onto[name]) for name, weight in weights.items()}
+    pull = pulled_back(inverse, IN_PLANE) * [1.0, 1.0, 2.0]  # of rr, ss, rs
+    rr, ss, rs = _TO_GAUSS.values()
+    membrane, bending = _spread(pull, rr, ss, rs), _spread(pull, rr, ss, np.eye(9))
     share = areas / areas.sum(axis=1, keepdims=True)
-    mean_lost = np.einsum("eg,aeg,gk->eak", share, weights["rs"], np.eye(9) - sheared)
-    return np.concatenate([spread["rr"], spread["ss"], spread["rs"] + mean_lost[:, None]], axis=-1)
+    mean_lost = np.einsum("eg,ega,gk->eak", share, pull[..., 2], np.eye(9) - rs)
+    membrane[..., 2 * len(rr.T) :] += mean_lost[:, None]
+    return areas, membrane, bending, _spread(inverse.swapaxes(2, 3), rr, ss)
 
 
-def _cartesian_shear(inverse: np.ndarray) -> np.ndarray:
-    """[xz, yz] at the Gauss points from the 12 sampled r- and s-shears: (m, 9, 2, 12). γ = J⁻ᵀ g."""
-    parts = [(inverse[..., 0, :], "rr"), (inverse[..., 1, :], "ss")]
-    return np.concatenate([_spread(np.moveaxis(d, -1, 0), _TO_GAUSS[name]) for d, name in parts], axis=-1)
-
-
-def _spread(weights: np.ndarray, onto: np.ndarray) -> np.ndarray:
-    return np.einsum("aeg,gk->egak", weights, onto)
+def _spread(pull: np.ndarray, *onto: np.ndarray) -> np.ndarray:
+    """What makes strains (m, 9, a, Σ k) at the Gauss points of covariant ones there (m, 9, a, c), each of
+    these interpolated (9, k) from its samples."""
+    parts = [np.einsum("ega,gk->egak", pull[..., c], each) for c, each in enumerate(onto)]
+    return np.concatenate(parts, axis=-1)

@@ -21,7 +21,7 @@ import numpy as np
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, cartesian, weighed
 from fem_reference.shell.laws import LAWS, Law, Response, outer
 from fem_reference.shell.natural import grown
-from fem_reference.shell.slant import Slant, linear, slant
+from fem_reference.shell.slant import linear, slant
 from fem_reference.surface.biquadratic import integrated
 from fem_reference.surface.materials import Section, section_at, section_of, transverse_shear_stiffness
 from fem_reference.surface.mesh import Plan
@@ -72,8 +72,8 @@ class HyperelasticElement(Element):
         force, moment = found.sum(axis=2), np.einsum("egza,z->ega", found, self.heights)
         force += np.sum(moment * curvature, axis=-1)[..., None] * slope
         shear, leaning = self._shear[..., None], self._slant(stretch, strain)
-        force += shear * leaning.by_strain
-        moment, shearing = t[..., None] * moment, shear * leaning.by_slant
+        force += shear * leaning.stress[..., :3]
+        moment, shearing = t[..., None] * moment, shear * leaning.stress[..., 3:]
         forms = (self.membrane, force), (self.bending, moment), (self.slanted, shearing)
         parts = [np.einsum("egak,ega->ek", form, found, optimize=True) for form, found in forms]
         return np.concatenate(parts, axis=1)
@@ -98,11 +98,13 @@ class HyperelasticElement(Element):
         mixed = t * (mixed + outer(slope, turned)) + outer(slope, moment)
         leaning, out = self._slant(stretch, strain), np.zeros_like(self.stiffness)
         out[:, MEMBRANE, MEMBRANE] = integrated(self.membrane, force, areas)
-        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, leaning.strains, self._shear)
+        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, leaning.tangent[..., :3, :3], self._shear)
         out[:, BENDING, BENDING] = integrated(self.bending, t * t * turn, areas)
-        out[:, SHEAR, SHEAR] = integrated(self.slanted, leaning.slants, self._shear)
+        out[:, SHEAR, SHEAR] = integrated(self.slanted, leaning.tangent[..., 3:, 3:], self._shear)
         out[:, MEMBRANE, BENDING] = integrated(self.membrane, mixed, areas, self.bending)
-        out[:, MEMBRANE, SHEAR] = integrated(self.membrane, leaning.mixed, self._shear, self.slanted)
+        out[:, MEMBRANE, SHEAR] = integrated(
+            self.membrane, leaning.tangent[..., :3, 3:], self._shear, self.slanted
+        )
         for part in (BENDING, SHEAR):
             out[:, part, MEMBRANE] = out[:, MEMBRANE, part].swapaxes(1, 2)
         return out
@@ -130,12 +132,12 @@ class HyperelasticElement(Element):
             self.material, stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
         )
 
-    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Slant:
+    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Response:
         """Return transverse shear at every element's points, linear unless the law is for large strains."""
         leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
         if not self.law.stands_any_strain:
             return linear(leaning)
-        return slant(*self.law.shear(self.material, stretch), stretch, leaning)
+        return slant(self.material.poisson, stretch, leaning)
 
     @property
     def _shear(self) -> np.ndarray:

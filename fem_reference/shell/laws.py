@@ -28,7 +28,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fem_reference.surface.materials import plane_stress, shear_modulus
+from fem_reference.surface.materials import plane_stress, shear_modulus, times
 from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Material
 from sheetbench.scenes.objects.material import WORDS, Energy
@@ -40,11 +40,27 @@ SETTLED, NEARLY = 1e-15, 1e-12  # steps of ln c: where they end, and up to which
 
 
 class Response(NamedTuple):
-    """W (…) [Pa], S = ∂W/∂E (…, 3) [Pa] and ∂S/∂E (…, 3, 3) [Pa]."""
+    """W (…) [Pa], S = ∂W/∂E (…, 3) [Pa] and ∂S/∂E (…, 3, 3) [Pa], or any function with its derivatives."""
 
     energy: np.ndarray
     stress: np.ndarray
     tangent: np.ndarray
+
+    def times(self, other: Response) -> Response:
+        """Return the product with another function."""
+        (a, a_by, a_twice), (b, b_by, b_twice) = self, other
+        both = outer(a_by, b_by)
+        twice = times(a, b_twice) + times(b, a_twice) + both + both.swapaxes(-1, -2)
+        return Response(a * b, a[..., None] * b_by + b[..., None] * a_by, twice)
+
+    def power(self, exponent: float) -> Response:
+        """Return the power; not a number of what is below zero, unless the exponent is whole."""
+        with np.errstate(invalid="ignore"):
+            value = self.energy**exponent
+        slope = exponent * value / self.energy
+        bend = (exponent - 1.0) * slope / self.energy
+        twice = times(slope, self.tangent) + times(bend, outer(self.stress, self.stress))
+        return Response(value, slope[..., None] * self.stress, twice)
 
 
 def st_venant_kirchhoff(material: Material, strain: np.ndarray) -> Response:
@@ -57,10 +73,10 @@ def st_venant_kirchhoff(material: Material, strain: np.ndarray) -> Response:
 
 def biot(material: Material, strain: np.ndarray) -> Response:
     """Of strains (…, 3)."""
-    area, by_area, second = _area(strain)
+    area, by_area, second = determinant(strain).power(0.5)  # inside out: not a number, which ends the step
     area_change = _change_of_determinant(strain) / (area + 1.0)  # j − 1
     square_change = 2.0 * (strain[..., 0] + strain[..., 1]) + 2.0 * area_change  # s² − 4
-    with np.errstate(invalid="ignore"):  # see `_area`
+    with np.errstate(invalid="ignore"):
         trace = np.sqrt(4.0 + square_change)
     excess = square_change / (trace + 2.0)  # s − 2
     slope = (_ONE + by_area) / trace[..., None]
@@ -122,12 +138,11 @@ def _thinning(energy: Energy, bulk: float, trace: np.ndarray, logarithm: np.ndar
     return np.asarray(np.where(moved <= NEARLY, np.expm1(x), np.nan))
 
 
-def _area(strain: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """j = √det C (…), P = ∂j/∂E (…, 3), ∂P/∂E (…, 3, 3)."""
-    with np.errstate(invalid="ignore"):  # inside out: not a number, which ends the step
-        area = np.sqrt(1.0 + _change_of_determinant(strain))
-    first = (_ONE + strain @ _COFACTOR) / area[..., None]
-    return area, first, (_COFACTOR - outer(first, first)) / area[..., None, None]
+def determinant(strain: np.ndarray) -> Response:
+    """Return j² = det C and its derivatives by the strain (…, 3)."""
+    first = 2.0 * (_ONE + strain @ _COFACTOR)
+    twice = np.broadcast_to(2.0 * _COFACTOR, (*strain.shape, 3))
+    return Response(1.0 + _change_of_determinant(strain), first, twice)
 
 
 def _change_of_determinant(strain: np.ndarray) -> np.ndarray:
@@ -139,15 +154,6 @@ def _change_of_determinant(strain: np.ndarray) -> np.ndarray:
 def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """a ⊗ b (…, k, l) of vectors (…, k) and (…, l)."""
     return np.asarray(a[..., :, None] * b[..., None, :])
-
-
-def _power(strain: np.ndarray, power: float) -> Response:
-    """Return j^power and its derivatives."""
-    area, first, second = _area(strain)
-    value = area**power
-    slope = (power * value / area)[..., None]
-    bent = second + ((power - 1.0) / area)[..., None, None] * outer(first, first)
-    return Response(value, slope * first, slope[..., None] * bent)
 
 
 class Law(NamedTuple):
@@ -163,11 +169,7 @@ class Law(NamedTuple):
         if not self.stands_any_strain:
             none = np.zeros_like(strain)
             return Response(1.0 + none[..., 0], none, outer(none, none))
-        return _power(strain, -material.poisson / (1.0 - material.poisson))
-
-    def shear(self, material: Material, strain: np.ndarray) -> tuple[Response, Response]:
-        """Return t² (…) of that thickness and j², with their derivatives (`slant`)."""
-        return _power(strain, -2.0 * material.poisson / (1.0 - material.poisson)), _power(strain, 2.0)
+        return determinant(strain).power(-0.5 * material.poisson / (1.0 - material.poisson))
 
 
 LAWS = {

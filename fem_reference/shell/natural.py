@@ -6,28 +6,33 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.shell.element import BENDING, GRIDS, MEMBRANE, STRAINS, TABLES
-from fem_reference.surface.biquadratic import AT_GAUSS, product_grid, shape
-from fem_reference.surface.materials import Section, green, pulled_back
+from fem_reference.surface.biquadratic import AT_GAUSS, IN_PLANE, product_grid, pulled_back, shape
+from fem_reference.surface.materials import Section, green
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
-_VALUES = np.concatenate([shape(*product_grid(*GRIDS[name]))[0] for name in ("rr", "ss", "rs")])
-IN_PLANE = ((0, 0), (1, 1), (0, 1))
+AT_SITES = np.concatenate([shape(*product_grid(*GRIDS[name]))[0] for name in ("rr", "ss", "rs")])
 
 
-def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:
-    """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest."""
-    state = natural_at(scene, _VALUES @ nodes)
+def natural_strains(scene: Scene, nodes: np.ndarray, linear: bool = False) -> NaturalState | None:
+    """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest;
+    linear: to first order in e0 and k0."""
+    state = natural_at(scene, AT_SITES @ nodes)
     if state is None:
         return None
-    first, second = TABLES.T[MEMBRANE] @ nodes, TABLES.T[BENDING] @ nodes  # the sites' sides
 
     def sample(e: np.ndarray, k: np.ndarray) -> np.ndarray:
-        forms = green(e), 0.5 * (green(e - k) - green(e + k))
-        parts = [np.einsum("eki,ekij,ekj->ek", first, form, second) for form in forms]
+        forms = (e, -k) if linear else (green(e), 0.5 * (green(e - k) - green(e + k)))
+        parts = [sampled(nodes, form) for form in forms]
         return np.pad(np.concatenate(parts, axis=1), ((0, 0), (0, STRAINS - BENDING.stop)))
 
     return state.made(sample)
+
+
+def sampled(nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
+    """Return samples (m, 21) of strains (m, 21, 2, 2) in elements with nodes (m, 9, 2) [m]."""
+    first, second = TABLES.T[MEMBRANE] @ nodes, TABLES.T[BENDING] @ nodes  # the sites' sides
+    return np.einsum("eki,ekij,ekj->ek", first, strain, second)
 
 
 def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:

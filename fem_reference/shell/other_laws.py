@@ -52,7 +52,7 @@ def shift(scene: Scene, answer: Solution) -> float | None:
         rest = static.forces(start, 1.0)
         if not static.imbalance(start, rest) <= SAME * rest.size:
             return None
-        matrix, _ = static.system(start, rest, 1.0, mixed=False)
+        matrix, _ = static.linearised(start, rest, 1.0, mixed=False)
         moved = [np.zeros(1)]
         try:
             factor = sheet.solver().factor(matrix)

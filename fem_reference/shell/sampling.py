@@ -111,33 +111,20 @@ def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np
 @inner(fastmath=REORDERED)
 def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
     """Sums of one element's vectors (18, 3) with the tables, of positions and then of directors, (6, 54)."""
-    t0, t1, t2, t3, t4 = tables[0], tables[1], tables[2], tables[3], tables[4]
-    t5, t6, t7, t8 = tables[5], tables[6], tables[7], tables[8]
     for row in range(6):
         v, total = vectors[9 * (row // 3) : 9 * (row // 3) + 9, row % 3], out[row]
-        v0, v1, v2, v3, v4, v5, v6, v7, v8 = v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]
         for k in range(len(total)):
-            first = t0[k] * v0 + t1[k] * v1 + t2[k] * v2
-            second = t3[k] * v3 + t4[k] * v4 + t5[k] * v5
-            total[k] = first + second + (t6[k] * v6 + t7[k] * v7 + t8[k] * v8)
+            one = 0.0
+            for i in range(9):
+                one += tables[i, k] * v[i]
+            total[k] = one
 
 
 @inner(fastmath=REORDERED)
 def _gathered(tables: np.ndarray, by: np.ndarray, out: np.ndarray) -> None:
     """Sums (9,) over the points of the tables with what multiplies them (54,)."""
-    t0, t1, t2, t3, t4 = tables[0], tables[1], tables[2], tables[3], tables[4]
-    t5, t6, t7, t8 = tables[5], tables[6], tables[7], tables[8]
-    s0 = s1 = s2 = s3 = s4 = s5 = s6 = s7 = s8 = 0.0
-    for k in range(len(by)):
-        factor = by[k]
-        s0 += t0[k] * factor
-        s1 += t1[k] * factor
-        s2 += t2[k] * factor
-        s3 += t3[k] * factor
-        s4 += t4[k] * factor
-        s5 += t5[k] * factor
-        s6 += t6[k] * factor
-        s7 += t7[k] * factor
-        s8 += t8[k] * factor
-    out[0], out[1], out[2], out[3], out[4] = s0, s1, s2, s3, s4
-    out[5], out[6], out[7], out[8] = s5, s6, s7, s8
+    for i in range(9):
+        total = 0.0
+        for k in range(len(by)):
+            total += tables[i, k] * by[k]
+        out[i] = total

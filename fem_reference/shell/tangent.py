@@ -70,39 +70,33 @@ def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: n
     """Adds D B; blocks of D that are zero, as many are where sides lie along the axes, are left out, and so
     are rotations in the rows of membrane strains."""
     for k in range(0, len(out), AT_ONCE):
-        row0, row1, row2 = out[k], out[k + 1], out[k + 2]
         columns = FEW if k < PLANE else ALL
         start, end = k // PLANE * PLANE, min((k // PLANE + 1) * PLANE, len(out))
         if coupled:
             start, end = 0, len(out)
         for by in range(start, end, AT_ONCE):
-            d00, d01, d02 = moduli[k, by], moduli[k, by + 1], moduli[k, by + 2]
-            d10, d11, d12 = moduli[k + 1, by], moduli[k + 1, by + 1], moduli[k + 1, by + 2]
-            d20, d21, d22 = moduli[k + 2, by], moduli[k + 2, by + 1], moduli[k + 2, by + 2]
-            size = abs(d00) + abs(d01) + abs(d02) + abs(d10) + abs(d11) + abs(d12)
-            if size + abs(d20) + abs(d21) + abs(d22) == 0.0:
-                continue
-            b0, b1, b2 = gradient[by], gradient[by + 1], gradient[by + 2]
-            for j in range(columns):
-                x, y, z = b0[j], b1[j], b2[j]
-                row0[j] += d00 * x + d01 * y + d02 * z
-                row1[j] += d10 * x + d11 * y + d12 * z
-                row2[j] += d20 * x + d21 * y + d22 * z
+            _add_block(moduli, k, by, gradient, out, columns)
 
 
 @njit(cache=True, inline="always")
 def _add_product(gradient: np.ndarray, weighed: np.ndarray, lower: np.ndarray) -> None:
     """Adds Bᵀ (D B) to the lower triangle; membrane strains have no rotations."""
     for i in range(0, UNKNOWNS, AT_ONCE):
-        row0, row1, row2 = lower[i], lower[i + 1], lower[i + 2]
-        columns = -(-(i + AT_ONCE) // LANES) * LANES
         for k in range(0 if i < MOVES else PLANE, len(gradient), AT_ONCE):
-            b00, b01, b02 = gradient[k, i], gradient[k, i + 1], gradient[k, i + 2]
-            b10, b11, b12 = gradient[k + 1, i], gradient[k + 1, i + 1], gradient[k + 1, i + 2]
-            b20, b21, b22 = gradient[k + 2, i], gradient[k + 2, i + 1], gradient[k + 2, i + 2]
-            w0, w1, w2 = weighed[k], weighed[k + 1], weighed[k + 2]
-            for j in range(columns):
-                x, y, z = w0[j], w1[j], w2[j]
-                row0[j] += b00 * x + b10 * y + b20 * z
-                row1[j] += b01 * x + b11 * y + b21 * z
-                row2[j] += b02 * x + b12 * y + b22 * z
+            _add_block(gradient.T, i, k, weighed, lower, -(-(i + AT_ONCE) // LANES) * LANES)
+
+
+@njit(cache=True, inline="always")
+def _add_block(a: np.ndarray, i: int, k: int, b: np.ndarray, out: np.ndarray, columns: int) -> None:
+    """Adds what the block of a at i, k has in the product a b, to its rows' first columns, unless it is
+    zero."""
+    a00, a01, a02 = a[i, k], a[i, k + 1], a[i, k + 2]
+    a10, a11, a12 = a[i + 1, k], a[i + 1, k + 1], a[i + 1, k + 2]
+    a20, a21, a22 = a[i + 2, k], a[i + 2, k + 1], a[i + 2, k + 2]
+    size = abs(a00) + abs(a01) + abs(a02) + abs(a10) + abs(a11) + abs(a12)
+    row0, row1, row2, b0, b1, b2 = out[i], out[i + 1], out[i + 2], b[k], b[k + 1], b[k + 2]
+    for j in range(columns if size + abs(a20) + abs(a21) + abs(a22) != 0.0 else 0):
+        x, y, z = b0[j], b1[j], b2[j]
+        row0[j] += a00 * x + a01 * y + a02 * z
+        row1[j] += a10 * x + a11 * y + a12 * z
+        row2[j] += a20 * x + a21 * y + a22 * z

@@ -37,9 +37,9 @@ from skfem import ElementHex2
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefHex
 
-from fem_reference.solid.materials import PAIRS, SolidLaw
-from fem_reference.surface.biquadratic import THREE, TYING, lagrange
-from fem_reference.surface.materials import green, pulled_back
+from fem_reference.solid.materials import SolidLaw
+from fem_reference.surface.biquadratic import IN_SPACE, THREE, TYING, lagrange, pulled_back
+from fem_reference.surface.materials import green
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import Constants, Material, Scene
 from sheetbench.scenes.meaning.composition import of_sheet
@@ -47,7 +47,7 @@ from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 NODES = 27
 RETAINED_SHEAR = 0.3  # at most, of the dropped shear: bent strips are stable to strains of 0.045 (ν = 0)
-# Of the covariant components ξξ, ηη, ζζ, ξη, ηζ, ξζ (the order of PAIRS): the points of [−1, 1]² between
+# Of the covariant components ξξ, ηη, ζζ, ξη, ηζ, ξζ (the order of IN_SPACE): the points of [−1, 1]² between
 # which the strain is interpolated, and those at which it is sampled.
 _EVERY = (THREE, THREE)
 _TYING = (TYING["rr"], TYING["ss"], _EVERY, TYING["rs"], TYING["ss"], TYING["rr"])
@@ -87,7 +87,7 @@ def reference() -> Reference:
     points, weights = get_quadrature(RefHex, 5)
     x, y, z = 2.0 * points - 1.0
     forms, kept, dropped = [], [], []
-    for (a, b), tying, sites, sampled in zip(PAIRS, _TYING, _SITES, SAMPLED, strict=True):
+    for (a, b), tying, sites, sampled in zip(IN_SPACE, _TYING, _SITES, SAMPLED, strict=True):
         _, slope = shape((np.array(sampled).T + 1.0) / 2.0)
         form = np.einsum("it,jt->tij", slope[:, a], slope[:, b])
         forms.append(0.5 * (form + form.swapaxes(1, 2)) * (1.0 if a == b else 2.0))
@@ -123,7 +123,7 @@ class Bricks:
         _, slope = shape(ref.points)
         jacobian = np.einsum("eac,abq->eqcb", positions, slope)  # X_c,ξ_b
         volumes = ref.weights * np.abs(np.linalg.det(jacobian))
-        pull_back = pulled_back(np.linalg.inv(jacobian), PAIRS)
+        pull_back = pulled_back(np.linalg.inv(jacobian), IN_SPACE)
         share = volumes[:, None, :] * ref.levels / (volumes @ ref.levels)[:, :, None]
         firm = _kept(jacobian)[:, None, None, None]
         lost = pull_back @ ref.lost
@@ -261,7 +261,7 @@ def at_rest(plain: Bricks, scene: Scene) -> tuple[Bricks, NaturalState | None]:
 
     stretch = np.tile(np.eye(3), (*points.shape[:2], 1, 1))
     stretch[..., :2, :2] += mid_surface.at()[0]
-    on = pulled_back(np.linalg.inv(stretch), PAIRS) @ plain.to_strain
+    on = pulled_back(np.linalg.inv(stretch), IN_SPACE) @ plain.to_strain
     volumes = np.linalg.det(stretch) * plain.volumes
     return replace(plain, to_strain=on, volumes=volumes), state.made(sample)
 

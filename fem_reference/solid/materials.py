@@ -25,12 +25,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from fem_reference.surface.biquadratic import IN_SPACE, pulled_back
 from fem_reference.surface.plies import in_space
 from fem_reference.surface.rubber import slopes
 from sheetbench.scenes import Constants, Material
 from sheetbench.scenes.objects.material import WORDS, Energy
 
-PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 _TRACE = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 _DOUBLE = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
 
@@ -86,15 +86,13 @@ def _green_volume(strain: np.ndarray) -> Triad:
 
 
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
-    i, j = np.transpose(PAIRS)
+    i, j = np.transpose(IN_SPACE)
     c = np.zeros((*strain.shape[:-1], 3, 3))  # 2E + 1
     c[..., i, j] = c[..., j, i] = _TRACE + strain @ _DOUBLE
     inverse, determinant = np.linalg.inv(c), np.linalg.det(c)
     with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
         value = 0.5 * np.log(determinant)
-    at = np.ix_(i, i), np.ix_(j, j), np.ix_(i, j), np.ix_(j, i)
-    ii, jj, ij, ji = (inverse[(..., *pair)] for pair in at)
-    return Triad(value, inverse[..., i, j], -ii * jj - ij * ji)
+    return Triad(value, inverse[..., i, j], -_DOUBLE @ pulled_back(inverse, IN_SPACE))
 
 
 def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:

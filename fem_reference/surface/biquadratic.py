@@ -9,6 +9,8 @@ element does not lock (Bucalem & Bathe, Int. J. Numer. Meth. Engng 36 (1993) 372
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from skfem import ElementQuad2
 
@@ -19,6 +21,9 @@ THREE_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
 SIDE_MASS = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 15.0  # ∫ N N dξ
 # Along r and s, the points between which a covariant strain is interpolated; rs is sampled at 3 × 3 first.
 TYING = {"rr": (TWO, THREE), "ss": (THREE, TWO), "rs": (TWO, TWO)}
+# Axes of a tensor's components.
+IN_PLANE = ((0, 0), (1, 1), (0, 1))
+IN_SPACE = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 
 
 def shape(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -61,6 +66,17 @@ AT_GAUSS = shape(*GAUSS)
 def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
     """∂x_b/∂ξ_a (m, n, b, a) [m] of elements with nodes at (m, 9, 2) [m]; slope: (2, n, 9) of `shape`."""
     return np.einsum("agi,eib->egba", slope, nodes)
+
+
+def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Cartesian strain of covariant strain (…, p, p), components by pairs, both with engineering shears;
+    inverse: ξ_b,x_c (…, b, c)."""
+    out = np.zeros((*inverse.shape[:-2], len(pairs), len(pairs)))
+    for row, (i, j) in enumerate(pairs):
+        for column, (a, b) in enumerate(pairs):
+            both = inverse[..., a, i] * inverse[..., b, j] + inverse[..., b, i] * inverse[..., a, j]
+            out[..., row, column] = both * (0.5 if i == j else 1.0)
+    return out
 
 
 def integrated(

@@ -12,7 +12,6 @@ place makes the sheet any other plate, a lattice's homogenised one for instance.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -44,17 +43,6 @@ def section_at(scene: Scene, corners: np.ndarray) -> Section:
     """The section of a scene's sheet at those points."""
     constants = constants_of(scene, corners)
     return section_of(constants, constants.thickness)
-
-
-def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
-    """Cartesian strain of covariant strain (…, p, p), components by pairs, both with engineering shears;
-    inverse: ξ_b,x_c (…, b, c)."""
-    out = np.zeros((*inverse.shape[:-2], len(pairs), len(pairs)))
-    for row, (i, j) in enumerate(pairs):
-        for column, (a, b) in enumerate(pairs):
-            both = inverse[..., a, i] * inverse[..., b, j] + inverse[..., b, i] * inverse[..., a, j]
-            out[..., row, column] = both * (0.5 if i == j else 1.0)
-    return out
 
 
 def green(stretch: np.ndarray) -> np.ndarray:

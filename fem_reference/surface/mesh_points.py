@@ -123,7 +123,9 @@ def _radii(border: LineString) -> tuple[np.ndarray, np.ndarray]:
         return np.cumsum(lengths)[:-1], 0.5 * (lengths[1:] + lengths[:-1]) / turns
 
 
-def divided(borders: Sequence[LineString], size: SizeField, diagonal: np.ndarray) -> tuple[np.ndarray, Sides]:
+def divided_borders(
+    borders: Sequence[LineString], size: SizeField, diagonal: np.ndarray
+) -> tuple[np.ndarray, Sides]:
     """Points (n, 2) along the borders, one where several meet, and the sides between them; diagonal: which
     borders are the squares' diagonals."""
     import shapely

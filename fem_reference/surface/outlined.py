@@ -26,12 +26,13 @@ from fem_reference.surface.mesh_points import (
     Sides,
     SizeField,
     borders_between_corners,
-    divided,
+    divided_borders,
     filling,
     on_borders,
 )
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
+from sheetbench.scenes.objects.plan_mesh import divided
 
 if TYPE_CHECKING:
     from shapely import LineString
@@ -71,7 +72,7 @@ def quadrilaterals(
     size = SizeField.of(region, borders, min(1.0, USUAL / across))
     size = SizeField(plan.images(size.places).reshape(-1, 2), np.repeat(size.sizes, len(plan.turns)))
     cut, mirror = plan.cut(borders)
-    points, sides = divided(borders, size, mirror >= 0)
+    points, sides = divided_borders(borders, size, mirror >= 0)
     inside = filling(region, borders, sides, size, mirror >= 0, plan.orbits)
     points, triangles, sides = _triangles(region, borders, sides, points, inside)
     own = ~cut[sides.border]
@@ -193,21 +194,12 @@ def _angles(corners: np.ndarray) -> np.ndarray:
 def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
     """The mesh of every cell's corners with its centre, and the vertices (k,) in the middles of sides between
     ends (k, 2), at places (k, 2)."""
-    points, cells = part.points, (part.quads, part.triangles)
+    count, cells = len(part.points), [part.quads, part.triangles]
+    every, elements = divided(part.points, cells)
     edges = [np.stack([cell, np.roll(cell, -1, axis=1)], axis=-1).reshape(-1, 2) for cell in cells]
-    keys, which = np.unique(_keys(np.concatenate(edges), len(points)), return_inverse=True)
-    middle = 0.5 * (points[keys // len(points)] + points[keys % len(points)])
-    of_sides = np.searchsorted(keys, _keys(ends, len(points)))
-    middle[of_sides] = places
-    centres = [points[cell].mean(axis=1) for cell in cells]
-    every, elements, first = np.concatenate([points, middle, *centres]), [], 0
-    centre = len(points) + len(middle)
-    for cell in cells:
-        on = len(points) + which.ravel()[first : first + cell.size].reshape(cell.shape)
-        centred = np.broadcast_to(centre + np.arange(len(cell))[:, None], cell.shape)
-        elements.append(np.stack([cell, on, centred, np.roll(on, 1, axis=1)], axis=-1).reshape(-1, 4))
-        first, centre = first + cell.size, centre + len(cell)
-    return mesh_of_cells(every, np.concatenate(elements)), len(points) + of_sides
+    middles = count + np.searchsorted(np.unique(_keys(np.concatenate(edges), count)), _keys(ends, count))
+    every[middles] = places
+    return mesh_of_cells(every, elements), middles
 
 
 def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:

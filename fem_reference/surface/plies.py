@@ -23,23 +23,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fem_reference.surface.biquadratic import IN_PLANE, IN_SPACE, pulled_back
 from sheetbench.scenes.objects.orthotropy import Ply
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact for g², of the fourth power
 
 
-def _turned(own: np.ndarray, angle: np.ndarray, parts: Sequence[int] = range(6)) -> np.ndarray:
-    """Stiffness by x, y, z of that in a ply's axes; parts: of the strains, in the order of `in_space`."""
+def _turned(own: np.ndarray, angle: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Stiffness by x, y, z of that in a ply's axes, of strains by pairs of axes."""
     c, s = np.cos(angle), np.sin(angle)
-    turn = np.zeros((*c.shape, 6, 6))
-    turn[..., 0, 0] = turn[..., 1, 1] = c * c
-    turn[..., 0, 1] = turn[..., 1, 0] = s * s
-    turn[..., 0, 3], turn[..., 1, 3] = c * s, -c * s
-    turn[..., 3, 0], turn[..., 3, 1], turn[..., 3, 3] = -2.0 * c * s, 2.0 * c * s, c * c - s * s
-    turn[..., 2, 2] = 1.0
-    turn[..., 4, 4] = turn[..., 5, 5] = c
-    turn[..., 4, 5], turn[..., 5, 4] = -s, s
-    turn = turn[..., parts, :][..., parts]  # strains in the ply's axes of those in x, y, z
+    axes = np.zeros((*c.shape, 3, 3))
+    axes[..., 0, 0] = axes[..., 1, 1] = c
+    axes[..., 1, 0], axes[..., 0, 1], axes[..., 2, 2] = s, -s, 1.0
+    turn = pulled_back(axes, pairs)  # strains in the ply's axes of those in x, y, z
     return np.asarray(turn.swapaxes(-1, -2) @ own @ turn)
 
 
@@ -52,13 +48,13 @@ def plane_stress(ply: Ply) -> np.ndarray:
     left = 1.0 - nu**2 * e2 / e1
     own[..., 0, 0], own[..., 1, 1], own[..., 2, 2] = e1 / left, e2 / left, g
     own[..., 0, 1] = own[..., 1, 0] = nu * e2 / left
-    return _turned(own, angle, [0, 1, 3])
+    return _turned(own, angle, IN_PLANE)
 
 
 def shear_moduli(ply: Ply) -> np.ndarray:
     """G (…, 2, 2) [Pa]: stress [xz, yz] of strain [2xz, 2yz]."""
     g13, g23, angle = np.broadcast_arrays(*map(np.float64, (ply.shear_13, ply.shear_23, ply.angle)))
-    return _turned(np.stack([g13, g23], axis=-1)[..., None] * np.eye(2), angle, [5, 4])
+    return _turned(np.stack([g13, g23], axis=-1)[..., None] * np.eye(2), angle, ((0, 2), (1, 2)))
 
 
 def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.ndarray, ...]:
@@ -89,4 +85,4 @@ def in_space(ply: Ply) -> np.ndarray:
         soft[..., place, place] = 1.0 / modulus
     for (a, b), mixed in (((0, 1), n12 / e1), ((0, 2), n13 / e1), ((1, 2), n23 / e2)):
         soft[..., a, b] = soft[..., b, a] = -mixed
-    return _turned(np.linalg.inv(soft), angle)
+    return _turned(np.linalg.inv(soft), angle, IN_SPACE)

@@ -55,5 +55,5 @@ def linear_step(sheet: DiscreteElements, force: np.ndarray) -> np.ndarray:
     static = Static(sheet)
     rest = static.rest()
     forces = static.forces(rest, 1.0)
-    matrix, right = static.system(rest, forces, 1.0, mixed=False)
+    matrix, right = static.linearised(rest, forces, 1.0, mixed=False)
     return static.advance(rest, forces, 1.0, DirectSolver().factor(matrix).solve(right)).q

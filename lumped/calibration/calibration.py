@@ -16,7 +16,7 @@ from sheetbench.answers.table import Table
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.grading import Graded, as_settings, remark
 from sheetbench.scenes.objects.grid import Grid
-from sheetbench.scenes.objects.springs import Distribution
+from sheetbench.scenes.objects.springs import LATTICE, Distribution
 
 
 @dataclass(frozen=True, repr=False)
@@ -76,7 +76,7 @@ class Calibration(Answer):
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
-        springs = self.springs.model_dump(exclude_none=True)
+        springs = self.springs.model_dump(exclude_none=True, exclude=LATTICE)
         always = ("axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area")
         for name in set(springs) - {*always, "layer_distance"}:
             if not springs[name]:

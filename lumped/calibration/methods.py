@@ -18,7 +18,7 @@ from lumped.calibration.textbook import axial, lloyd, uniform, van_gelder
 from lumped.sections import sections_of
 from lumped.spring_constants import Springs, require_cells
 from sheetbench.errors import Impossible
-from sheetbench.scenes import Material, Scene, Sheet, SpringTable
+from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
@@ -63,9 +63,8 @@ def given(
     side where it names none; grading: the table's own unless given. Raises Impossible when the scene has no
     springs, or those of another lattice.
     """
-    if scene.springs is None:
+    if (table := scene.springs) is None:
         raise Impossible(f"scene '{scene.name}' has no [springs] table")
-    table = SpringTable.model_validate(scene.springs)
     requested = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
     if table.grid not in (None, requested):
         own, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
@@ -79,8 +78,8 @@ def given(
             f"grading {grading:g}; leave --grading out, or find others: "
             f"sheetbench calibrate --grading {grading:g} --toml"
         )
-    require_cells(table.constants, requested, f"scene '{scene.name}': ")
-    springs = Springs.read(table.constants)
+    require_cells(table, requested, f"scene '{scene.name}': ")
+    springs = Springs.read(table)
     if table.grading and not springs.varies and requested[:2] != (2, 2):
         raise Impossible(
             f"scene '{scene.name}': springs.grading = {table.graded:g}: unequal cells have springs of their "

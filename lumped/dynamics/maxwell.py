@@ -91,10 +91,8 @@ class Maxwell:
         for family, place in zip(self._families, self._places, strict=True):
             shape = len(family), family.measures
             stress, change = (part[place].reshape(shape) for part in x)
-            constant = past[place].reshape(shape)
-            energy += family.loops.add_remembering_forces(
-                u, family.arrays, own, constant, stress, change, force
-            )
+            branches = own, past[place].reshape(shape), stress, change
+            energy += family.loops.add_forces(u, family.arrays, force, branches)
         return energy, x
 
     def stresses(self, u: np.ndarray, own: float, past: float) -> list[np.ndarray]:

@@ -17,7 +17,7 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
-from lumped.rest import Rest, rest_of
+from lumped.rest import CellKind, Rest, rest_of
 from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
 from lumped.springs import cells, links
@@ -245,16 +245,11 @@ def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     """Central links, first and even where there are none; then those of a per-direction law."""
     rest, names = rest_of(lattice, pattern), lattice.link_names
     each = [springs.of_links(family.name, family.direction) for family in lattice.links]
-    if all(k.size == 1 for k in each):
-        central = rest.weight * np.repeat(np.concatenate(each)[:, 0], rest.counts)
-        yield _links(Links, rest, central > 0.0, central, names)
-        return
-    stiffness = []
+    components, parts = np.ones(max(k.shape[1] for k in each)), []
     for family, k in zip(lattice.links, each, strict=True):
-        of_links = (family.shares * k[family.cells, 0]).sum(axis=1, keepdims=True) if len(k) > 1 else None
-        of_links = family.weight[:, None] * k if of_links is None else of_links
-        stiffness.append(np.broadcast_to(of_links, (len(of_links), 3)))
-    k = np.concatenate(stiffness)
+        of_cells = (family.shares[:, :, None] * k[family.cells]).sum(axis=1) if len(k) > 1 else None
+        parts.append((family.weight[:, None] * k if of_cells is None else of_cells) * components)
+    k = np.concatenate(parts)
     unequal = (k != k[:, :1]).any(axis=1)
     yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
     if unequal.any():
@@ -275,29 +270,29 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
         spread = np.broadcast_to(values, (*shape, *values.shape[2:]))
         return spread.reshape(-1, *values.shape[2:])[lattice.kept]
 
-    for family in lattice.cells:
-        nodes, slots, sides, area = rest.cells(family.name)
-        every = layers if family.name == "area" else 1
-        if family.name == "area" and springs.rubber:
+    kinds: tuple[tuple[str, CellKind], ...] = (("area", "layer_cells"), ("mid_area", "mid_cells"))
+    for of_cells, kind in kinds:
+        nodes, slots, sides, area = rest.cells(kind)
+        every = layers if of_cells == "area" else 1
+        if of_cells == "area" and springs.rubber:
             every_sides, every_area = (part[: len(part) // every] for part in (sides, area))
             squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
             found = of_rubber(springs, squares, every_area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
             yield SpringCells(nodes, stiffness, slots, sides, area, "rubber", False, RUBBER, others)
             continue
-        strains = kept_cells(springs.strains(family.name))
-        strains = strains + (1 if family.name == "area" else -layers) * edges[lattice.kept]
-        stiffness = np.column_stack([kept_cells(springs.along(family.name, 0)), strains])
+        strains = kept_cells(springs.strains(of_cells))
+        strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]
+        stiffness = np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])
         if stiffness.any():
-            name = "cells" if family.name == "area" else "mid_cells"
+            name = "cells" if of_cells == "area" else "mid_cells"
             yield SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, name)
 
 
 def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
     """On the upright faces between the layers, against their shear."""
     if springs.of.keys() & FACES:
-        rest = rest_of(lattice, pattern)
-        faces, (nodes, slots, sides, area) = rest.faces, rest.cells("faces")
+        faces, (nodes, slots, sides, area) = lattice.faces, rest_of(lattice, pattern).cells("faces")
         along = [springs.along("face_shear", axis) for axis in (0, 1)]
         over, one = (springs.along(name, 0) for name in FACES[1:])
         each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))

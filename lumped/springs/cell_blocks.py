@@ -57,14 +57,17 @@ def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.
 
 
 @inner(error_model="numpy")
-def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.ndarray) -> None:
-    """Add a tangent in a cell's diagonals, (4, 9), to the blocks on and below the diagonal of its corners,
-    each a mean of p masses."""
+def add_blocks(
+    in_diagonals: np.ndarray, of_warp: np.ndarray, warps: bool, p: int, slots: np.ndarray, blocks: np.ndarray
+) -> None:
+    """Add a tangent in a cell's diagonals, (4, 9), and where it `warps` in q, (3, 9), to the blocks on and
+    below the diagonal of its corners, each a mean of p masses, with q one."""
     flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
     for corner in range(4):
+        side, turn = -share if corner < 2 else share, 1.0 if corner % 2 == 0 else -1.0
         for other in range(4):
+            side2, turn2 = -1.0 if other < 2 else 1.0, 1.0 if other % 2 == 0 else -1.0
             part = in_diagonals[2 * (corner % 2) + other % 2]
-            sign = share if (corner < 2) == (other < 2) else -share
             for s in range(p):
                 for t in range(p):
                     row, column = corner * p + s, other * p + t
@@ -72,29 +75,11 @@ def add_blocks(in_diagonals: np.ndarray, p: int, slots: np.ndarray, blocks: np.n
                         continue
                     block = flat[np.uint64(slots[row, column])]
                     for e in range(9):
-                        block[e] += sign * part[e]
-
-
-@inner(cache=True, error_model="numpy", forceinline=True)
-def add_warped_blocks(
-    in_diagonals: np.ndarray, of_warp: np.ndarray, slots: np.ndarray, blocks: np.ndarray
-) -> None:
-    """Add a tangent in a cell's diagonals, (4, 9), and q, (3, 9), as `add_blocks`; each corner one mass."""
-    flat = blocks.reshape(-1, 9)
-    for corner in range(4):
-        side, turn = -1.0 if corner < 2 else 1.0, 1.0 if corner % 2 == 0 else -1.0
-        for other in range(4):
-            if slots[corner, other] < slots[other, corner]:
-                continue
-            side2, turn2 = -1.0 if other < 2 else 1.0, 1.0 if other % 2 == 0 else -1.0
-            block = flat[np.uint64(slots[corner, other])]
-            part, row, column = in_diagonals[2 * (corner % 2) + other % 2], other % 2, corner % 2
-            for x in range(3):
-                for y in range(3):
-                    e = 3 * x + y
-                    block[e] += (
-                        side * side2 * part[e]
-                        + turn * side2 * of_warp[row, e]
-                        + side * turn2 * of_warp[column, 3 * y + x]
-                        + turn * turn2 * of_warp[2, e]
-                    )
+                        block[e] += side * side2 * part[e]
+                    if warps:
+                        for e in range(9):
+                            block[e] += (
+                                turn * side2 * of_warp[other % 2, e]
+                                + side * turn2 * of_warp[corner % 2, 3 * (e % 3) + e // 3]
+                                + turn * turn2 * of_warp[2, e]
+                            )

@@ -1,7 +1,7 @@
 """The laws of cells as rows of a table, `LAWS`, and how compiled loops call the one that they are given.
 
 A law's constants go into the loops as a tuple of the law's own type, its tag: numba compiles a loop once for
-each tag that it meets, and `respond`, `stiffness`, `mean_stress`, … below stand in it for the
+each tag that it meets, and `respond`, `stiffness`, `extrapolate`, … below stand in it for the
 functions of that tag's row. A new law is a row, its compiled functions and a tag.
 """
 
@@ -67,15 +67,6 @@ def stiffness_of_face(
     return (part * turn * turn, 0.0, shear, 0.0, -part * turn, 0.0), (0.0, 0.0, 0.0, 0.0)
 
 
-@inner(error_model="numpy")
-def mean_face(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
-    """Return the stress over a step whose work is the energy stored: of products the mean of one factor
-    times the change of the other."""
-    y0, y1, quarter = g[0] + d0[0], g[0] + d1[0], 0.25 * k[4] * g[0]
-    across = quarter * (d0[2] + d1[2]) * (1.0 / y0 + 1.0 / y1)
-    return -quarter * (d0[2] * d0[2] + d1[2] * d1[2]) / (y0 * y1), 0.0, across, 0.0
-
-
 @inner()
 def _itself(d: Four, g: Three, memory: Any, predicted: Four) -> Any:
     return memory, predicted
@@ -107,15 +98,12 @@ class CellLaw:
     takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, 11 22 33
     12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, that, stress, constants, their rate) →
     what a linearisation predicts, and of_extrapolated: (δg and s, g, that, it) → that and the stress;
-    mean_stress: (of two states, g, area, constants) → the stress whose work is the energy stored; measures:
-    3, or 4 with s; parts: (stiffness (c, 4 or 7),
-    other constants, area) → constants of each kind that `ENERGIES` names, (c, n); examples: constants of a
-    cell of 1 × 1 m to test it by."""
+    measures: 3, or 4 with s; parts: (stiffness (c, 4 or 7), other constants, area) → constants of each kind
+    that `ENERGIES` names, (c, n); examples: constants of a cell of 1 × 1 m to test it by."""
 
     tag: type[Tag]
     respond: Callable[..., Any]
     stiffness: Callable[..., Any]
-    mean_stress: Callable[..., Any]
     extrapolate: Callable[..., Any]
     of_extrapolated: Callable[..., Any]
     measures: int
@@ -149,7 +137,6 @@ AREA_AND_STRAINS = CellLaw(
     AreaAndStrains,
     laws.area_and_strains,
     laws.stiffness_of_area_and_strains,
-    laws.mean_area_and_strains,
     laws.extrapolated_area_and_strains,
     laws.area_and_strains_of_extrapolated,
     3,
@@ -160,7 +147,6 @@ RUBBER = CellLaw(
     Rubber,
     laws.rubber,
     laws.stiffness_of_rubber,
-    laws.mean_rubber,
     _linear(laws.stiffness_of_rubber),
     _itself,
     4,
@@ -176,7 +162,6 @@ FACE = CellLaw(
     Face,
     face,
     stiffness_of_face,
-    mean_face,
     _linear(stiffness_of_face),
     _itself,
     3,
@@ -201,7 +186,7 @@ def _of_law(part: str) -> Any:
     return call
 
 
-respond, stiffness, mean_stress = _of_law("respond"), _of_law("stiffness"), _of_law("mean_stress")
+respond, stiffness = _of_law("respond"), _of_law("stiffness")
 extrapolate, of_extrapolated = _of_law("extrapolate"), _of_law("of_extrapolated")
 
 
@@ -238,3 +223,20 @@ def _constants(tag: Any, first: Any, apart: Any) -> Any:
 def constants_of(tag: Tag, c: int) -> Any:
     """Return the constants of cell c where a row of the tag's array has them."""
     return constants(tag, c * count(tag), 1)
+
+
+@inner(error_model="numpy")
+def mean_stress(tag: Tag, d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
+    """Return the stress over a step from δg and s = d0 to d1 whose work is the energy stored: that in its
+    middle, and along the step what is left of the energy (Gonzalez 1996)."""
+    middle = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2]), 0.5 * (d0[3] + d1[3])
+    s = respond(tag, middle, g, area, k)[2]
+    m1, m2, m3, m4 = d1[0] - d0[0], d1[1] - d0[1], d1[2] - d0[2], d1[3] - d0[3]
+    if measures(tag) == 3:
+        m4 = 0.0
+    length = m1 * m1 + m2 * m2 + m3 * m3 + m4 * m4
+    if length <= 1e-12 * area * area:  # what is left is rounding
+        return s
+    stored = respond(tag, d1, g, area, k)[0] - respond(tag, d0, g, area, k)[0]
+    left = (stored - s[0] * m1 - s[1] * m2 - s[2] * m3 - s[3] * m4) / length
+    return s[0] + left * m1, s[1] + left * m2, s[2] + left * m3, s[3] + left * m4

@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.springs.cell_blocks import add_blocks, add_warped_blocks, by_sides, by_warp, to_diagonals
+from lumped.springs.cell_blocks import add_blocks, by_sides, by_warp, to_diagonals
 from lumped.springs.cell_laws import (
     Tag,
     constants_of,
@@ -35,6 +35,7 @@ from lumped.springs.cell_laws import (
     stiffness,
 )
 from lumped.springs.laws import (
+    Branches,
     Four,
     Three,
     Vector,
@@ -135,39 +136,22 @@ def pull(
 
 
 @njit(cache=True, error_model="numpy")
-def add_forces(u: np.ndarray, cells: CellArrays, force: np.ndarray) -> float:
-    """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
-    energy = 0.0
-    for c in range(len(cells.nodes)):
-        d, g, area, shape = measure(u, cells, c)
-        stored, _, stress = respond(cells.law, d, g, area, constants_of(cells.law, c))
-        energy += stored
-        pull(cells, c, stress, shape, force)
-    return energy
-
-
-@njit(cache=True, error_model="numpy")
-def add_remembering_forces(
-    u: np.ndarray,
-    cells: CellArrays,
-    own: float,
-    constant: np.ndarray,
-    stress: np.ndarray,
-    change: np.ndarray,
-    force: np.ndarray,
+def add_forces(
+    u: np.ndarray, cells: CellArrays, force: np.ndarray, branches: Branches | None = None
 ) -> float:
-    """Add the force of the stress own · S + constant (c, 4) [N/m]; return the energy of S [J], and fill in S
-    and the change of the measure (c, 4)."""
+    """Add the internal force to `force` (n, 3) [N]; return the springs' own energy [J]."""
     energy = 0.0
     for c in range(len(cells.nodes)):
         d, g, area, shape = measure(u, cells, c)
         stored, _, s = respond(cells.law, d, g, area, constants_of(cells.law, c))
         energy += stored
-        k = constant[c]
-        for e in range(4):
-            stress[c, e], change[c, e] = s[e], d[e]
-        both = own * s[0] + k[0], own * s[1] + k[1], own * s[2] + k[2], own * s[3] + k[3]
-        pull(cells, c, both, shape, force)
+        if branches is not None:
+            own, constant, stresses, changes = branches
+            k = constant[c]
+            for e in range(4):
+                stresses[c, e], changes[c, e] = s[e], d[e]
+            s = own * s[0] + k[0], own * s[1] + k[1], own * s[2] + k[2], own * s[3] + k[3]
+        pull(cells, c, s, shape, force)
     return energy
 
 
@@ -238,8 +222,7 @@ def add_tangent(
             by_sides((six[4], six[5], six[2]), a, b),
         )
         to_diagonals((s[0], s[1], s[2]), a, b, rows, in_diagonals)
-        if measures(cells.law) == 4:
+        warps = measures(cells.law) == 4
+        if warps:
             by_warp(s[3], more, a, b, q, of_warp)
-            add_warped_blocks(in_diagonals, of_warp, cells.slots[c], blocks)
-        else:
-            add_blocks(in_diagonals, cells.nodes.shape[2], cells.slots[c], blocks)
+        add_blocks(in_diagonals, of_warp, warps, cells.nodes.shape[2], cells.slots[c], blocks)

@@ -48,7 +48,7 @@ class Family(ABC):
     def stresses(self, u: np.ndarray) -> np.ndarray:
         """Return the stress of every spring, (m, 1) of links, (m, 4) of cells [N/m]."""
         stress, change, none = np.zeros((3, len(self), self.measures))
-        self.loops.add_remembering_forces(u, self.arrays, 0.0, none, stress, change, np.zeros_like(u))
+        self.loops.add_forces(u, self.arrays, np.zeros_like(u), (0.0, none, stress, change))
         return stress
 
     @abstractmethod
@@ -91,27 +91,35 @@ class Links(Family):
         """Return the stresses of stretched links."""
         return np.maximum(self.stresses(u)[:, 0], 0.0)
 
-    def elongations(self, u: np.ndarray) -> np.ndarray:
-        """Return the elongation of every link, (m,) [m]."""
-        elongations: np.ndarray = links.elongations(u, self.arrays)
-        return elongations
-
-    def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return ½ k e² of every link."""
-        return 0.5 * self.stiffness * self.elongations(u) ** 2
+    def stretched(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the position (m, 3) of every link's second end beside its first, its length and its
+        elongation (m,) [m]."""
+        d = u[self.nodes[:, 1]] - u[self.nodes[:, 0]]
+        r, change = self.offset + d, ((2.0 * self.offset + d) * d).sum(axis=1)
+        if self.natural is not None:
+            change -= self.natural[1]
+        length = np.linalg.norm(r, axis=1)
+        return r, length, change / (length + self.rest_length)
 
 
 @dataclass(frozen=True, eq=False)
 class DirectionalLinks(Links):
-    """Links of the per-direction law of Habibi et al., stiffness (m, 3); neither energy nor stress."""
+    """Links of the per-direction law of Habibi et al., F_q = k_q Δ_q (1 − L/r), stiffness (m, 3); neither
+    energy nor stress."""
 
     def add_force(self, u: np.ndarray, force: np.ndarray) -> None:
         """Add the internal force."""
-        links.add_directional_forces(u, self.arrays, force)
+        r, length, elongation = self.stretched(u)
+        pull = self.stiffness * (elongation / length)[:, None] * r
+        np.add.at(force, self.nodes, np.stack([-pull, pull], axis=1))
 
     def add_tangent(self, u: np.ndarray, blocks: np.ndarray) -> None:
-        """Add the tangent to the 3×3 blocks [N/m]; it is unsymmetric."""
-        links.add_directional_tangent(u, self.arrays, blocks)
+        """Add the tangent diag(k) [n nᵀ + (e/r) (I − n nᵀ)], unsymmetric, to the 3×3 blocks [N/m]."""
+        r, length, elongation = self.stretched(u)
+        along = r[:, :, None] * r[:, None, :] / (length**2)[:, None, None]
+        across = (elongation / length)[:, None, None] * (np.eye(3) - along)
+        block = self.stiffness[:, :, None] * (along + across)
+        np.add.at(blocks, self.slots, np.stack([block, -block, -block, block], axis=1))
 
     def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
         """Add the force in the middle of the step, for want of an energy."""
@@ -157,14 +165,9 @@ class SpringCells(Family):
         """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and
         where it is positive S₄."""
         s = self.stresses(u)
-        mean, apart = 0.5 * (s[:, 0] + s[:, 1]), 0.5 * (s[:, 0] - s[:, 1])
-        radius = np.hypot(apart, 0.5 * s[:, 2])
-        low, high = mean - radius, np.maximum(mean + radius, 0.0)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = np.where(low < 0.0, high / (2.0 * radius), 1.0)[:, None]
-        parts = np.stack([s[:, 0] - low, s[:, 1] - low, s[:, 2]], axis=1) * share
-        found = np.where((low < 0.0)[:, None], parts, s[:, :3])
-        return np.column_stack([found, np.maximum(s[:, 3:], 0.0)])
+        values, vectors = np.linalg.eigh(s[:, [[0, 2], [2, 1]]] * [[1.0, 0.5], [0.5, 1.0]])
+        part = (vectors * np.maximum(values, 0.0)[:, None]) @ vectors.swapaxes(1, 2)
+        return np.column_stack([part[:, [0, 1], [0, 1]], 2.0 * part[:, 0, 1], np.maximum(s[:, 3], 0.0)])
 
     def energies(self, u: np.ndarray) -> np.ndarray:
         """Return the energy of every cell's springs, (c,) [J]; of rubber that of the membrane less that of

@@ -46,6 +46,9 @@ Four = tuple[float, float, float, float]
 Constants = tuple[float, ...]
 Six = tuple[float, float, float, float, float, float]  # 11, 22, 33, 12, 13, 23 of a symmetric matrix
 Memory = tuple[float, float]
+# own, constant, S and δg (m, n) of springs of n measures: with Maxwell branches the force is that of
+# own · S + constant [N/m], and S and δg are filled in
+Branches = tuple[float, np.ndarray, np.ndarray, np.ndarray]
 
 
 @inner(error_model="numpy")
@@ -158,23 +161,6 @@ def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four)
     t = p[3] / math.sqrt(memory[1])
     s = p[0] + t * (g[1] + d[1]), p[1] + t * (g[0] + d[0]), p[2] - 2.0 * t * (g[2] + d[2]), 0.0
     return (t, memory[1]), s
-
-
-@inner(error_model="numpy")
-def mean_area_and_strains(d0: Four, d1: Four, g: Three, area: float, q: Constants) -> Four:
-    """The stress over a step from δg = d0 to d1 whose work is the energy stored in it: of the strains the
-    mean, of the area ½ q₀ ((A₀ + A₁)/2 − A) n̄/(½ (A₀ + A₁)), n̄ the mean: A² is quadratic in g, so that the
-    mean gives the difference exactly. Derived here, after Simo and Tarnow (1992)."""
-    grown, sizes = 0.0, 2.0 * area
-    for d in (d0, d1):
-        change = g[1] * d[0] + g[0] * d[1] + d[0] * d[1] - 2.0 * g[2] * d[2] - d[2] * d[2]
-        gained = change / (math.sqrt(area * area + change) + area)
-        grown += gained
-        sizes += gained
-    t = 0.5 * q[0] * grown / sizes
-    m1, m2, m3 = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2])
-    s1, s2, s3 = times_six(q[1:], (m1, m2, m3))
-    return t * (g[1] + m2) + s1, t * (g[0] + m1) + s2, s3 - 2.0 * t * (g[2] + m3), 0.0
 
 
 def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:
@@ -324,18 +310,3 @@ def _stiffness_of_membrane(d: Four, g: Three, area: float, memory: Memory, k: Co
         ta * t1 * n3 + aa * n1 * n3,
         ta * t2 * n3 + aa * n2 * n3,
     )
-
-
-@inner(error_model="numpy")
-def mean_rubber(d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
-    """The stress over a step whose work is the energy stored: that in its middle, and along the step what is
-    left of the energy (Gonzalez 1996)."""
-    middle = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2]), 0.5 * (d0[3] + d1[3])
-    s = rubber(middle, g, area, k)[2]
-    m1, m2, m3, m4 = d1[0] - d0[0], d1[1] - d0[1], d1[2] - d0[2], d1[3] - d0[3]
-    length = m1 * m1 + m2 * m2 + m3 * m3 + m4 * m4
-    if length <= 1e-12 * area * area:  # what is left is rounding
-        return s
-    stored = rubber(d1, g, area, k)[0] - rubber(d0, g, area, k)[0]
-    left = (stored - s[0] * m1 - s[1] * m2 - s[2] * m3 - s[3] * m4) / length
-    return s[0] + left * m1, s[1] + left * m2, s[2] + left * m3, s[3] + left * m4

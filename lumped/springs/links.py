@@ -11,9 +11,6 @@ large rotation all links are stretched for a moment, and D with them. Dampers ha
 A link of another natural length than d₀ is long, g₀ = d₀·d₀ + δg₀ (`lumped.natural`), has δg − δg₀ in place
 of δg and √g₀ as its length at rest.
 
-The per-direction law of Habibi et al., F_q = k_q Δ_q (1 − L/r), has unequal stiffness along x, y and z; no
-energy, hence no stress to extrapolate, and an unsymmetric tangent.
-
 Arrays: stress (m,) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
 
@@ -23,14 +20,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.springs.laws import Vector, dot, elongation, mean_elongation, times
+from lumped.springs.laws import Branches, Vector, dot, elongation, mean_elongation, times
 from sheetbench.numerics.typed import inner, njit
 
 
 class LinkArrays(NamedTuple):
     """nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m], or (2, m), beside it δg₀ [m²]; constants
-    (m,), stiffness [N/m] or damping [N·s/m], of the per-direction law (m, 3); slots (m, 4) block numbers aa,
-    ab, ba, bb."""
+    (m,), stiffness [N/m] or damping [N·s/m]; slots (m, 4) block numbers aa, ab, ba, bb."""
 
     nodes: np.ndarray
     offset: np.ndarray
@@ -69,47 +65,21 @@ def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> N
 
 
 @njit(cache=True, error_model="numpy")
-def add_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> float:
-    """Add the internal force to `force` (n, 3) [N]; return the energy [J]."""
+def add_forces(
+    u: np.ndarray, links: LinkArrays, force: np.ndarray, branches: Branches | None = None
+) -> float:
+    """Add the internal force to `force` (n, 3) [N]; return the springs' own energy [J]."""
     energy = 0.0
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
         stored, stress, _, _ = elongation(change, square, length, links.constants[m])
         energy += stored
+        if branches is not None:
+            own, constant, stresses, changes = branches
+            stresses[m, 0], changes[m, 0] = stress, change
+            stress = own * stress + constant[m, 0]
         pull(links.nodes, m, stress + stress, r, force)
     return energy
-
-
-@njit(cache=True, error_model="numpy")
-def add_remembering_forces(
-    u: np.ndarray,
-    links: LinkArrays,
-    own: float,
-    constant: np.ndarray,
-    stress: np.ndarray,
-    change: np.ndarray,
-    force: np.ndarray,
-) -> float:
-    """Add the force of the stress own · S + constant (m, 1) [N/m]; return the energy of S [J], and fill in S
-    and δg (m, 1)."""
-    energy = 0.0
-    for m in range(len(links.nodes)):
-        d, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        stored, s, _, _ = elongation(d, square, length, links.constants[m])
-        stress[m, 0], change[m, 0] = s, d
-        energy += stored
-        pull(links.nodes, m, 2.0 * (own * s + constant[m, 0]), r, force)
-    return energy
-
-
-@njit(cache=True, error_model="numpy")
-def elongations(u: np.ndarray, links: LinkArrays) -> np.ndarray:
-    """Elongation of every link, (m,) [m]."""
-    out = np.empty(len(links.nodes))
-    for m in range(len(links.nodes)):
-        change, square, length, _ = measure(u, links.nodes, links.offset, links.rest_length, m)
-        out[m] = change / (np.sqrt(square) + length)
-    return out
 
 
 @njit(cache=True, error_model="numpy")
@@ -202,38 +172,3 @@ def add_tangent(
             block[6] += sign * zx
             block[7] += sign * zy
             block[8] += sign * zz
-
-
-@njit(cache=True)
-def add_directional_forces(u: np.ndarray, links: LinkArrays, force: np.ndarray) -> None:
-    """Add the per-direction law's force on the links' ends to `force` (n, 3) [N]."""
-    for m in range(len(links.nodes)):
-        a, b = links.nodes[m, 0], links.nodes[m, 1]
-        change, square, rest, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        length = np.sqrt(square)
-        e = change / (length + rest)
-        for q in range(3):
-            value = links.constants[m, q] * e * r[q] / length
-            force[a, q] -= value
-            force[b, q] += value
-
-
-@njit(cache=True)
-def add_directional_tangent(u: np.ndarray, links: LinkArrays, blocks: np.ndarray) -> None:
-    """Add the tangent of the per-direction law, diag(k) [n nᵀ + (e/r)(I − n nᵀ)], to the 3×3 blocks."""
-    n = np.empty(3)
-    for m in range(len(links.nodes)):
-        change, square, rest, r = measure(u, links.nodes, links.offset, links.rest_length, m)
-        length = np.sqrt(square)
-        n[0], n[1], n[2] = r[0] / length, r[1] / length, r[2] / length
-        across = change / (length + rest) / length
-        for p in range(3):
-            for q in range(3):
-                value = (1.0 - across) * n[p] * n[q]
-                if p == q:
-                    value += across
-                value *= links.constants[m, p]
-                blocks[links.slots[m, 0], p, q] += value
-                blocks[links.slots[m, 3], p, q] += value
-                blocks[links.slots[m, 1], p, q] -= value
-                blocks[links.slots[m, 2], p, q] -= value

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -33,7 +34,6 @@ ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of sid
     LINKS: (1.0, 0.0, 0.0, 1.0),
     **dict.fromkeys(OF_LAWS, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0)),
 }
-ODD = 2 * np.random.default_rng(0).integers(2**63, size=STRIDE, dtype=np.uint64) + np.uint64(1)  # of a hash
 
 
 class Packing(NamedTuple):
@@ -104,10 +104,9 @@ def pack(lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family])
         rows = np.zeros((ROWS[kind], len(topology.run)))
         for family, damped in parts:
             _add_data(family, damped, number[id(family.nodes)], rows)
-        of_runs, tables = _tables(kind, topology, rows)
-        begins = used + tables[0].size * of_runs
-        runs.append(np.column_stack([np.full(len(begins), kind), topology.runs, begins]))
-        rest.append(tables.ravel())
+        begins, tables = _tables(kind, topology, rows)
+        runs.append(np.column_stack([np.full(len(begins), kind), topology.runs, used + begins]))
+        rest.append(tables)
         used += tables.size
     table = np.concatenate([np.empty((0, 7), int), *runs])[:, [0, 1, 6, 2, 3, 4, 5, 6]].astype(np.uint64)
     table = table[np.argsort(table[:, 3] % plane, kind="stable")]  # masses stay in the fastest memory
@@ -209,24 +208,13 @@ def _topology(grid: Grid, *nodes: np.ndarray) -> Topology:
 
 
 def _tables(kind: int, topology: Topology, data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Which table each run has, (r,), and tables of rest data (t, rows, STRIDE), from those of the springs
-    (rows, s): runs that are alike, as a hash of their numbers and places tells, have one."""
-    run, place = topology.run, topology.place
-    mixed = np.zeros(len(run), dtype=np.uint64)
-    for row, odd in zip((data + 0.0).view(np.uint64), ODD, strict=False):  # no negative zeros
-        mixed += _folded(row) * odd
-    begins = np.flatnonzero(np.append(True, run[1:] != run[:-1]))
-    hashes = np.add.reduceat(_folded(mixed) * ODD[place], begins)
-    _, kinds, of_runs = np.unique(hashes, return_index=True, return_inverse=True)
-    tables = np.zeros((len(kinds), len(data), STRIDE))
-    tables[:, : len(ABSENT_SPRING[kind])] = np.array(ABSENT_SPRING[kind])[:, None]
-    number = np.full(len(begins), -1)
-    number[kinds] = np.arange(len(kinds))
-    shown = np.flatnonzero(number[run] >= 0)
-    tables[number[run[shown]], :, place[shown]] = data[:, shown].T
-    return of_runs.ravel(), tables
-
-
-def _folded(bits: np.ndarray) -> np.ndarray:
-    """Numbers whose low bits depend on their high ones."""
-    return bits ^ (bits >> np.uint64(32))
+    """Where the rest data of each run begin, (r,), and the rest data, flat, in tables (rows, STRIDE), from
+    those of the springs (rows, s): runs that are alike have one table."""
+    absent = np.zeros((len(data), STRIDE))
+    absent[: len(ABSENT_SPRING[kind])] = np.array(ABSENT_SPRING[kind])[:, None]
+    begins, found, data = [], dict[bytes, int](), data + 0.0  # no negative zeros
+    for first, last in pairwise(np.searchsorted(topology.run, np.arange(len(topology.runs) + 1))):
+        table = absent.copy()
+        table[:, topology.place[first:last]] = data[:, first:last]
+        begins.append(found.setdefault(table.tobytes(), table.size * len(found)))
+    return np.array(begins), np.frombuffer(b"".join(found))

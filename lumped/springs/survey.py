@@ -25,10 +25,10 @@ def survey(
 ) -> tuple[np.ndarray, float, float]:
     """Return the energies of the links by kind (m,) and of the cells of the layers, of the mid-surface and of
     upright faces, (kinds + 3,) [J], and the rest of a `Survey`; springs: `SpringArrays`."""
-    along, elongation = springs.links, links.elongations(u, springs.links)
-    energies, stretch, summed, met = np.zeros(kinds + 3), 0.0, 0.0, 0
-    for m in range(len(elongation)):
-        half, e = 0.5 * along.constants[m], elongation[m]
+    along, energies, stretch, summed, met = springs.links, np.zeros(kinds + 3), 0.0, 0.0, 0
+    for m in range(len(along.nodes)):
+        change, square, length, _ = links.measure(u, along.nodes, along.offset, along.rest_length, m)
+        half, e = 0.5 * along.constants[m], change / (np.sqrt(square) + length)
         energies[kind[m]] += half * (e * e)
         if along.offset[m, 2] == 0.0:
             # links between the same columns follow each other, layer by layer, and are as stiff as each other

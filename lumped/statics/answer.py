@@ -1,8 +1,7 @@
-"""What a static solve answers with: how it ended, and the `Solution` of that."""
+"""What a static solve answers with: the `Solution` where its path has ended."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -13,46 +12,27 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from lumped.statics.balance import balance
-from lumped.statics.energy_descent import LatticePath
 from lumped.statics.fields import LatticeMesh, field_mesh
-from lumped.statics.problem import LatticeState, Problem
-from sheetbench.answers.solution import Solution, Status
-from sheetbench.scenes import Scene
+from lumped.statics.problem import LatticePath, LatticeState, Problem
+from sheetbench.answers.solution import Solution
 from sheetbench.scenes.objects.grading import as_settings
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """How a solve ended: status, the path, what there is to say, and the springs' energies [J] at its last
-    equilibrium by name where they are known."""
-
-    status: Status
-    path: LatticePath
-    notes: tuple[str, ...] = ()
-    energies: dict[str, float] | None = None
-
-    @property
-    def state(self) -> LatticeState:
-        """The last equilibrium."""
-        return self.path.state
-
-
 def solution(
-    scene: Scene,
-    calibration: Calibration,
     problem: Problem,
-    outcome: Outcome,
+    path: LatticePath,
+    calibration: Calibration,
     seconds: tuple[float, float],
     requested: dict[str, Any],
 ) -> Solution:
-    """The answer of an outcome; requested: the options that are not their defaults."""
-    path, state, lattice = outcome.path, outcome.state, problem.assembly.lattice
-    assembly, u = problem.assembly, state.u  # they outlive the solve
+    """The answer where a path has ended; requested: the options that are not their defaults."""
+    state, assembly = path.state, problem.assembly  # they outlive the solve
+    u, lattice = state.u, assembly.lattice
     linear = requested.get("linear", False)
-    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, outcome)
+    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
     reactions, on_masses = problem.constraints.reactions(exerted)
-    coupling = problem.assembly.coupling
-    wrenches = coupling.wrenches(state.u, exerted) if coupling is not None else {}
+    coupling = assembly.coupling
+    wrenches = coupling.wrenches(u, exerted) if coupling is not None else {}
     if coupling is not None:
         reactions |= coupling.reactions(exerted)
     at = u, Drive(state.load_factor)
@@ -67,7 +47,7 @@ def solution(
         model="lumped",
         label=f"lumped {calibration.title}" + (", linear" if linear else ""),
         settings=settings | requested,
-        status=outcome.status,
+        status=path.status,
         unknowns=problem.system.unknowns,
         iterations=path.factorisations,
         setup_seconds=seconds[0],
@@ -81,10 +61,10 @@ def solution(
         history=tuple(path.history),
         load_factor=state.load_factor,
         actuators=wrenches,
-        balance=balance(scene, problem, state, reactions, exerted, linear),
-        contacts={name: state for name, (state, _) in contacts.items()},
+        balance=balance(problem, state, reactions, exerted, linear),
+        contacts={name: contact for name, (contact, _) in contacts.items()},
         snaps=tuple(path.snaps),
-        remarks=outcome.notes,
+        remarks=tuple(path.notes),
     )
 
 
@@ -92,13 +72,11 @@ def _sampled(lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
     return MidSurface(lattice, points).of(u)
 
 
-def _at(problem: Problem, outcome: Outcome) -> tuple[np.ndarray, dict[str, float]]:
+def _at(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
     """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
     the energies [J]."""
-    state = outcome.state
-    energies = outcome.energies or problem.survey(state.u, state.load_factor).energies
-    residual = state.residual or problem.residual(state.u, state.load_factor)
-    return -residual.force, energies
+    energies = state.energies or problem.survey(state.u, state.load_factor).energies
+    return -problem.forces(state, state.load_factor).force, energies
 
 
 def _of_small_displacements(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:

@@ -12,14 +12,11 @@ import math
 import numpy as np
 
 from lumped.actuators import Drive
-from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.structure import LIMITS
+from lumped.statics.problem import LIMITS, LatticeState, Problem
 from sheetbench.answers.balance import Balance, dead_force
-from sheetbench.scenes import Scene
 
 
 def balance(
-    scene: Scene,
     problem: Problem,
     state: LatticeState,
     reactions: dict[str, np.ndarray],
@@ -36,7 +33,7 @@ def balance(
     followers = 0.0 if not problem.loads.follow else problem.loads.followers(at)[:n].sum(axis=0)
     cells = problem.assembly.cells
     mass = None if cells is None else float((cells.per_area * lattice.cell_areas).sum())
-    force = sum(reactions.values(), share * (dead_force(scene, mass) + followers))
+    force = sum(reactions.values(), share * (dead_force(problem.scene, mass) + followers))
     held = np.where(problem.constraints.held[:n], exerted[:n], 0.0)
     acting = sum((item.exerted((at, Drive(share))) for item in problem.items), external)
     arms = places.T @ (held + acting[:n])  # Σ x f, whose antisymmetric part is Σ x × f
@@ -45,8 +42,8 @@ def balance(
         moment += coupling.held_moment(at, exerted, Drive(share))
         moment += coupling.moment(at, external)
     known = None if linear else state.residual
-    size = (known or problem.residual(at, share)).scale
+    size = (known or problem.residual(at, share)).size
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
-    allowed = math.sqrt(len(at)) * max(LIMITS.tolerance * size, problem.rounding(state.u))
+    allowed = math.sqrt(len(at)) * max(LIMITS.tolerance * size, problem.imbalance_floor(state))
     arm = math.sqrt(np.einsum("ij,ij->i", places, places).max())
     return Balance(force, moment, size, allowed, arm, objective=problem.assembly.conservative)

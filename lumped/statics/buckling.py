@@ -7,7 +7,6 @@ import numpy as np
 from lumped.calibration import Calibration, default
 from lumped.mid_surface import MidSurface
 from lumped.statics.solver import build_problem
-from lumped.statics.structure import LatticeStructure
 from sheetbench.answers.modes import STILL, Buckling, require_flat_and_dead
 from sheetbench.clock import now
 from sheetbench.numerics.continuation.buckling import buckling_modes
@@ -32,10 +31,10 @@ def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int
     calibration = calibration or default(scene)
     begin = now()
     problem = build_problem(scene, calibration)
-    lattice, structure = problem.assembly.lattice, LatticeStructure(scene, problem)
+    lattice = problem.assembly.lattice
     middle = MidSurface(lattice, lattice.positions[lattice.columns()[:, :, 0].ravel(), :2])
     factors, states = buckling_modes(
-        structure, structure, lambda state: middle.of(state.u), count, STILL * problem.size
+        problem, problem, lambda state: middle.of(state.u), count, STILL * problem.size
     )
 
     def displacement(points: np.ndarray) -> np.ndarray:

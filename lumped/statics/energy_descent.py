@@ -14,14 +14,11 @@ import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from lumped.actuators import Drive
-from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.structure import LatticeForces, LatticeStructure
+from lumped.statics.problem import LatticePath, LatticeState, Problem
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import SOLVED, Start, newton
-from sheetbench.numerics.continuation.path import LoadStepFailed, Path
+from sheetbench.numerics.continuation.path import LoadStepFailed
 from sheetbench.numerics.direct import Factor, SingularMatrixError
-
-LatticePath = Path[LatticeState, LatticeForces]
 
 STEPS = 300
 DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances, of which the first that leads away from a saddle serves
@@ -31,8 +28,8 @@ PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tri
 def settle(path: LatticePath, load_factor: float) -> LatticeState:
     """Return the stable equilibrium at a load factor that descent reaches from a path's last one, from beside
     it where that is at this load factor and unstable. Raises StepFailed where there is none."""
-    assert isinstance(path.structure, LatticeStructure)
-    problem, state, factor = path.structure.problem, path.state, path.factor
+    problem, state, factor = path.structure, path.state, path.factor
+    assert isinstance(problem, Problem)
     problem.assembly.require_energy()
     try:
         if load_factor != path.load_factor:
@@ -56,7 +53,7 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
     for _ in range(STEPS):
         residual = problem.residual(u, load_factor)
         factor, wait = _definite_factor(path, problem, u, load_factor, wait)
-        relative = residual.norm / residual.scale if residual.scale > 0.0 else residual.norm
+        relative = residual.norm / residual.size if residual.size > 0.0 else residual.norm
         if relative < path.limits.refine_below and wait == 0:
             try:
                 return newton(path, Start(LatticeState(u, load_factor, residual), load_factor, 1.0, 0.0))[0]
@@ -121,4 +118,4 @@ def _definite_factor(
         except SingularMatrixError:
             pass
         wait = PROJECTED_RUN
-    return path.factored(problem.nonnegative_tangent(u, load_factor)), wait - 1
+    return path.factored(problem.tangent(u, load_factor, definite=True)), wait - 1

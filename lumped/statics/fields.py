@@ -52,7 +52,7 @@ def field_mesh(
     part = SMALL if linear else 1.0
     assembly = assembly.at(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
-    (layer_cells,) = (c.nodes[:, :, 0] for c in lattice.cells if c.name == "area")
+    layer_cells = lattice.layer_cells[:, :, 0]
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
     for family in assembly.springs:
@@ -62,7 +62,7 @@ def field_mesh(
                 energy = _links_by_cell(lattice, family.nodes[:, ::2, 0], energy)  # from corner to corner
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
-    elongation = links.elongations(small) / part
+    elongation = links.stretched(small)[2] / part
     return FieldMesh(
         points=lattice.positions,
         cells=[("line", links.nodes), ("quad", layer_cells)],
@@ -76,7 +76,7 @@ def field_mesh(
             "tension": [links.stiffness * elongation, np.zeros(quads)],
             "strain": [elongation / links.rest_length, np.zeros(quads)],
             "family": [links.kind.astype(float), np.full(quads, -1.0)],
-            "elastic_energy": [links.energies(small) / part**2, cell_energy],
+            "elastic_energy": [0.5 * links.stiffness * elongation**2, cell_energy],
         },
     )
 

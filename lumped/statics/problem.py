@@ -1,57 +1,73 @@
-"""A lattice under its supports and loads: residual, tangent and factors on the free unknowns.
+"""A lattice under its supports and loads: residual, tangent and factors, as the path tracer has a structure
+(`sheetbench.numerics.continuation`).
 
-With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0. Displacements and forces are (n, 3) [m], [N].
+With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0, and a step is Tᵀ K T δq = Tᵀ (λ f − f_int −
+K δg), δg what supports and actuators have yet to move, K at the load that the state is at. One compiled call
+goes a step and finds the internal forces and the stresses that it extrapolates, so a state has its residual
+with it. Displacements and forces are (n, 3) [m], [N].
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+import scipy.sparse as sp
 
-from lumped.actuators import Coupling, Drive
+from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.contact import Contact
-from lumped.items import LatticeItem
+from lumped.items import LatticeItem, Placed
 from lumped.loads import Loads
-from lumped.springs import all_families
-from lumped.springs.all_families import NO_STRESSES, SpringArrays, Stresses
+from lumped.springs.all_families import NO_STRESSES, Stresses
 from lumped.springs.survey import Survey
+from lumped.statics.correction import Unknowns, advance, correct, unbalanced_force
+from lumped.statics.faults import inspect
 from lumped.supports import Constraints
 from sheetbench.numerics import banded
-from sheetbench.numerics.continuation.newton import SOLVED
-from sheetbench.numerics.direct import Count, Factor
-from sheetbench.numerics.maps import Rows, product, transposed_product
+from sheetbench.numerics.continuation.limits import Limits
+from sheetbench.numerics.continuation.newton import SOLVED, Start
+from sheetbench.numerics.continuation.path import Fault, Path
+from sheetbench.numerics.continuation.structure import Structure
+from sheetbench.numerics.direct import Count, Factor, iterated
+from sheetbench.numerics.maps import product, transposed_product
 from sheetbench.numerics.reduced import ReducedSystem, banded_factor
-from sheetbench.numerics.typed import njit, typed
+from sheetbench.numerics.typed import typed
+from sheetbench.scenes import Scene, outside_model
 
 NOTHING = np.empty((0, 3))
-
-
-class Unknowns(NamedTuple):
-    """held: (n, 3) bool, what supports hold; free: T; band: where the reduced matrix goes, if in a band."""
-
-    held: np.ndarray
-    free: Rows
-    band: banded.Band
+STRETCH = "largest in-plane link strain"
+ITERATED = 5000  # unknowns from which a factorisation costs as much as ten solutions
+LIMITS = Limits(
+    tolerance=1e-11,
+    refine_below=1e-5,
+    steps_with_last_factors=True,
+    reach_growth=1.5,
+    first_reach=0.4,
+    lengthen_up_to=7,
+    careful_after=30,
+    factorisations=2000,
+    in_all=2000,
+)
 
 
 class Residual(NamedTuple):
     """What the equilibrium equation leaves: the unbalanced force (n, 3) [N], the part of it on the free
-    unknowns (m,) and that one's norm [N]; scale: the norm [N] of the external forces plus the supports'."""
+    unknowns (m,) and that one's norm [N]; size: the norm [N] of the external forces plus the supports';
+    moved: what is yet to be moved (n, 3) [m], None for nothing."""
 
     force: np.ndarray
     reduced: np.ndarray
     norm: float
-    scale: float
+    size: float
+    moved: np.ndarray | None = None
 
 
 class LatticeState(NamedTuple):
     """Displacement u (n, 3) [m] at a load factor, what the equilibrium equation leaves there and the stresses
     that the linearisation before the last step predicts, where they are known; where that step began, and how
-    far it went at most [m]."""
+    far it went at most [m]; the springs' energies [J] by name where they are known."""
 
     u: np.ndarray
     load_factor: float
@@ -59,46 +75,48 @@ class LatticeState(NamedTuple):
     stresses: Stresses | None = None
     start: np.ndarray | None = None
     length: float = 0.0
+    energies: dict[str, float] | None = None
 
 
-@dataclass
-class Problem:
-    """A lattice under its supports and loads, which grow with the load factor λ.
+LatticePath = Path[LatticeState, Residual]
 
-    size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`).
+
+class Problem(Structure[LatticeState, Residual]):
+    """A scene's lattice under supports and loads, which grow with the load factor λ; its own solver too:
+    factors of blocks (b, 3, 3).
+
+    size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`); symmetric: whether
+    all forces have a potential; descends: whether stable equilibria are minima of an energy of the free
+    unknowns.
     """
 
-    assembly: Assembly
-    constraints: Constraints
-    loads: Loads
-    size: float
-    items: tuple[LatticeItem, ...] = ()
-
-    def __post_init__(self) -> None:
-        self.conservative = self.assembly.conservative and self.loads.conservative
-        self.contacts = [item for item in self.items if isinstance(item, Contact)]
-        coupling = self.assembly.coupling
-        self.multipliers = coupling.multipliers if coupling is not None else 0
-        self._free = self.constraints.transform_arrays
-        self._others = self.items or self.assembly.coupling is not None or self.loads.follow
-        pattern, transform = self.assembly.pattern, self.constraints.transform
+    def __init__(
+        self,
+        scene: Scene,
+        assembly: Assembly,
+        constraints: Constraints,
+        loads: Loads,
+        items: tuple[LatticeItem, ...] = (),
+    ):
+        self.scene, self.assembly, self.constraints, self.loads = scene, assembly, constraints, loads
+        self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
+        self.contacts = [item for item in items if isinstance(item, Contact)]
+        self.symmetric = self.conservative = assembly.conservative and loads.conservative
+        self.prestrained = assembly.natural is not None
+        coupling, transform = assembly.coupling, constraints.transform
+        self.multipliers = 0 if coupling is None else coupling.multipliers
+        self.descends = self.symmetric and self.multipliers == 0
+        self._free = constraints.transform_arrays
+        self._others = items or coupling is not None or loads.follow
         if coupling is None:
-            self.system = self.constraints.reduced(pattern, self.conservative)
+            self.system = constraints.reduced(assembly.pattern, self.symmetric)
         else:
-            multipliers = self._multiplier_unknowns(coupling)
-            self.system = ReducedSystem(pattern, transform, self.conservative, multipliers)
+            multipliers = abs(transform).T @ coupling.algebraic.ravel() > 0.0
+            self.system = ReducedSystem(assembly.pattern, transform, self.symmetric, multipliers)
         band = self.system.band or banded.NO_BAND
-        self._unknowns = typed(Unknowns(self.constraints.held, self._free, band))
-
-    def _multiplier_unknowns(self, coupling: Coupling) -> np.ndarray:
-        """Which unknowns are multipliers of the actuators' constraints, (m,) bool."""
-        of_unknowns: np.ndarray = abs(self.constraints.transform).T @ coupling.algebraic.ravel()
-        return of_unknowns > 0.0
-
-    @property
-    def descends(self) -> bool:
-        """Whether stable equilibria are minima of an energy of the free unknowns."""
-        return self.conservative and self.multipliers == 0
+        self._unknowns = typed(Unknowns(constraints.held, self._free, band))
+        self._moves = bool(self.prescribed(1.0).any())
+        self._iterates = self.descends and self.system.unknowns > ITERATED
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Tᵀ f, the force on the free unknowns."""
@@ -113,29 +131,25 @@ class Problem:
     @cached_property
     def driving(self) -> float:
         """Norm of the forces [N] of the natural state on the flat sheet, often the only ones."""
-        if self.assembly.natural is None:
+        if not self.prestrained:
             return 0.0
         return float(np.linalg.norm(self.assembly.force(np.zeros_like(self.loads.dead))[1]))
 
-    def tangent(self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None) -> np.ndarray:
-        """Blocks of the tangent of the residual, loads included."""
-        blocks = self.assembly.at(load_factor).tangent(u, stresses, extrapolated=stresses is not None)
-        return self._with_loads(blocks, u, load_factor)
-
-    def nonnegative_tangent(self, u: np.ndarray, load_factor: float) -> np.ndarray:
-        """Return blocks of the tangent less what could make that of the springs indefinite."""
-        springs = self.assembly.at(load_factor).all_families
-        return self._with_loads(springs.nonnegative_tangent(u), u, load_factor, True)
-
-    def _with_loads(
-        self, blocks: np.ndarray, u: np.ndarray, load_factor: float, definite: bool = False
+    def tangent(
+        self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None, definite: bool = False
     ) -> np.ndarray:
+        """Blocks of the tangent of the residual, loads included; definite: less what could make that of the
+        springs indefinite."""
+        springs, drive = self.assembly.at(load_factor).all_families, Drive(load_factor)
+        if definite:
+            blocks = springs.nonnegative_tangent(u)
+        else:
+            blocks = springs.tangent(u, stresses, extrapolated=stresses is not None)
         self.loads.add_tangent(u, load_factor, blocks)
         for item in self.items:
-            item.add_tangent((u, Drive(load_factor)), 1.0, blocks, definite)
+            item.add_tangent((u, drive), 1.0, blocks, definite)
         if self.assembly.coupling is not None:
-            slots = self.assembly.coupling_slots
-            self.assembly.coupling.add_tangent(u, Drive(load_factor), slots, blocks)
+            self.assembly.coupling.add_tangent(u, drive, self.assembly.coupling_slots, blocks)
         return blocks
 
     def prescribed(self, load_factor: float) -> np.ndarray:
@@ -182,7 +196,7 @@ class Problem:
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
         """Return the residual at u."""
-        others = self.assembly.coupling is not None or self.assembly.natural is not None or self.items
+        others = self.assembly.coupling is not None or self.prestrained or self.items
         flat = not (others or u.any())  # where springs are at rest
         internal = np.zeros(u.shape) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
@@ -191,35 +205,83 @@ class Problem:
         load, n = self.loads.force(u), self.system.unknowns
         return Residual(*unbalanced_force(internal, load, self.driving, load_factor, self._unknowns, n))
 
+    def rest(self) -> LatticeState:
+        return LatticeState(np.zeros(self.loads.dead.shape), 0.0)
+
+    def start(self, u: np.ndarray) -> Start[LatticeState]:
+        """Return the start at full load beside a displacement (n, 3) [m]."""
+        beside = LatticeState(self.project_to_supports(u, 1.0), 1.0)
+        state = self.advance(beside, None, 1.0, np.zeros(self.system.unknowns))
+        return Start(state, 1.0, self.length(self.rest(), state), 0.0)
+
+    def forces(self, state: LatticeState, load_factor: float) -> Residual:
+        known = state.residual if state.load_factor == load_factor else None
+        found = known or self.residual(state.u, load_factor)
+        moved = self._moved(state, load_factor)
+        return found if moved is None else found._replace(moved=moved)
+
+    def _moved(self, state: LatticeState, load_factor: float) -> np.ndarray | None:
+        if not self._moves or state.load_factor == load_factor:
+            return None
+        return self.prescribed(load_factor) - self.prescribed(state.load_factor)
+
+    def imbalance(self, state: LatticeState, forces: Residual) -> float:
+        return forces.norm
+
+    def imbalance_floor(self, state: LatticeState) -> float:
+        assembly, largest = self.assembly, float(np.abs(state.u).max())
+        # relative displacements are differences of u: their rounding, times the stiffness
+        if assembly.coupling is None:
+            links = assembly.rounding * largest * assembly.all_families.link_stiffness_norm
+            return links + sum(item.rounding() for item in self.items)
+        carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
+        return float(assembly.rounding * np.linalg.norm(carried))
+
+    def gap(self, state: LatticeState, load_factor: float) -> float:
+        moved, lattice = self._moved(state, load_factor), self.assembly.lattice
+        if moved is None:
+            return 0.0
+        layers = moved[lattice.columns()]  # one that is turned moves the sheet's end
+        turn = float(np.abs(layers[..., -1, :] - layers[..., 0, :]).max()) / lattice.spacing[2]
+        return max(float(np.abs(moved).max() / self.size), turn)
+
+    def rows(self, state: LatticeState, forces: Residual, load_factor: float) -> np.ndarray | None:
+        return forces.reduced if forces.moved is None else None
+
+    def linearised(
+        self, state: LatticeState, forces: Residual, load_factor: float, mixed: bool = True
+    ) -> tuple[np.ndarray, np.ndarray]:
+        stresses, rows = state.stresses if mixed else None, forces.reduced
+        blocks = self.tangent(state.u, state.load_factor, stresses)
+        if forces.moved is not None:
+            rows = rows - self.reduce(self.system.apply(blocks, forces.moved))
+        return blocks, rows
+
     def advance(
-        self, u: np.ndarray, step: np.ndarray, load_factor: float, moved: np.ndarray | None = None
+        self, state: LatticeState, forces: Residual | None, load_factor: float, step: np.ndarray
     ) -> LatticeState:
-        """Return where a step (m,) [m] of the unknowns from u leads, with what is moved (n, 3) [m] beside,
-        the residual and the predicted stresses there."""
-        springs, drive = self.assembly.at(load_factor).all_families, Drive(load_factor)
+        springs, moved = self.assembly.at(load_factor).all_families, forces and forces.moved
         moved, external = NOTHING if moved is None else moved, (self.loads.last_dead, self.driving)
         after, length, internal, stresses, residual = advance(
-            u, step, moved, *external, load_factor, self._unknowns, springs.springs
+            state.u, step, moved, *external, load_factor, self._unknowns, springs.springs
         )
         if self._others or not springs.conservative:
             internal = springs.beside(after, internal)
-            self._add_others(after, drive, internal)
+            self._add_others(after, Drive(load_factor), internal)
             residual = self._residual(internal, after, load_factor)
-        return LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
+        return LatticeState(after, load_factor, Residual(*residual), stresses, state.u, length)
 
     def correct(
-        self, state: LatticeState, rows: np.ndarray, load_factor: float, count: Count
+        self, state: LatticeState, forces: Residual, load_factor: float, count: Count
     ) -> tuple[Factor, np.ndarray, np.ndarray, LatticeState] | None:
-        """Return the factors of the tangent with the stresses predicted at a state, the step (m,) [m] of the
-        unknowns that they give of rows (m,) [N], these and where it leads: one compiled call, and None where
-        not all is compiled."""
-        u, band = state.u, self.system.band
+        rows, band = forces.reduced, self.system.band
         springs = self.assembly.at(load_factor).all_families
-        if self._others or not springs.conservative or band is None:
+        others = self._others or not springs.conservative or forces.moved is not None
+        if others or band is None or self._iterates:
             return None
         count()
         blocks, factors, definite, step, (after, length, _, stresses, residual) = correct(
-            u,
+            state.u,
             state.stresses or NO_STRESSES,
             rows,
             self.loads.last_dead,
@@ -229,88 +291,41 @@ class Problem:
             springs.springs,
         )
         if definite:
-            reached = LatticeState(after, load_factor, Residual(*residual), stresses, u, length)
+            reached = LatticeState(after, load_factor, Residual(*residual), stresses, state.u, length)
             return banded_factor(band, factors, partial(self.system.matrix, blocks)), step, rows, reached
         factor = self.system.factor(blocks, count)
         step = factor.solve(rows, SOLVED)
-        return factor, step, rows, self.advance(u, step, load_factor)
+        return factor, step, rows, self.advance(state, forces, load_factor, step)
 
-    def rounding(self, u: np.ndarray) -> float:
-        """Return the norm of the forces [N] that rounding of the link forces leaves."""
-        assembly, largest = self.assembly, float(np.abs(u).max())
-        # relative displacements are differences of u: their rounding, times the stiffness
-        if assembly.coupling is None:
-            links = assembly.rounding * largest * assembly.all_families.link_stiffness_norm
-            return links + sum(item.rounding() for item in self.items)
-        carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
-        return float(assembly.rounding * np.linalg.norm(carried))
+    def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
+        return state._replace(stresses=of.stresses)
 
+    def sparse(self, matrix: np.ndarray) -> sp.csc_array:
+        return self.system.matrix(matrix)
 
-@njit(cache=True, nogil=True)
-def advance(
-    u: np.ndarray,
-    step: np.ndarray,
-    moved: np.ndarray,
-    load: np.ndarray,
-    driving: float,
-    load_factor: float,
-    unknowns: Unknowns,
-    springs: SpringArrays,
-) -> tuple[np.ndarray, float, np.ndarray, Stresses, tuple[np.ndarray, np.ndarray, float, float]]:
-    """Return what `all_families.advance` does of a step (m,) [m] of the unknowns with what is `moved` (n, 3)
-    [m] beside, if anything, and `unbalanced_force` there."""
-    move = product(unknowns.free, step).reshape(u.shape)
-    if len(moved):
-        move += moved
-    after, length, internal, stresses = all_families.advance(u, move, springs)
-    residual = unbalanced_force(internal, load, driving, load_factor, unknowns, len(step))
-    return after, length, internal, stresses, residual
+    def length(self, start: LatticeState, end: LatticeState) -> float:
+        known = end.start is start.u
+        return (end.length if known else float(np.abs(end.u - start.u).max())) / self.size
 
+    def has_meaning(self, state: LatticeState) -> bool:
+        links = self.assembly.at(state.load_factor).links
+        return not outside_model(self.scene, links.largest_strain(state.u), STRETCH)
 
-@njit(cache=True, nogil=True)
-def correct(
-    u: np.ndarray,
-    stresses: Stresses,
-    rows: np.ndarray,
-    load: np.ndarray,
-    driving: float,
-    load_factor: float,
-    unknowns: Unknowns,
-    springs: SpringArrays,
-) -> tuple[np.ndarray, np.ndarray, bool, np.ndarray, Any]:
-    """Return the tangent's blocks, factors in a band, whether they are such and give a finite step, that step
-    from u and what `advance` makes of it."""
-    none, band = np.empty(0), unknowns.band
-    predicted = len(stresses[0]) + len(stresses[1]) > 0
-    blocks = all_families.tangent(u, stresses, predicted, 1.0, 1.0, none, springs)
-    factors, definite = banded.factored(blocks, band)
-    step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else np.zeros(len(rows))
-    definite = definite and np.isfinite(np.sum(step))
-    found = advance(u, step, np.empty((0, 3)), load, driving, load_factor, unknowns, springs)
-    return blocks, factors, definite, step, found
+    def inspect(self, path: LatticePath) -> Fault | None:
+        """Return why the path's last equilibrium means nothing, if it does."""
+        return inspect(self.assembly.at(path.state.load_factor), path.state.u[None])[1]
 
+    def loading(self) -> float:
+        return float(np.abs(self.external(np.zeros_like(self.loads.dead), 1.0)).sum())
 
-@njit(cache=True, nogil=True)
-def unbalanced_force(
-    internal: np.ndarray,
-    load: np.ndarray,
-    driving: float,
-    load_factor: float,
-    unknowns: Unknowns,
-    n: int,
-) -> tuple[np.ndarray, np.ndarray, float, float]:
-    """Return load_factor × load less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the
-    external forces plus those of the supports' and, driving, of a natural state [N]."""
-    out = np.empty_like(internal)
-    total = loads = supports = 0.0
-    for i in range(len(out)):
-        for q in range(3):
-            external = load_factor * load[i, q]
-            out[i, q] = external - internal[i, q]
-            loads += external**2
-            if unknowns.held[i, q]:
-                supports += internal[i, q] ** 2
-    reduced = transposed_product(unknowns.free, out.ravel(), n)
-    for value in reduced:
-        total += value * value
-    return out, reduced, np.sqrt(total), np.sqrt(loads) + np.sqrt(supports) + abs(load_factor) * driving
+    def placed(self, state: LatticeState, load_factor: float) -> Placed:
+        return state.u, Drive(load_factor)
+
+    def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
+        return state._replace(residual=None), 0.0
+
+    def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
+        return self.system.factor(blocks, more)
+
+    def iterated(self, blocks: np.ndarray, near: Factor, rows: np.ndarray) -> np.ndarray | None:
+        return iterated(self.system.matrix(blocks), near, rows) if self._iterates else None

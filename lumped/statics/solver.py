@@ -17,17 +17,17 @@ from lumped.lattice import Weights
 from lumped.loads import Loads
 from lumped.sections import require_alike
 from lumped.statics import validity
-from lumped.statics.answer import Outcome, solution
+from lumped.statics.answer import solution
 from lumped.statics.coarse_start import FROM, halved, refined
-from lumped.statics.energy_descent import LatticePath, settle
+from lumped.statics.energy_descent import settle
 from lumped.statics.fields import SMALL
-from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.structure import STRETCH, LatticeStructure
+from lumped.statics.problem import STRETCH, LatticePath, LatticeState, Problem
 from lumped.supports import constrain
 from sheetbench.answers.solution import Iteration, Solution, Status
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, NoEquilibrium, require_effect
+from sheetbench.errors import BadInput, require_effect
 from sheetbench.numerics.continuation.path import Path, Progress
+from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
@@ -92,15 +92,15 @@ def solve(
     problem = build_problem(scene, calibration, weights)
     ready = now()
     if linear:
-        outcome = flat_step(scene, problem)
+        path = flat_step(problem)
     elif weights == "tributary" and branch == "path":
-        outcome = solve_from_best_start(scene, problem, calibration, near, progress)
+        path = solve_from_best_start(problem, calibration, near, progress)
     else:
-        outcome = solve_path(scene, problem, branch, progress=progress)
+        path = solve_path(problem, branch, progress=progress)
     done = now()
     options = {"branch": (branch, "path"), "weights": (weights, "tributary"), "linear": (linear, False)}
     requested = {name: value for name, (value, usual) in options.items() if value != usual}
-    return solution(scene, calibration, problem, outcome, (ready - began, done - ready), requested)
+    return solution(problem, path, calibration, (ready - began, done - ready), requested)
 
 
 @cache
@@ -112,7 +112,7 @@ def compile_kernels() -> None:
     scene = Scene(
         name="small", sheet=sheet, material=material, gravity=gravity, supports=(Clamped(edge="x0"),)
     )
-    solve_path(scene, build_problem(scene, consistent(sheet, material, (3, 7, 2))))
+    solve_path(build_problem(scene, consistent(sheet, material, (3, 7, 2))))
 
 
 def build_problem(
@@ -133,121 +133,116 @@ def build_problem(
     lines = assembly.lattice.lines
     if (state := natural_of_cells(scene, *(line.at for line in lines))) is not None:
         assembly.grow(state)
-    size = max(scene.sheet.lengths)
     alike = same is not None and same.assembly.lattice is assembly.lattice
     if same is not None and alike and couple is None and assembly.natural is None:
-        return Problem(assembly, same.constraints, same.loads, size, same.items)
+        return Problem(scene, assembly, same.constraints, same.loads, same.items)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
     items = tuple(Contact(scene, assembly, *each) for each in scene.named_obstacles().items())
-    return Problem(assembly, constraints, Loads(scene, assembly), size, items)
+    return Problem(scene, assembly, constraints, Loads(scene, assembly), items)
 
 
-def flat_step(scene: Scene, problem: Problem) -> Outcome:
+def flat_step(problem: Problem) -> LatticePath:
     """The equilibrium of small displacements: K u = f with the flat sheet's tangent K."""
-    structure = LatticeStructure(scene, problem)
-    path = Path(structure, structure, structure.rest(), factorisations=1)
+    path = Path(problem, problem, problem.rest(), factorisations=1)
     try:
         with one_blas_thread():
-            blocks, rows = structure.system(path.state, structure.forces(path.state, 1.0), 1.0)
-            u = problem.expand(problem.system.factor(blocks).solve(rows)) + problem.prescribed(1.0)
+            blocks, rows = problem.linearised(path.state, problem.forces(path.state, 1.0), 1.0)
+            u = problem.expand(problem.factor(blocks).solve(rows)) + problem.prescribed(1.0)
     except SingularMatrixError as error:
-        return Outcome(Status.SINGULAR, path, (f"the flat sheet's tangent is singular: {error}",))
-    path.state = LatticeState(u, 1.0)
-    links = problem.assembly.at(SMALL).links
-    strain = links.largest_strain(SMALL * u) / SMALL
-    if outside := outside_model(scene, strain, STRETCH):
-        return Outcome(Status.STRAIN_OUTSIDE_MODEL, path, (outside,))
-    return Outcome(Status.CONVERGED, path)
+        path.status, path.notes = Status.SINGULAR, [f"the flat sheet's tangent is singular: {error}"]
+        return path
+    path.state, path.status = LatticeState(u, 1.0), Status.CONVERGED
+    strain = problem.assembly.at(SMALL).links.largest_strain(SMALL * u) / SMALL
+    if outside := outside_model(problem.scene, strain, STRETCH):
+        path.status, path.notes = Status.STRAIN_OUTSIDE_MODEL, [outside]
+    return path
 
 
 def solve_path(
-    scene: Scene,
     problem: Problem,
     branch: Branch = "path",
     near: np.ndarray | None = None,
     progress: Progress | None = None,
-) -> Outcome:
-    """The equilibrium at full load, or how far the load path went and why; near: a displacement (n, 3) [m] to
-    begin at."""
-    structure = LatticeStructure(scene, problem)
+) -> LatticePath:
+    """The path to the equilibrium at full load, or how far it went and why; near: a displacement (n, 3) [m]
+    to begin at."""
     path = trace_path(
-        structure,
-        structure,
-        structure.inspect,
+        problem,
+        problem,
+        problem.inspect,
         settle if problem.descends else None,
         progress,
-        None if near is None else structure.start(near),
-        scene.sheet.thickness / problem.size,
-        structure.limits,
+        None if near is None else problem.start(near),
+        problem.scene.sheet.thickness / problem.size,
+        problem.limits,
         branch == "stable",
     )
-    return classify(scene, problem, path)
+    judge(problem, path)
+    return path
 
 
-def stable_equilibrium(scene: Scene, problem: Problem) -> LatticeState:
+def stable_equilibrium(problem: Problem) -> LatticeState:
     """The stable equilibrium on the load path at full load. Raises NoEquilibrium where there is none."""
-    outcome = solve_path(scene, problem)
-    if outcome.status is not Status.CONVERGED:
-        raise NoEquilibrium(f"lumped: {outcome.status}: {'; '.join([*outcome.notes, outcome.status.advice])}")
-    return outcome.state
+    path = solve_path(problem)
+    require_stable("lumped", path.status, path.notes)
+    return path.state
 
 
 def solve_from_best_start(
-    scene: Scene,
     problem: Problem,
     calibration: Calibration,
     near: np.ndarray | None = None,
     progress: Progress | None = None,
-) -> Outcome:
-    """The equilibrium on the load path at full load, sought first from `near` (n, 3) [m] or, of a large
-    lattice, from that of one with half as many cells a side."""
+) -> LatticePath:
+    """The path to the equilibrium at full load, sought first from `near` (n, 3) [m] or, of a large lattice,
+    from that of one with half as many cells a side."""
     if near is not None and near.shape != problem.loads.dead.shape:
         raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
     if problem.assembly.coupling is not None or problem.items:  # whose points are others on another grid
-        return solve_path(scene, problem, progress=progress)
+        return solve_path(problem, progress=progress)
     large = near is None and problem.descends and problem.system.unknowns > FROM
-    springs = halved(scene, calibration) if large else None
+    springs = halved(problem.scene, calibration) if large else None
     if springs is None:
-        return solve_path(scene, problem, "path", near, progress)
-    smaller = build_problem(scene, springs)
-    outcome = solve_from_best_start(scene, smaller, springs, progress=progress)
-    spent, history = outcome.path.factorisations, outcome.path.history
-    if outcome.status is Status.CONVERGED and not outcome.path.snaps and not outcome.notes:
-        near = refined(smaller.assembly.lattice, outcome.state.u, problem.assembly.lattice)
-    del smaller, outcome  # and the memory of their factors
-    outcome = solve_path(scene, problem, "path", near, progress)
-    outcome.path.factorisations += spent
-    outcome.path.history[:0] = history
-    return outcome
+        return solve_path(problem, "path", near, progress)
+    smaller = build_problem(problem.scene, springs)
+    path = solve_from_best_start(smaller, springs, progress=progress)
+    spent, history = path.factorisations, path.history
+    if path.status is Status.CONVERGED and not path.snaps and not path.notes:
+        near = refined(smaller.assembly.lattice, path.state.u, problem.assembly.lattice)
+    del smaller, path  # and the memory of their factors
+    path = solve_path(problem, "path", near, progress)
+    path.factorisations += spent
+    path.history[:0] = history
+    return path
 
 
-def classify(scene: Scene, problem: Problem, path: LatticePath) -> Outcome:
-    """The outcome of a path: whether the springs mean anything at its end, and what is doubtful there."""
-    status, notes, state = path.status, list(path.notes), path.state
+def judge(problem: Problem, path: LatticePath) -> None:
+    """Add to a path's status and notes whether the springs mean anything at its end, and what is doubtful
+    there."""
+    scene, state, notes = problem.scene, path.state, path.notes
     if path.fault is not None:
         if scene.material.limit and any(support.motion is not None for support in scene.supports):
             notes.append(limit_note(scene.material))
-        return Outcome(status, path, tuple(notes))
+        return
     found = problem.survey(state.u, state.load_factor)
+    path.state = state._replace(energies=found.energies)
+    rounded = validity.digits(problem, state, path.factor)
     outside = outside_model(scene, found.strain, STRETCH)
     if outside and not problem.assembly.any_strain:
-        status = Status.STRAIN_OUTSIDE_MODEL
+        path.status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)
-    notes.append(validity.layers(scene, problem.assembly.at(state.load_factor), state.u, found))
-    rounded = validity.digits(problem, state, path.factor)
-    if rounded is not None:
-        notes.append(rounded.message)
-        status = rounded.status if status is Status.CONVERGED else status
-    if status is Status.UNSTABLE:
-        notes.append(validity.slender_cells(problem.assembly.lattice))
+    elif rounded is not None and path.status is Status.CONVERGED:
+        path.status = rounded.status
+    doubts = [validity.layers(problem, state, found), rounded.message if rounded is not None else ""]
+    doubts.append(validity.slender_cells(problem.assembly.lattice) if path.status is Status.UNSTABLE else "")
     if not problem.assembly.conservative:
-        notes.append(
+        doubts.append(
             "per-direction springs: not central, they have no energy and keep no moments; solved with an "
             "unsymmetric tangent"
         )
     elif not problem.conservative:
-        notes.append("follower loads: solved with an unsymmetric tangent")
-    return Outcome(status, path, tuple(filter(None, notes)), found.energies)
+        doubts.append("follower loads: solved with an unsymmetric tangent")
+    notes.extend(filter(None, doubts))

@@ -9,7 +9,6 @@ import math
 import numpy as np
 
 from lumped.springs.links import LinkArrays, strains
-from sheetbench.numerics.maps import Rows
 from sheetbench.numerics.typed import inner, njit
 
 TINY = float(np.finfo(float).tiny)
@@ -119,10 +118,8 @@ def sharpest_bend(
 
 
 @njit(cache=True)
-def rounded_forces(
-    u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray, sample: np.ndarray, free: Rows, n: int
-) -> np.ndarray:
-    """Return Tᵀ f (n,) [N] of a sample (k, 3) times k |Δu| of the links at every mass, summed; free: T."""
+def carried_by_links(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    """Return k |Δu| of the links at every mass, summed, (k, 1) [N]."""
     carried = np.zeros(len(u))
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
@@ -132,8 +129,4 @@ def rounded_forces(
         pull = stiffness[m] * math.sqrt(square)
         carried[a] += pull
         carried[b] += pull
-    out = np.zeros(n)
-    for row in range(len(free.pointers) - 1):
-        for e in range(free.pointers[row], free.pointers[row + 1]):
-            out[free.columns[e]] += free.values[e] * carried[row // 3] * sample[row // 3, row % 3]
-    return out
+    return carried.reshape(-1, 1)

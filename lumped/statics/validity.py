@@ -32,13 +32,12 @@ from lumped.lattice import Lattice
 from lumped.springs.survey import Survey
 from lumped.statics.faults import place
 from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.soundness import rounded_forces, sharpest_bend
+from lumped.statics.soundness import carried_by_links, sharpest_bend
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.kept import frozen
-from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 
 DOUBTFUL, LOST = 1e-2, 0.05  # displacement by rounding over the largest: that it may be, that it is
@@ -55,18 +54,16 @@ def digits(problem: Problem, state: LatticeState, factor: Factor | None) -> Faul
     largest = float(np.abs(state.u).max())
     if factor is None or largest == 0.0:
         return None
-    links = problem.assembly.links
-    free, n = problem.constraints.transform_arrays, problem.system.unknowns
-    share = 0.0
+    links, share = problem.assembly.links, 0.0
+    carried = carried_by_links(state.u, links.nodes, links.stiffness)
     for sample in _noise(state.u.shape):
-        rounded = rounded_forces(state.u, links.nodes, links.stiffness, sample, free, n)
-        moved = problem.expand(factor.solve_unrefined(rounded))
+        moved = problem.expand(factor.solve_unrefined(problem.reduce(carried * sample)))
         share = max(share, problem.assembly.rounding * float(np.abs(moved).max()) / largest)
         if share < BEYOND_DOUBT:
             return None
     if not share > DOUBTFUL:
         return None
-    unbalanced = (state.residual or problem.residual(state.u, state.load_factor)).reduced
+    unbalanced = problem.forces(state, state.load_factor).reduced
     left = float(np.abs(problem.expand(factor.solve(unbalanced, SOLVED))).max()) / largest
     return Fault(
         Status.SINGULAR if left > LOST else Status.CONVERGED,
@@ -81,9 +78,10 @@ def _noise(shape: tuple[int, ...]) -> np.ndarray:
     return frozen(np.random.default_rng(0).standard_normal((SAMPLES, *shape)))
 
 
-def layers(scene: Scene, assembly: Assembly, u: np.ndarray, found: Survey) -> str:
+def layers(problem: Problem, state: LatticeState, found: Survey) -> str:
     """Return a sentence where the sheet's stretching lies in layers thinner than the grid's cells, else
-    nothing; found: of the springs at u."""
+    nothing; found: of the springs at a state."""
+    assembly, u, scene = problem.assembly.at(state.load_factor), state.u, problem.scene
     lattice = assembly.lattice
     if _stretch_share(assembly, u, found) < FREE_OF_STRETCH:
         return ""

@@ -108,12 +108,6 @@ def padded_vector(n: int, width: int) -> np.ndarray:
     return np.zeros(padded_length(n) + row_length(width))
 
 
-@njit(cache=True, nogil=True)
-def shape(band: Band) -> tuple[int, int]:
-    """Rows and columns of the storage."""
-    return padded_length(len(band.order)), row_length(band.width)
-
-
 @inner()
 def _lanes(count: int) -> Any:
     """A number of steps up to that of whole vectors."""
@@ -123,7 +117,7 @@ def _lanes(count: int) -> Any:
 @njit(cache=True, nogil=True)
 def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
-    out = np.zeros(shape(band))
+    out = np.zeros((padded_length(len(band.order)), row_length(band.width)))
     entries, places = blocks.ravel(), out.ravel()
     if not len(band.weight):
         for e in range(len(band.source)):

@@ -1,16 +1,16 @@
 """Sparse direct solution of A x = b: analyse a pattern once, factorise many times, know the inertia.
 
-A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`); where
-it is large and the extra `mkl` is installed, L D Lᵀ by PARDISO. What has none by fronts, as may be far from
-definite, goes to PARDISO's or rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's SuperLU where neither is:
-its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones are solved with the factors
-of their symmetric part where that is definite and close, else by L U of rslab or SciPy.
+A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`). What
+has none by fronts, as may be far from definite, goes to rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's
+SuperLU without it: its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones are solved
+with the factors of their symmetric part where that is definite and close, else by L U of rslab or SciPy.
 Solutions are refined, their residuals checked.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property, partial
 from math import isfinite
 from typing import Any
@@ -19,10 +19,9 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, cg, splu
 
-from sheetbench.numerics import pardiso
 from sheetbench.numerics.banded import BACKWARD_ERROR
 from sheetbench.numerics.fronts import Fronts
-from sheetbench.numerics.multifrontal import NoFactorsError, SignedFactors
+from sheetbench.numerics.multifrontal import signed_factors
 from sheetbench.numerics.saddle_point import ROUNDED, minimal_residual
 from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
 
@@ -41,36 +40,31 @@ CHOLESKY = (
 )
 ITERATION_ACCURACY = 1e-4  # residual over the right-hand side: Newton's corrections gain few digits more
 ITERATIONS = 20  # each costs a solution with the factors
-LARGE = 20_000  # unknowns from which PARDISO is quicker than the fronts
 
 
 class SingularMatrixError(ArithmeticError):
     """The matrix has no usable factors, or they do not solve the system."""
 
 
+@dataclass(eq=False)
 class Factor:
-    """One factorisation. negative, zero: how many eigenvalues are below zero and zero, negative None where
-    that is not known, and of unsymmetric matrices; solve_unrefined: x with A x = b as the factors have it,
-    neither refined nor checked."""
+    """One factorisation. given: the matrix, or what makes it; solve_unrefined: x with A x = b as the factors
+    have it, neither refined nor checked; negative, zero: how many eigenvalues are below zero and zero,
+    negative None where that is not known, and of unsymmetric matrices; backward_error: what that of
+    unrefined solutions is known to be below; more: called once a further factorisation that is made of the
+    matrix."""
 
-    def __init__(
-        self,
-        matrix: Matrix | Callable[[], Matrix],
-        solve: Solve,
-        negative: int | None = None,
-        zero: int = 0,
-        backward_error: float = np.inf,
-        more: Count = lambda: None,
-    ):
-        """matrix: or what makes it; solve: `solve_unrefined`; backward_error: what that is known to be below;
-        more: called once a further factorisation that is made of the matrix."""
-        self._given, self.solve_unrefined, self.negative, self.zero = matrix, solve, negative, zero
-        self._backward_error, self._more = backward_error, more
+    given: Matrix | Callable[[], Matrix]
+    solve_unrefined: Solve
+    negative: int | None = None
+    zero: int = 0
+    backward_error: float = np.inf
+    more: Count = lambda: None
 
     @cached_property
     def matrix(self) -> Matrix:
         """The matrix, both triangles."""
-        return self._given() if callable(self._given) else self._given
+        return self.given() if callable(self.given) else self.given
 
     @cached_property
     def _largest(self) -> float:
@@ -85,14 +79,14 @@ class Factor:
         count = negative_real(found)
         if len(found) == self.matrix.shape[0]:
             return count
-        self._more()
+        self.more()
         return count if odd_below_zero(self.matrix) == bool(count % 2) else None
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises
         SingularMatrixError if the residual stays large."""
         x = self.solve_unrefined(b)
-        if self._backward_error <= enough and isfinite(x @ x):
+        if self.backward_error <= enough and isfinite(x @ x):
             return x
         left, error = self._backward(x, b)
         if not error <= enough:  # also catches nan
@@ -108,6 +102,7 @@ class Factor:
         return left, float(gap / size) if gap else 0.0
 
 
+@dataclass(eq=False)
 class NearFactor(Factor):
     """Of a matrix the factors of one close by: with constraints' multipliers that of `Saddle`, of an
     unsymmetric matrix its symmetric part, which is positive definite, so that no eigenvalue has a negative
@@ -127,7 +122,7 @@ class NearFactor(Factor):
             x, miss = minimal_residual(self.matrix, self.solve_unrefined, b, max(enough, ROUNDED))
             if self.otherwise is None or miss <= BACKWARD_ERROR:
                 return checked(x, miss)
-            self._more()
+            self.more()
             self._other = self.otherwise()
         return self._other.solve(b, enough)
 
@@ -162,22 +157,18 @@ class DirectSolver:
 
         Raises SingularMatrixError on a zero pivot or an entry that is not finite.
         """
-        n = matrix.shape[0]
-        if self._fronts is not None and (n < LARGE or not self.symmetric or pardiso.library() is None):
-            try:
-                data = matrix.data if self.symmetric else self._symmetric_part(matrix)
-                factors = SignedFactors(data, self._fronts())
+        if self._fronts is not None:
+            data = matrix.data if self.symmetric else self._symmetric_part(matrix)
+            if found := signed_factors(data, self._fronts()):
+                solve, negative = found
                 if self.symmetric:
-                    error = np.inf if factors.negative else CHOLESKY
-                    return Factor(matrix, factors.solve, factors.negative, backward_error=error)
-                if factors.negative == 0:
-                    near = NearFactor(matrix, factors.solve, more=more)
-                    near.otherwise = partial(self._by_library, matrix, more)
-                    return near
+                    error = np.inf if negative else CHOLESKY
+                    return Factor(matrix, solve, negative, backward_error=error)
+                if negative == 0:
+                    otherwise = partial(self._by_library, matrix, more)
+                    return NearFactor(matrix, solve, more=more, otherwise=otherwise)
                 more()
-            except NoFactorsError:
-                pass  # the pivots of others may do
-        return self._by_library(matrix, more)
+        return self._by_library(matrix, more)  # whose pivots may do
 
     def iterated(self, matrix: Matrix, near: Factor, rows: np.ndarray) -> None:
         """None: factors of its own cost little beside a matrix of elements."""
@@ -193,11 +184,10 @@ class DirectSolver:
     def _by_library(self, matrix: Matrix, more: Count) -> Factor:
         if not np.isfinite(_largest(matrix)):
             raise SingularMatrixError("an entry of the matrix is not finite")
-        columns = _columns(matrix, self.symmetric)
+        # the rows of a symmetric matrix are its columns
+        columns = sp.csc_array(matrix.T if self.symmetric and matrix.format == "csr" else matrix)
         try:
-            if self._analysis is None and self.symmetric and pardiso.library() is not None:
-                self._analysis = pardiso.Analysis(columns)
-            elif self._analysis is None and rslab is not None:
+            if self._analysis is None and rslab is not None:
                 self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
             if self._analysis is not None:
                 factors = self._analysis.factor(columns)
@@ -235,12 +225,3 @@ def _superlu(matrix: Matrix, columns: sp.csc_array) -> Factor:
     pivots, known = factors.U.diagonal(), np.array_equal(factors.perm_r, factors.perm_c)
     negative = int(np.sum(pivots < 0)) if known else None
     return Factor(matrix, lambda b: scale * factors.solve(scale * b), negative, int(np.sum(pivots == 0)))
-
-
-def _columns(matrix: Matrix, symmetric: bool) -> sp.csc_array:
-    """The matrix by columns; the rows of a symmetric one are its columns."""
-    if matrix.format == "csc" or not symmetric:
-        return sp.csc_array(matrix)
-    columns = sp.csc_array((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape)
-    columns.has_canonical_format = matrix.has_canonical_format
-    return columns

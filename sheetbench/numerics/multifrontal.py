@@ -11,6 +11,9 @@ it cannot where all signs are positive, the factors are refused.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from sheetbench.numerics.fronts import Fronts
@@ -32,25 +35,13 @@ ROUNDING_PIVOT = 1e-13  # of the diagonal, up to which a pivot counts as roundin
 GROWTH = 1e3
 
 
-class SignedFactors:
-    """The factors of one matrix. negative: how many of its eigenvalues are below zero."""
-
-    def __init__(self, data: np.ndarray, fronts: Fronts):
-        """data: of the matrix, whose pattern the fronts are of. Raises NoFactorsError."""
-        self._fronts, self._factors = fronts, np.empty(fronts.kept[-1])
-        self._signs = np.ones(len(fronts.order))
-        if not factor(data, fronts, self._factors, self._signs):
-            raise NoFactorsError
-        self.negative = int(np.count_nonzero(self._signs < 0.0))
-
-    def solve(self, b: np.ndarray) -> np.ndarray:
-        """x (n,) with A x = b."""
-        found: np.ndarray = solve(self._factors, self._signs, self._fronts, b)
-        return found
-
-
-class NoFactorsError(ArithmeticError):
-    """A pivot vanishes or is not finite, or the factors grow."""
+def signed_factors(data: np.ndarray, fronts: Fronts) -> tuple[Callable[[np.ndarray], np.ndarray], int] | None:
+    """Return what solves A x = b (n,), A having this data and the fronts' pattern, and how many of A's
+    eigenvalues are below zero; None where a pivot vanishes or is not finite, or the factors grow."""
+    factors, signs = np.empty(fronts.kept[-1]), np.ones(len(fronts.order))
+    if not factor(data, fronts, factors, signs):
+        return None
+    return partial(solve, factors, signs, fronts), int(np.count_nonzero(signs < 0.0))
 
 
 @njit(cache=True, nogil=True, fastmath=REORDERED)

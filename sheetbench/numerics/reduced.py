@@ -94,25 +94,24 @@ class ReducedSystem:
         self._solver = DirectSolver(symmetric, None if pattern.cells is None else lambda: self._fronts)
         constrained = multipliers is not None and multipliers.any()
         self._multipliers = multipliers if symmetric and constrained else None
-        self.band: banded.Band | None = None
-        small = symmetric and not constrained and self.unknowns < BANDED_LIMIT / banded.PANEL**2
-        if small and banded.cost(self.unknowns, self._order[1]) < BANDED_LIMIT:
-            self.band = self._banded()
 
     @cached_property
     def _reduction(self) -> Reduction:
         return reduction(self._pattern, self._transform)
 
     @cached_property
-    def _order(self) -> tuple[np.ndarray, int]:
+    def band(self) -> banded.Band | None:
+        """The band of a small symmetric system without multipliers; None of others."""
+        if not self.symmetric or self._multipliers is not None:
+            return None
         found = self._reduction
-        return banded.ordered(found.rows, found.columns(), self.unknowns)
-
-    def _banded(self) -> banded.Band:
-        found, entries = self._reduction, self._reduction.entries()
+        order, width = banded.ordered(found.rows, found.columns(), self.unknowns)
+        if banded.cost(self.unknowns, width) >= BANDED_LIMIT:
+            return None
+        entries = found.entries()
         rows, columns = np.repeat(found.rows, entries), np.repeat(found.columns(), entries)
         weight = found.weight if len(found.weight) else np.ones(len(rows))
-        return banded.band_of(found.source, rows, columns, weight, *self._order)
+        return banded.band_of(found.source, rows, columns, weight, order, width)
 
     @cached_property
     def _fronts(self) -> Fronts:

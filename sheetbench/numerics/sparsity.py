@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from copy import copy
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -22,30 +21,29 @@ class Pattern:
     """Of one kind of element or of several.
 
     unknowns: for every kind (m, k), the number of each element's unknowns in 0 … size − 1, or −1 where held;
-    places: of all elements in the plane (M, 2), which the order of elimination goes by. slots: for every kind
-    (m, k, k), where in the data an entry goes, −1 where it is left out.
+    places: of all elements in the plane (M, 2), which the order of elimination goes by. cells: the unknowns
+    of all elements (M, widest k), −1 too where one has fewer. slots: for every kind (m, k, k), where in the
+    data an entry goes, −1 where it is left out.
     """
 
     def __init__(self, *unknowns: np.ndarray, size: int, places: np.ndarray | None = None):
-        self.size = size
-        self._unknowns, self._places = unknowns, places
-        widths = np.concatenate([np.full(len(number), number.shape[1]) for number in unknowns])
-        starts = np.concatenate([[0], np.cumsum(widths)])
-        entries = np.concatenate([number.ravel() for number in unknowns]).astype(np.int64)
+        self.size, self._places = size, places
+        widths = [number.shape[1] for number in unknowns]
+        room = [((0, 0), (0, max(widths) - width)) for width in widths]
+        padded = [np.pad(u, r, constant_values=-1) for u, r in zip(unknowns, room, strict=True)]
+        self.cells = np.concatenate(padded).astype(np.int64)
+        entries, widest = self.cells.ravel(), max(widths)
         touching = np.argsort(entries, kind="stable")[np.count_nonzero(entries < 0) :]
-        element = np.repeat(np.arange(len(widths)), widths)[touching]
         ends = np.searchsorted(entries[touching], np.arange(size + 1))
-        having = csr_matrix((np.ones(len(element), bool), element, ends), shape=(size, len(widths)))
+        one = np.ones(len(touching), bool)
+        having = csr_matrix((one, touching // widest, ends), shape=(size, len(self.cells)))
         matrix = having @ having.T
         matrix.sort_indices()
         self._columns, self._starts = matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)
-        blocks = np.concatenate([[0], np.cumsum(widths**2)])
-        slots = _slots(self._columns, self._starts, entries, starts, touching, element, ends, blocks)
-        kinds = pairwise(np.cumsum([0, *(number.size * number.shape[1] for number in unknowns)]))
-        parts = zip(unknowns, kinds, strict=True)
-        self.slots = [
-            slots[first:last].reshape(*number.shape, number.shape[1]) for number, (first, last) in parts
-        ]
+        slots = _slots(self._columns, self._starts, self.cells, touching, ends)
+        kinds = np.split(slots, np.cumsum([len(number) for number in unknowns])[:-1])
+        own = zip(kinds, widths, strict=True)
+        self.slots = [np.ascontiguousarray(kind[:, :width, :width]) for kind, width in own]
         self._diagonal = np.flatnonzero(self._columns == np.repeat(np.arange(size), np.diff(self._starts)))
 
     @cached_property
@@ -53,16 +51,6 @@ class Pattern:
         """Where everything goes in Cholesky factors."""
         assert self._places is not None
         return fronts_of(self._columns, self._starts, CoupledCells(self.cells, self._places))
-
-    @property
-    def cells(self) -> np.ndarray:
-        """The unknowns of all elements (M, k), −1 where one has fewer or holds them."""
-        out = np.full((sum(map(len, self._unknowns)), max(u.shape[1] for u in self._unknowns)), -1)
-        first = 0
-        for number in self._unknowns:
-            out[first : first + len(number), : number.shape[1]] = number
-            first += len(number)
-        return out
 
     def matrix(self, *blocks: np.ndarray, diagonal: np.ndarray | None = None) -> csr_matrix:
         """Sum of element matrices (m, k, k) by kind, kinds left out being zero, and of a diagonal (size,)."""
@@ -101,33 +89,23 @@ def pattern_of(places: np.ndarray, *unknowns: np.ndarray, size: int) -> Pattern:
 
 @njit(cache=True)
 def _slots(
-    columns: np.ndarray,
-    rows: np.ndarray,
-    entries: np.ndarray,
-    starts: np.ndarray,
-    touching: np.ndarray,
-    element: np.ndarray,
-    ends: np.ndarray,
-    blocks: np.ndarray,
+    columns: np.ndarray, rows: np.ndarray, cells: np.ndarray, touching: np.ndarray, ends: np.ndarray
 ) -> np.ndarray:
-    """Place in the data of every entry of all element matrices, −1 where it is left out.
+    """Place in the data of every entry of all element matrices (M, k, k), −1 where it is left out.
 
-    columns, rows: of the matrix; entries: of all elements one after the other, from starts (M + 1,) on;
-    touching: places in `entries` of the unknowns in order, in element, from ends (size + 1,) on; blocks: the
-    starts of the elements' matrices (M + 1,).
+    columns, rows: of the matrix; touching: places in `cells` (M, k), flat, of the unknowns in order, from
+    ends (size + 1,) on.
     """
-    out = np.full(blocks[-1], -1, np.int32)
-    place = np.empty(len(rows), np.int32)
+    m, k = cells.shape
+    out, place = np.full((m, k, k), -1, np.int32), np.empty(len(rows), np.int32)
     for row in range(len(rows) - 1):
         for at in range(rows[row], rows[row + 1]):
             place[columns[at]] = at
         for t in range(ends[row], ends[row + 1]):
-            e = element[t]
-            begin, width = starts[e], starts[e + 1] - starts[e]
-            first = blocks[e] + (touching[t] - begin) * width
-            for j in range(width):
-                if entries[begin + j] >= 0:
-                    out[first + j] = place[entries[begin + j]]
+            cell, i = touching[t] // k, touching[t] % k
+            for j in range(k):
+                if cells[cell, j] >= 0:
+                    out[cell, i, j] = place[cells[cell, j]]
     return out
 
 

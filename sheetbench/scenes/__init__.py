@@ -16,7 +16,7 @@ from sheetbench.scenes.objects.obstacles import Cylinder, Plane, Sphere
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.relaxation import Branches, Relaxation
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
-from sheetbench.scenes.objects.springs import DamperSet, PerDirection, SpringSet, SpringTable
+from sheetbench.scenes.objects.springs import DamperSet, PerDirection, SpringSet
 from sheetbench.scenes.objects.supports import (
     Clamped,
     Curved,

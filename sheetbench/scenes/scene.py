@@ -9,8 +9,6 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Self
 
-from pydantic import model_validator
-
 from sheetbench.errors import SceneError
 from sheetbench.scenes.language import summary
 from sheetbench.scenes.meaning import corners, distances, region
@@ -30,48 +28,36 @@ class Scene(SceneFields, defer_build=False):
     Lists are tuples; in TOML they are [[support]], [[load]], [[actuator]].
     """
 
-    @model_validator(mode="after")
-    def _with_probes(self) -> Self:
+    def _faults(self) -> Iterator[object]:
         if not self.probes:
-            on_edges = [support for support in self.supports if place(support) is None]
-            held = [support.edge for support in on_edges if 2 in held_axes(support)]
-            held += [motion.edge for motion in self.motions().values()]
-            probes = default_probes(self.sheet, [support.edge for support in on_edges], held)
-            if self.pierced:
-                probes = {name: nearest(self.region, point) for name, point in probes.items()}
-            vars(self)["probes"] = probes  # the scene is frozen, but not whole yet
-        return self
-
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
-        if wrong := next((f"{key}{reason}" for key, reason in self._conflicts() if reason), None):
-            raise ValueError(wrong)
-        return self
-
-    def _conflicts(self) -> Iterator[tuple[str, str | None]]:
-        """Yield what does not go together, key and reason, no reason where it does."""
+            vars(self)["probes"] = self._usual_probes()  # the scene is frozen, but not whole yet
+        lx, ly = self.sheet.lengths
         for key, (x, y) in region.marked(self).items():
-            lx, ly = self.sheet.lengths
-            on = 0.0 <= x <= lx and 0.0 <= y <= ly
-            extent = f"which is 0 ≤ x ≤ {lx:g} m, 0 ≤ y ≤ {ly:g} m"
-            yield f"{key} = ", None if on else f"{[x, y]} is off the sheet, {extent}"
-        if self.patches:
-            yield "patch ", misplaced(self.patches, self.sheet)
+            off = f"{key} = {[x, y]} is off the sheet, which is 0 ≤ x ≤ {lx:g} m, 0 ≤ y ≤ {ly:g} m"
+            yield not (0.0 <= x <= lx and 0.0 <= y <= ly) and off
+        yield self.patches and misplaced(self.patches, self.sheet)
         if self.shaped_by:
-            yield "", region.misplaced(self)
+            yield from region.misplaced(self)
         if self.layers:
-            varied = None if self.homogeneous else self.varied_by
-            yield "layer: ", varied and f"a laminate is the same all over, without {varied}"
-            yield "layer: ", misfit(self.layers, self.sheet, self.material, self.temperature is not None)
-        yield "", self._unnatural()
-        yield "patch ", mismatched(self.patches, self.material)
-        law = None if self.springs is None else self.material.law
-        yield "springs: ", law and f"of a material with law = '{law}' they are calibrated; leave one out"
+            varied = f"layer: a laminate is the same all over, without {self.varied_by}"
+            yield not self.homogeneous and varied
+            yield misfit(self.layers, self.sheet, self.material, self.temperature is not None)
+        yield self._unnatural()
+        yield mismatched(self.patches, self.material)
+        law = f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
+        yield self.springs and self.material.law and law
         held = next((n for n, load in enumerate(self.loads, start=1) if load.hold), 0)
         alone = 'has no effect without [initial] shape = "static", which lets the load go at t = 0'
-        yield f"load {held}.hold = true: ", alone if held and self.initial is None else None
+        yield held and not self.initial and f"load {held}.hold = true: {alone}"
         yield from distances.conflicts(self)
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
+
+    def _usual_probes(self) -> dict[str, PlanPoint]:
+        on_edges = [support for support in self.supports if place(support) is None]
+        held = [support.edge for support in on_edges if 2 in held_axes(support)]
+        held += [motion.edge for motion in self.motions().values()]
+        probes = default_probes(self.sheet, [support.edge for support in on_edges], held)
+        return {k: nearest(self.region, at) for k, at in probes.items()} if self.pierced else probes
 
     def _unnatural(self) -> str:
         """Return why a natural strain or a temperature cannot be, "" where it can."""

@@ -17,7 +17,7 @@ from comparisons.models.spec import Lattice
 from comparisons.sweep import solved, task
 from comparisons.sweep.campaign import function
 from comparisons.tradeoff.trials import TrialSolves
-from sheetbench.scenes import SpringTable
+from sheetbench.scenes import SpringSet
 
 CONSUMERS = ("solve", "simulate", "modes", "linearise", "sensitivity", "describe", "build_problem")
 WORDS = frozenset({"grid", "calibration", "k", "layer_distance", "grading"})
@@ -135,7 +135,7 @@ def test_so_are_a_scene_s_own_springs(name):
     plain = sb.load(SCENE)
     springs = lumped.calibrate(plain.sheet, plain.material, grid=(4, 6), method="uniform", k=400.0)
     table = {**springs.document()["springs"], "layer_distance": springs.layer_distance, "grid": [4, 6, 2]}
-    scene = plain.replace(springs=SpringTable.model_validate(table))
+    scene = plain.replace(springs=SpringSet.model_validate(table))
     scene.save("own.toml")
     for options in ({}, {"calibration": "van-gelder"}, {"k": 550.0}):
         if words >= options.keys() and not (name == "live" and options):  # whose grid is the slider's

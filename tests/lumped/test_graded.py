@@ -14,7 +14,7 @@ from lumped.assembly import Assembly
 from lumped.calibration import edge_twist
 from lumped.grid_lines import grid_lines
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringTable, load
+from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringSet, load
 from sheetbench.scenes.objects.grading import Grading, as_settings
 
 GRADINGS = (0.5, 0.8, Grading(0.6, ("x0",)))
@@ -118,7 +118,7 @@ def test_springs_of_a_scene_file_are_the_calibrations(method):
     springs = lumped.calibrate(scene.sheet, scene.material, (5, 6), method, grading=0.7)
     written = json.loads(json.dumps(springs.document()))
     kept = {name: written[name] for name in ("grid", "grading", "masses", "layer_distance")}
-    table = SpringTable.model_validate(written["springs"] | kept)
+    table = SpringSet.model_validate(written["springs"] | kept)
     pasted = scene.model_copy(update={"springs": table})
     again = lumped.given(pasted)
     assert (again.grid, again.grading, again.springs) == (springs.grid, 0.7, springs.springs)

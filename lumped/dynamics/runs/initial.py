@@ -27,7 +27,7 @@ def initial_state(
     if not starts_flat(scene):
         still = at_start(scene)
         try:
-            u = stable_equilibrium(still, build_problem(still, calibration, weights)).u
+            u = stable_equilibrium(build_problem(still, calibration, weights)).u
         except NoEquilibrium as error:
             raise NoEquilibrium(f"{NO_START}: {error}") from None
     memory = None if system.maxwell is None else system.maxwell.at_rest(u)

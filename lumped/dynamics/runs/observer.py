@@ -17,7 +17,7 @@ from lumped.dynamics.system import System
 from lumped.mid_surface import MidSurface
 from lumped.springs.tiles import NUMBA_TRUE
 from lumped.statics.faults import fastest, inspect
-from lumped.statics.structure import STRETCH
+from lumped.statics.problem import STRETCH
 from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product

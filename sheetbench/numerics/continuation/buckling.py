@@ -41,16 +41,16 @@ def buckling_modes(
     still = structure.forces(rest, 0.0)
     with one_blas_thread():
         try:
-            factor = solver.factor(structure.system(rest, still, 0.0)[0])
+            factor = solver.factor(structure.linearised(rest, still, 0.0)[0])
             for share in (1.0, -1.0):
                 forces = structure.forces(rest, share)
-                step = factor.solve(structure.system(rest, forces, share)[1])
+                step = factor.solve(structure.linearised(rest, forces, share)[1])
                 loaded = structure.advance(rest, forces, share, step)
                 moved = np.abs(surface(loaded))
                 if moved[:, 2].max() > BENDS * max(moved.max(), still_within):
                     raise BadInput("buckling: the loads bend the sheet at once; those in its plane buckle it")
                 stressed = structure.with_stresses(rest, loaded)
-                tangent, _ = structure.system(stressed, structure.forces(stressed, share), share)
+                tangent, _ = structure.linearised(stressed, structure.forces(stressed, share), share)
                 sides.append(structure.sparse(tangent))
         except SingularMatrixError as error:
             raise BadInput(f"buckling: the flat sheet's tangent is singular: {error}") from None

@@ -61,7 +61,7 @@ class Predictor(Generic[State, Forces]):
             if once is not None:
                 self.factor, step, rows, self.state = once
             elif rows is None:
-                matrix, rows = structure.system(path.state, forces, self.target)
+                matrix, rows = structure.linearised(path.state, forces, self.target)
                 if structure.prestrained:  # the tangent would be of stresses at the target, nothing moved yet
                     matrix = path.tangent(path.state, path.load_factor)
                 if self.factor is None or not structure.symmetric:
@@ -98,7 +98,7 @@ def newton(
         alike = factor is not None and (structure.linear or max(off, blurred) <= path.alike)
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
-            settled = imbalance <= structure.imbalance_floor(state, forces)
+            settled = imbalance <= structure.imbalance_floor(state)
         if relative <= close or (settled and structure.gap(state, target) <= limits.tolerance):
             return state, factor if alike else None
         last, back = lengths[-1], limits.back
@@ -119,7 +119,7 @@ def newton(
                 factor, step, rows, following = once
                 off, blurred = 0.0, last**2
             else:
-                matrix, rows = structure.system(state, forces, target)
+                matrix, rows = structure.linearised(state, forces, target)
                 near, factor = factor if not refined else None, None
                 found = None
                 if near is not None:

@@ -72,7 +72,7 @@ class Path(Generic[State, Forces]):
     def tangent(self, state: State, load_factor: float) -> Matrix:
         """The true tangent at a state: with its own stresses, none extrapolated."""
         forces = self.structure.forces(state, load_factor)
-        return self.structure.system(state, forces, load_factor, mixed=False)[0]
+        return self.structure.linearised(state, forces, load_factor, mixed=False)[0]
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
         """Keep an iteration and tell whoever watches."""

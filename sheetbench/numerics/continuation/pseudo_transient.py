@@ -137,7 +137,7 @@ class _Creep(Generic[State, Forces]):
                 return state
             if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > SHRINKING * lengths[-2]):
                 return None
-            matrix, rows = structure.system(state, forces, self.load_factor)
+            matrix, rows = structure.linearised(state, forces, self.load_factor)
             factor = self._counted(matrix)
             if k == 0 and factor.negative:
                 return None
@@ -163,7 +163,7 @@ class _Creep(Generic[State, Forces]):
         tangent of the material alone. Raises StepFailed."""
         structure, drag = self.structure, FIRST_DRAG
         forces = structure.forces(saddle, self.load_factor)
-        tangent, _ = structure.system(saddle, forces, self.load_factor, mixed=False)
+        tangent, _ = structure.linearised(saddle, forces, self.load_factor, mixed=False)
         factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
         while factor.negative:
             drag *= FASTER
@@ -203,7 +203,7 @@ class _Creep(Generic[State, Forces]):
     def _factor(self, structure: Creeping[State, Forces], state: State) -> Factor:
         """Of the true tangent."""
         forces = structure.forces(state, self.load_factor)
-        return self._counted(structure.system(state, forces, self.load_factor, mixed=False)[0])
+        return self._counted(structure.linearised(state, forces, self.load_factor, mixed=False)[0])
 
     def _counted(self, matrix: csr_matrix) -> Factor:
         """The factors of a matrix. Raises StepFailed where they are too many."""

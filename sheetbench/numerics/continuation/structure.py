@@ -33,6 +33,8 @@ class Structure(Protocol[State, Forces]):
     linear: bool = False  # whether its tangent is the same everywhere, and so the first correction exact
     contacts: Sequence[Any] = ()  # penalties (`stiffening`), with which the rest here is of interest
     size: float = 1.0  # [m]
+    symmetric: bool  # whether the tangent is
+    multipliers: int = 0  # constraints among the unknowns: negative eigenvalues of every tangent
 
     def loading(self) -> float:
         """Sum of the full loads on the structure at rest [N]."""
@@ -45,15 +47,6 @@ class Structure(Protocol[State, Forces]):
         """A state at full load without forces that are of other penalties, and the size of its energy [J]."""
         return state, 0.0
 
-    @property
-    def symmetric(self) -> bool:
-        """Whether the tangent is."""
-
-    @property
-    def multipliers(self) -> int:
-        """Constraints among the unknowns: negative eigenvalues of every tangent."""
-        return 0
-
     def rest(self) -> State:
         """The state that the path sets out from."""
 
@@ -63,8 +56,8 @@ class Structure(Protocol[State, Forces]):
     def imbalance(self, state: State, forces: Forces) -> float:
         """Of the free unknowns [N]."""
 
-    def imbalance_floor(self, state: State, forces: Forces) -> float:
-        """What rounding leaves of it [N]."""
+    def imbalance_floor(self, state: State) -> float:
+        """What rounding leaves of the imbalance at a state [N]."""
         return 0.0
 
     def gap(self, state: State, load_factor: float) -> float:
@@ -74,7 +67,7 @@ class Structure(Protocol[State, Forces]):
         """Right-hand side of a step to equilibrium, where it does not need the tangent."""
         return None
 
-    def system(
+    def linearised(
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
     ) -> tuple[Matrix, np.ndarray]:
         """Tangent and right-hand side of a step; mixed: with the stress that the last step extrapolated."""
@@ -89,7 +82,7 @@ class Structure(Protocol[State, Forces]):
     def correct(
         self, state: State, forces: Forces, load_factor: float, count: Count
     ) -> tuple[Factor, np.ndarray, np.ndarray, State] | None:
-        """Return factors (counted) of `system`, their step, the right-hand side and the state after it, in
+        """Return factors (counted) of the tangent, their step, the right-hand side and the state after it, in
         one, with what the last step extrapolated; None where they are not made at once."""
         return None
 
@@ -116,6 +109,4 @@ class Creeping(Structure[State, Forces], Protocol[State, Forces]):
     def dragged(self, state: State, load_factor: float, drag: float) -> Creeping[State, Forces]:
         """The structure whose equilibrium at this load factor is the end of a step of creep from a state."""
 
-    @property
-    def unknowns(self) -> int:
-        """How many there are."""
+    unknowns: int

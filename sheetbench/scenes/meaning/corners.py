@@ -49,28 +49,24 @@ Driven = Mapping[str, TurnedEdge]  # by their edges
 
 def conflicts(
     actuators: Sequence[AnyActuator], supports: tuple[AnySupport, ...], sheet: Sheet
-) -> Iterator[tuple[str, str]]:
-    """Yield what may not go together on an edge or at a corner: key and reason, "" where it does."""
+) -> Iterator[object]:
+    """Yield what may not go together on an edge or at a corner, what is false where it may."""
     on_edges = [support for support in supports if place(support) is None]
     driven = {edge.edge: edge for edge in bent_or_tilted(supports, sheet)}
     for one, other in combinations(on_edges, 2):
-        if one.edge == other.edge:
-            yield "support: ", f"edge {one.edge} has two supports, {one.kind} and {other.kind}"
-        yield "support: ", _at_corner(one, other, driven, sheet)
+        two = f"support: edge {one.edge} has two supports, {one.kind} and {other.kind}"
+        yield one.edge == other.edge and two
+        yield _at_corner("support", one, other, driven, sheet)
     supported = {support.edge for support in on_edges}
     for i, actuator in enumerate(actuators):
-        if actuator.edge in supported:
-            yield (
-                "actuator: ",
-                f"edge {actuator.edge} has a support, which holds the masses that the actuator would move",
-            )
-        for later in actuators[i + 1 :]:
-            yield "actuator: ", _on_one_edge(actuator, later)
-    yield "actuator ", _held_twice(actuators, supports)
+        held = "has a support, which holds the masses that the actuator would move"
+        yield actuator.edge in supported and f"actuator: edge {actuator.edge} {held}"
+        yield from (_on_one_edge(actuator, later) for later in actuators[i + 1 :])
+    yield _held_twice(actuators, supports)
     for motion in actuators:
         if isinstance(motion, EdgeMotion):
             for beside in (*on_edges, *(each for each in actuators if each is not motion)):
-                yield "actuator: ", _at_corner(motion, beside, driven, sheet)
+                yield _at_corner("actuator", motion, beside, driven, sheet)
 
 
 def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:
@@ -78,18 +74,18 @@ def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:
     if first.edge != second.edge:
         return ""
     if not isinstance(first, Chain) or not isinstance(second, Chain):
-        return f"edge {first.edge} has a prescribed motion and another actuator"
+        return f"actuator: edge {first.edge} has a prescribed motion and another actuator"
     for key in ("segments", "plane", "base"):
         mine, theirs = getattr(first, key), getattr(second, key)
         if mine != theirs:
             return (
-                f"two chains on edge {first.edge} have {key} = {mine!r} and {theirs!r}: "
+                f"actuator: two chains on edge {first.edge} have {key} = {mine!r} and {theirs!r}: "
                 "chains on one edge must agree in segments, plane and base"
             )
     return ""
 
 
-def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet) -> str:
+def _at_corner(key: str, one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet) -> str:
     """Why two cannot both be obeyed at the corner of their edges, "" where they can or have none."""
     if EDGES[one.edge].normal_axis == EDGES[other.edge].normal_axis:
         return ""
@@ -99,7 +95,7 @@ def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet)
         if other.base not in ("start", "end") or corner != ends[other.base == "end"]:
             return ""
         return (
-            f"the base of the chain on edge {other.edge} stands at the corner that the motion on edge "
+            f"{key}: the base of the chain on edge {other.edge} stands at the corner that the motion on edge "
             f"{one.edge} moves"
         )
     moving = (each if isinstance(each, EdgeMotion) else each.motion for each in (one, other))
@@ -122,7 +118,7 @@ def _at_corner(one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet)
             turner, held = (one, other) if director[2] <= normal[2] else (other, one)
             where = f"the corner where {_named(held)} holds it otherwise"
             turned = f"{_named(turner)} turns the director at {where}{when}"
-    return moved or turned
+    return (moved and f"{key}: {moved}") or (turned and f"{key}: {turned}")
 
 
 def _held(holder: Holder) -> tuple[set[int], set[int]]:
@@ -173,8 +169,8 @@ def _held_twice(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]
             where = {0: "where it starts", 1: "where it ends", -1: "in its middle"}
             held = ", and ".join(f"{where[place]} {by}" for place, by in places.items())
             return (
-                f"{number} on edge {chain.edge} is held along itself {held}: a chain does not stretch, so "
-                "this one could not bend; let go of all but one, a chain's hold by its "
+                f"actuator {number} on edge {chain.edge} is held along itself {held}: a chain does not "
+                "stretch, so this one could not bend; let go of all but one, a chain's hold by its "
                 'base = "free" or plane = "spatial", a support\'s by one that does not hold the corner along '
                 "the edge"
             )

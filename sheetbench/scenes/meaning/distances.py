@@ -120,8 +120,8 @@ def _gap(scene: SceneFields, one: AnyObstacle, plan: Any, time: float | None) ->
     return -float(found.depth[deepest]), -found.normal[deepest]
 
 
-def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
-    """Yield what does not go together, key and reason, no reason where it does."""
+def conflicts(scene: SceneFields) -> Iterator[object]:
+    """Yield why an obstacle cannot be where it is, "" or False where it can."""
     held = (one for one in scene.supports if isinstance(one, Clamped | Hinged))
     edges = [one.edge for one in held if one.where is one.motion is None]
     for name, obstacle in scene.named_obstacles().items():
@@ -130,8 +130,8 @@ def conflicts(scene: SceneFields) -> Iterator[tuple[str, str | None]]:
             where = f"motion: in its last place edge {edge}, which is held, is"
             gaps[where] = _gap(scene, obstacle, np.linspace(*scene.sheet.edge_ends(edge), GRID), None)[0]
         for where, gap in gaps.items():
-            inside = f"{where} {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
-            yield f"{name}.", inside if gap < -INSIDE * scene.sheet.thickness else None
+            inside = f"{name}.{where} {-1e3 * gap:.4g} mm inside it, with half its thickness; move it away"
+            yield gap < -INSIDE * scene.sheet.thickness and inside
 
 
 def require_no_obstacles(scene: SceneFields, who: str) -> None:

@@ -1,1 +1,4 @@
-"""The objects of a scene, table by table. Their annotations are no texts, which pydantic would compile."""
+"""The objects of a scene, one file a table: fields, bounds, and what follows from one object alone.
+
+Annotations are evaluated where they stand, not texts that pydantic would have to compile one by one.
+"""

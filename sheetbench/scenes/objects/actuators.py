@@ -16,10 +16,11 @@ anywhere through the thickness. They move as one chain whose axis is the mean of
 slide along its axis, since two inextensible rods on opposite faces could not bend together.
 """
 
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
 from sheetbench.scenes.objects.quantities import (
     Forms,
@@ -76,14 +77,15 @@ class Chain(Frozen):
     base: Base = "free"
     """Held nowhere ("free"), or at its middle or at the end where the edge starts or ends."""
 
-    @model_validator(mode="after")
-    def _one_curvature_a_joint(self) -> Self:
-        if isinstance(self.curvature, tuple) and len(self.curvature) != self.joints:
-            raise ValueError(
+    def _faults(self) -> Iterator[object]:
+        yield (
+            isinstance(self.curvature, tuple)
+            and len(self.curvature) != self.joints
+            and (
                 f"curvature has {len(self.curvature)} values, but {self.segments} segments with base = "
                 f'"{self.base}" have {self.joints} joints'
             )
-        return self
+        )
 
     @property
     def held_as(self) -> str:
@@ -136,16 +138,14 @@ class EdgeMotion(OverTime):
     """Rotation vector [about x, about y, about z] of the edge about its middle at each time, right-handed,
     linear between them."""
 
+    def _faults(self) -> Iterator[object]:
+        yield from super()._faults()
+        yield not self.displacement and not self.rotation and "needs displacement [m] or rotation [rad]"
+
     @property
     def held_as(self) -> str:
         """Its name among the reactions."""
         return str(self.edge)
-
-    @model_validator(mode="after")
-    def _moves_something(self) -> Self:
-        if not self.displacement and not self.rotation:
-            raise ValueError("needs displacement [m] or rotation [rad]")
-        return self
 
 
 def _kind(data: Any) -> str:

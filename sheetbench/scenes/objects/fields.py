@@ -20,7 +20,7 @@ from sheetbench.scenes.objects.orthotropy import FIBRES
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
-from sheetbench.scenes.objects.springs import DamperSet, SpringTable
+from sheetbench.scenes.objects.springs import DamperSet, SpringSet
 from sheetbench.scenes.objects.supports import Point, Support, lets_twist_go, place
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class SceneFields(Frozen, defer_build=True):
     """What moves edges that have no support."""
     initial: Initial | None = Field(default=None, kw_only=True)
     """The shape that a motion starts from; without this table nothing but the supports shapes the sheet."""
-    springs: SpringTable | None = None
+    springs: SpringSet | None = None
     """The lattice's own spring constants, as `sheetbench calibrate --toml` writes them; no other model reads
     them. Where cells differ, on a graded grid, a constant is a list of rows of cells from y0 to y1, each from
     x0 to x1."""

@@ -5,15 +5,15 @@ Classical lamination, symmetric about the mid-surface: stretching and bending ar
 they are uncoupled, as it is of isotropic layers of one Poisson's ratio.
 """
 
+from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from sheetbench.scenes.objects import orthotropy
 from sheetbench.scenes.objects.material import Material
-from sheetbench.scenes.objects.orthotropy import Fibres, Ply, in_own_axes
+from sheetbench.scenes.objects.orthotropy import NEEDED, Fibres, Ply, impossible, in_own_axes
 from sheetbench.scenes.objects.quantities import Angle, Density, Length, Modulus, PoissonRatio
 from sheetbench.scenes.objects.sheet import Sheet
 
@@ -35,25 +35,17 @@ class Layer(Fibres):
     density: Density | None = Field(default=None, kw_only=True)
     """The material's unless given."""
 
-    @model_validator(mode="after")
-    def _of_one_kind(self) -> Self:
+    def _faults(self) -> Iterator[object]:
         own = self.own
-        if (self.young is None) != (self.poisson is None):
-            raise ValueError("young and poisson: an isotropic layer has both")
-        if any(key in own for key in (*orthotropy.NEEDED, "shear_13", "shear_23")):
-            if self.young is not None:
-                raise ValueError(
-                    f"young = {self.young:g}: the layer has constants of fibres too; give either"
-                )
-            if reason := orthotropy.impossible(own):
-                raise ValueError(reason.removeprefix(f"{orthotropy.KIND}: "))
-        return self
+        yield ("young" in own) != ("poisson" in own) and "young and poisson: an isotropic layer has both"
+        if {*NEEDED, "shear_13", "shear_23"} & own.keys():
+            yield self.young and f"young = {self.young:g}: the layer has constants of fibres too; give either"
+            yield impossible(own)
 
     @property
     def own(self) -> dict[str, Any]:
         """What is its own."""
-        given = {name: getattr(self, name) for name in type(self).model_fields if name != "thickness"}
-        return {name: value for name, value in given.items() if value is not None}
+        return self.given(name for name in type(self).model_fields if name != "thickness")
 
 
 def plies(layers: tuple[Layer, ...], material: Material) -> tuple[Ply, ...]:
@@ -109,14 +101,14 @@ def misfit(layers: tuple[Layer, ...], sheet: Sheet, material: Material, heated: 
     symmetric about its middle."""
     total = sum(layer.thickness for layer in layers)
     if abs(total - sheet.thickness) > ROUNDING * sheet.thickness:
-        return f"thicknesses add up to {total:g} m; the sheet's is {sheet.thickness:g} m"
+        return f"layer: thicknesses add up to {total:g} m; the sheet's is {sheet.thickness:g} m"
     if material.law is not None:
-        return f"material.law = '{material.law}': layers are of linear material"
+        return f"layer: material.law = '{material.law}': layers are of linear material"
     found = plies(layers, material)
     number = unlike_its_mirror(found)
     if not number:
         return ""
-    unlike = f"{number} is not {len(layers) + 1 - number} from the other face: a laminate that is not "
+    unlike = f"layer: {number} is not {len(layers) + 1 - number} from the other face: a laminate that is not "
     if not heated:
         return f"{unlike}symmetric about its middle bends when it is pulled, which no model here has"
     a, b, d = resultants(found)

@@ -2,9 +2,10 @@
 before and the last one after. Without one it acts in full from t = 0 on. Statics take the last factor.
 """
 
-from typing import Annotated, Literal, Self
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from sheetbench.scenes.objects.quantities import Frozen, Number, PlanPoint, Unit, Vector3
 from sheetbench.scenes.objects.shapes import Shape
@@ -17,13 +18,9 @@ class _Load(Loading):
     """Whether it holds the sheet only until a motion starts, which lets it go at t = 0: with [initial]
     shape = "static". Statics have it as any other load."""
 
-    @model_validator(mode="after")
-    def _holds_steadily(self) -> Self:
-        if self.hold and self.history is not None:
-            raise ValueError(
-                "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
-            )
-        return self
+    def _faults(self) -> Iterator[object]:
+        alone = "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
+        yield self.hold and self.history and alone
 
 
 class Initial(Frozen):
@@ -58,11 +55,10 @@ class EdgeLoad(_Load):
     where: Shape | None = Field(default=None, kw_only=True)
     """The part of the edge that is loaded, which lies in a shape; the whole edge unless given."""
 
-    @model_validator(mode="after")
-    def _loads_something(self) -> Self:
-        if not self.model_fields_set & {"force_per_length", "moment_per_length"}:
-            raise ValueError("needs force_per_length [N/m] or moment_per_length [N·m/m]")
-        return self
+    def _faults(self) -> Iterator[object]:
+        yield from super()._faults()
+        given = self.model_fields_set & {"force_per_length", "moment_per_length"}
+        yield not given and "needs force_per_length [N/m] or moment_per_length [N·m/m]"
 
 
 class AreaLoad(_Load):

@@ -11,10 +11,11 @@ the mass matrix constant. Of Izz nothing is taken: a point of a sheet has no cou
 the kinetic energy of a rigid body; e.g. Wittenburg, Dynamics of Multibody Systems, 2008, 3.3.
 """
 
-from typing import Annotated, Self
+from collections.abc import Iterator
+from typing import Annotated
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from sheetbench.scenes.objects.quantities import Frozen, NonNegative, PlanPoint, Positive, Unit
 from sheetbench.scenes.objects.shapes import Shape
@@ -35,13 +36,10 @@ class Mass(Frozen):
     """Moments of inertia about x, y and z through the point `at`, of a body that turns with the sheet's
     normal there; that about z, the normal, takes no part. Without them it is a point."""
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
-        if (self.at is None) == (self.where is None):
-            raise ValueError("give one of at, a point [x, y], and where, a part of the sheet")
-        if self.inertia is not None and self.at is None:
-            raise ValueError("inertia: is of a body at a point; with where leave it out")
-        return self
+    def _faults(self) -> Iterator[object]:
+        one = "give one of at, a point [x, y], and where, a part of the sheet"
+        yield (self.at is None) == (self.where is None) and one
+        yield self.inertia and self.where and "inertia: is of a body at a point; with where leave it out"
 
     @property
     def of_director(self) -> np.ndarray:

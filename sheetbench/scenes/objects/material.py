@@ -20,8 +20,7 @@ Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bone
 Continuum Mechanics (2008), 6.4.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 from math import pi
 from typing import Annotated, Any, Literal, NamedTuple, Self
@@ -30,8 +29,16 @@ from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes.language.units import numbers
-from sheetbench.scenes.objects import orthotropy
-from sheetbench.scenes.objects.orthotropy import Fibres, Ply
+from sheetbench.scenes.objects.orthotropy import (
+    KEYS,
+    MODULI,
+    NEEDED,
+    Fibres,
+    Ply,
+    impossible,
+    in_own_axes,
+    like_isotropic,
+)
 from sheetbench.scenes.objects.quantities import (
     Angle,
     Density,
@@ -67,23 +74,26 @@ class Energy(NamedTuple):
         """f″(0) [Pa]."""
         return 2.0 * self.c20 + (self.c10 / self.limit if self.limit else 0.0)
 
+    def young(self, poisson: float) -> float:
+        """E of small strains [Pa]."""
+        return 2.0 * (1.0 + poisson) * self.shear
+
     def volume(self, poisson: float) -> float:
         """Λ [Pa]."""
         return 2.0 * self.shear * poisson / (1.0 - 2.0 * poisson) - 4.0 * (self.c01 + self.stiffening)
 
 
-@dataclass(frozen=True)
-class Words:
+class LawKeys(NamedTuple):
     """A law's keys in [material] and the energy that they mean."""
 
     keys: tuple[str, ...]
     energy: Callable[..., Energy]
 
 
-WORDS: Mapping[str, Words] = {
-    "mooney-rivlin": Words(("c1", "c2"), lambda c1, c2: Energy(c1, c01=c2)),
-    "yeoh": Words(("c1", "c2", "c3"), lambda c1, c2, c3: Energy(c1, c20=c2, c30=c3)),
-    "gent": Words(("shear", "limit"), lambda shear, limit: Energy(shear / 2.0, limit=limit)),
+WORDS: Mapping[str, LawKeys] = {
+    "mooney-rivlin": LawKeys(("c1", "c2"), lambda c1, c2: Energy(c1, c01=c2)),
+    "yeoh": LawKeys(("c1", "c2", "c3"), lambda c1, c2, c3: Energy(c1, c20=c2, c30=c3)),
+    "gent": LawKeys(("shear", "limit"), lambda shear, limit: Energy(shear / 2.0, limit=limit)),
 }
 STRESSES = ("c1", "c2", "c3", "shear")
 CONSTANTS = (*STRESSES, "limit")
@@ -98,7 +108,7 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
         needed = {"if": of_law, "then": {"required": [*words.keys, "poisson"]}, "else": needed}
     fibres = {"properties": {"kind": {"const": "orthotropic"}}, "required": ["kind"]}
     schema["required"] = ["density"]
-    schema["allOf"] = [{"if": fibres, "then": {"required": [*orthotropy.NEEDED]}, "else": needed}]
+    schema["allOf"] = [{"if": fibres, "then": {"required": [*NEEDED]}, "else": needed}]
 
 
 class Material(Fibres):
@@ -159,96 +169,99 @@ class Material(Fibres):
     def _young_of_constants(cls, data: Any) -> Any:
         """Young's modulus of small strains from a law's constants, where it is not given; of fibres it and
         Poisson's ratio, as measures of the material's size."""
-        if isinstance(data, dict) and data.get("kind") == "orthotropic":
-            return orthotropy.with_likeness(data)
-        law = data.get("law") if isinstance(data, dict) else None
+        if not isinstance(data, dict):
+            return data
+        if data.get("kind") == "orthotropic":
+            given = numbers(data, {key: "" if key == "poisson_12" else "Pa" for key in NEEDED})
+            real = given and min(given["young_1"], given["young_2"]) > 0.0
+            young, poisson = like_isotropic(given) if real else (1.0, 0.0)
+            return {"young": young, "poisson": poisson, **data}
+        law = data.get("law")
         words = WORDS.get(law) if isinstance(law, str) else None
         if words is None or "young" in data:
             return data
         given = numbers(data, {key: "Pa" if key in STRESSES else "" for key in ("poisson", *words.keys)})
         poisson, *constants = given.values() or (0.0,)
-        young = 2.0 * (1.0 + poisson) * words.energy(*constants).shear if constants else 0.0
+        young = words.energy(*constants).young(poisson) if constants else 0.0
         # where it makes no sense `_law_with_its_constants` says why
         return {**data, "young": young if young > 0.0 else 1.0}
 
-    @model_validator(mode="after")
-    def _law_with_its_constants(self) -> Self:
-        words = WORDS.get(self.law or "", Words((), Energy))
-        for key in CONSTANTS:
-            value = getattr(self, key)
-            if value is not None and key not in words.keys:
-                takes = f"law = '{self.law}' takes {' and '.join(words.keys) or 'young'}"
-                laws = ", ".join(law for law, words in WORDS.items() if key in words.keys)
-                of = takes if self.law else "law is missing"
-                raise ValueError(f"{key} = {value:g}: {of}; leave {key} out, or choose law: {laws}")
-            if value is None and key in words.keys:
-                raise ValueError(f"law = '{self.law}': {key} is missing; it takes {', '.join(words.keys)}")
+    def _faults(self) -> Iterator[object]:
+        keys, own = self._keys, self.given(CONSTANTS)
+        for key in (key for key in own if key not in keys):
+            laws = ", ".join(law for law, words in WORDS.items() if key in words.keys)
+            of = f"law = '{self.law}' takes {' and '.join(keys) or 'young'}" if self.law else "law is missing"
+            yield f"{key} = {own[key]:g}: {of}; leave {key} out, or choose law: {laws}"
+        for key in keys:
+            yield key not in own and f"law = '{self.law}': {key} is missing; it takes {', '.join(keys)}"
         if self.law is not None:
-            self._require_a_rubber()
-        return self
+            yield from self._no_rubber(", ".join(f"{key} = {value:g}" for key, value in own.items()))
+        yield from self._no_fibres(self.given(KEYS))
+        yield from self._damped_twice()
 
-    def _require_a_rubber(self) -> None:
-        """Raise ValueError for constants of which a material would not be stable at rest, or pull on."""
-        energy = self.energy
-        given = ", ".join(
-            f"{key} = {getattr(self, key):g}" for key in CONSTANTS if getattr(self, key) is not None
+    def _no_rubber(self, given: str) -> Iterator[object]:
+        """Yield why a material would not be stable at rest, or push where it is pulled far enough."""
+        energy, young = self.energy, self.energy.young(self.poisson)
+        stable = f"the shear modulus at small strains is {energy.shear:g} Pa; it must be > 0"
+        yield energy.shear <= 0.0 and f"{given}: {stable}"
+        yield abs(self.young - young) > 1e-9 * young and (
+            f"young = {self.young:g}: {given} and poisson = {self.poisson:g} make it {young:g} Pa "
+            "at small strains; leave young out"
         )
-        if energy.shear <= 0.0:
-            raise ValueError(
-                f"{given}: the shear modulus at small strains is {energy.shear:g} Pa; it must be > 0"
-            )
-        young = 2.0 * (1.0 + self.poisson) * energy.shear
-        if abs(self.young - young) > 1e-9 * young:
-            raise ValueError(
-                f"young = {self.young:g}: {given} and poisson = {self.poisson:g} make it {young:g} Pa "
-                "at small strains; leave young out"
-            )
-        if energy.volume(self.poisson) < 0.0:
-            ratio = 2.0 * (energy.c01 + energy.stiffening) / energy.shear
-            raise ValueError(
-                f"poisson = {self.poisson:g}: with law = '{self.law}' {given} it must "
-                f"be {ratio / (1.0 + 2.0 * ratio):.3g} or more"
-            )
-        _require_pull(energy, given, self.law)
+        ratio = 2.0 * (energy.c01 + energy.stiffening) / energy.shear
+        yield energy.volume(self.poisson) < 0.0 and (
+            f"poisson = {self.poisson:g}: with law = '{self.law}' {given} it must "
+            f"be {ratio / (1.0 + 2.0 * ratio):.3g} or more"
+        )
+        least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0
+        pushes = energy.c10 < 0.0 or energy.c30 < least or (least and energy.c30 == least)
+        above = f" and c3 above {least:g} Pa" * (self.law == "yeoh")
+        yield pushes and f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}"
+        yield energy.c01 < 0.0 and (
+            f"{given}: pulled both ways beyond a stretch of {(-energy.c10 / energy.c01) ** 0.5:.3g} this "
+            "rubber would push; c2 must be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
+        )
 
-    @model_validator(mode="after")
-    def _fibres_with_their_constants(self) -> Self:
-        if reason := orthotropy.fault({key: getattr(self, key) for key in type(self).model_fields}):
-            raise ValueError(reason)
-        return self
+    def _no_fibres(self, own: dict[str, float]) -> Iterator[object]:
+        """Yield why the constants of fibres, those that are given, cannot be."""
+        if self.kind == "isotropic":
+            for key, value in own.items():
+                yield f"{key} = {value:g}: is of kind = 'orthotropic'; say so, or leave it out"
+            return
+        yield self.law and f"law = '{self.law}': is of isotropic rubber; an orthotropic material has none"
+        yield impossible(own)
+        for key, value in zip(("young", "poisson"), like_isotropic(own), strict=True):
+            given, needed = getattr(self, key), ", ".join(NEEDED)
+            leave = f"{key} = {given:g}: of an orthotropic material {needed} are given; leave {key} out"
+            yield abs(given - value) > 1e-9 * abs(value) and leave
 
-    @model_validator(mode="after")
-    def _damped_in_one_way(self) -> Self:
+    def _damped_twice(self) -> Iterator[object]:
+        """Yield why it cannot be known how the material damps."""
         if self.loss_factor is None:
-            for key in ("frequency", "band"):
-                if getattr(self, key) is not None:
-                    raise ValueError(f"{key}: is of a loss_factor; give one")
+            yield from (f"{key}: is of a loss_factor; give one" for key in self.given(("frequency", "band")))
         else:
             for key in ("damping_time", "relaxation"):
-                if getattr(self, key):
-                    raise ValueError(f"loss_factor and {key}: each says how the material damps; give one")
-            if (self.frequency is None) == (self.band is None):
-                raise ValueError(
-                    f"loss_factor = {self.loss_factor:g}: give frequency, where one damper a spring has it, "
-                    "or band = [low, high], over which Maxwell branches keep it"
-                )
-        if self.loss_factor and self.band:
-            try:
-                constant_loss(self.loss_factor, *self.band)
-            except BadInput as error:
-                raise ValueError(str(error)) from None
-        times = [branch.time for branch in self.relaxation]
-        if any(b <= a for a, b in pairwise(times)):
-            raise ValueError(f"relaxation: times must increase, not {', '.join(f'{t:g}' for t in times)} s")
-        if (total := sum(branch.share for branch in self.relaxation)) >= 1.0:
-            raise ValueError(f"relaxation: shares add up to {total:g}; the rest, below 1, is young's")
-        return self
+                both = f"loss_factor and {key}: each says how the material damps; give one"
+                yield getattr(self, key) and both
+            yield (self.frequency is None) == (self.band is None) and (
+                f"loss_factor = {self.loss_factor:g}: give frequency, where one damper a spring has it, "
+                "or band = [low, high], over which Maxwell branches keep it"
+            )
+        times, total = [branch.time for branch in self.relaxation], sum(one.share for one in self.relaxation)
+        listed = ", ".join(f"{t:g}" for t in times)
+        yield any(b <= a for a, b in pairwise(times)) and f"relaxation: times must increase, not {listed} s"
+        yield total >= 1.0 and f"relaxation: shares add up to {total:g}; the rest, below 1, is young's"
+        _ = self.branches  # raises for a band that is none
+
+    @property
+    def _keys(self) -> tuple[str, ...]:
+        """The keys of its law's constants."""
+        return WORDS[self.law or ""].keys if self.law in WORDS else ()
 
     @property
     def ply(self) -> Ply:
         """Return the ply that a sheet of this material alone is."""
-        given = {key: getattr(self, key) for key in (*orthotropy.KEYS, "young", "poisson", "density")}
-        return Ply(-0.5, 0.5, **orthotropy.in_own_axes(given))
+        return Ply(-0.5, 0.5, **in_own_axes(self.given((*KEYS, "young", "poisson", "density"))))
 
     @property
     def dashpot_time(self) -> float:
@@ -271,32 +284,25 @@ class Material(Fibres):
     @property
     def energy(self) -> Energy:
         """The energy of its law; of none neo-Hooke's, which has the same small strains."""
-        words = WORDS.get(self.law or "")
-        if words is None:
+        if self.law not in WORDS:
             return Energy(self.young / (4.0 * (1.0 + self.poisson)))
-        return words.energy(*(getattr(self, key) for key in words.keys))
+        return WORDS[self.law or ""].energy(*(getattr(self, key) for key in self._keys))
 
     def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some keys; of a law with constants, and of fibres, these follow
         another young, and young follows other constants. Raises SceneError for what makes no sense."""
         kinds = {self.kind, values.get("kind", self.kind)}
+        scaled, derived = tuple[str, ...](), {"young"}
         if "orthotropic" in kinds:
-            own = {"young", "poisson", *(orthotropy.KEYS if len(kinds) == 2 else ())}
-            scale = values.pop("young") / self.young if len(kinds) == 1 and "young" in values else 1.0
-            moduli = {k: scale * v for k in orthotropy.MODULI if (v := getattr(self, k)) is not None}
-            return self._with({**moduli, **values} if scale != 1.0 else values, own)
-        if WORDS.get(self.law or "") is None or ("law" in values and values["law"] != self.law):
-            dropped = {} if "law" not in values else {key: None for key in CONSTANTS if key not in values}
-            return super().replace(**dropped, **values)
-        young = values.pop("young", None)
-        if young is not None:
-            scale = young / (2.0 * (1.0 + values.get("poisson", self.poisson)) * self.energy.shear)
-            of_young = {k: scale * v for k in STRESSES if (v := getattr(self, k)) is not None}
-            values = {**of_young, **values}
-        return self._with(values, {"young"})
-
-    def _with(self, values: dict[str, Any], derived: set[str]) -> Self:
-        """Return a copy with other values for some keys, without those that are derived."""
+            derived = {"young", "poisson", *(KEYS if len(kinds) == 2 else ())}
+            scaled, was = (MODULI if len(kinds) == 1 else ()), self.young
+        elif not self._keys or values.get("law", self.law) != self.law:
+            dropped = CONSTANTS if "law" in values else ()
+            return super().replace(**{key: None for key in dropped if key not in values}, **values)
+        else:
+            scaled, was = STRESSES, self.energy.young(values.get("poisson", self.poisson))
+        if scaled and (young := values.pop("young", None)) is not None:
+            values = {key: young / was * value for key, value in self.given(scaled).items()} | values
         kept = {name: getattr(self, name) for name in type(self).model_fields if name not in derived}
         return type(self)(**{**kept, **values})
 
@@ -308,20 +314,6 @@ def limit_note(material: Material) -> str:
         f"the law 'gent' lets no load bring I1 - 3 to its limit = {material.limit:g}, as what is prescribed "
         "here may do: move the supports less, or give a larger limit"
     )
-
-
-def _require_pull(energy: Energy, given: str, law: str | None) -> None:
-    """Raise ValueError for constants of which a sheet, pulled one way or both ways far enough, would push."""
-    least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0
-    if energy.c10 < 0.0 or energy.c30 < least or (least and energy.c30 == least):
-        above = f" and c3 above {least:g} Pa" if law == "yeoh" else ""
-        raise ValueError(f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}")
-    if energy.c01 < 0.0:
-        stretch = (-energy.c10 / energy.c01) ** 0.5
-        raise ValueError(
-            f"{given}: pulled both ways beyond a stretch of {stretch:.3g} this rubber would push; c2 must "
-            "be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
-        )
 
 
 def require_no_branches(material: Material, who: str) -> None:

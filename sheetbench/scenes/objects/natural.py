@@ -9,9 +9,10 @@ gives what the layers' own stresses, with C, α of each, would bring about if no
 Source: Timoshenko, J. Opt. Soc. Am. 11 (1925) 233, whose formula follows for two isotropic layers.
 """
 
-from typing import Annotated, Self
+from collections.abc import Iterator
+from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from sheetbench.scenes.objects.quantities import Number, Unit, Vector3
 from sheetbench.scenes.objects.tables import Loading
@@ -30,14 +31,11 @@ class Natural(Loading):
     pretension: Annotated[tuple[Number, Number], Unit("N/m")] | None = Field(default=None, kw_only=True)
     """In place of strain: [Nx, Ny] that stretch the sheet as long as it is held where it is drawn."""
 
-    @model_validator(mode="after")
-    def _possible(self) -> Self:
-        if self.pretension is not None and any(self.strain):
-            raise ValueError("strain and pretension: give one of them")
+    def _faults(self) -> Iterator[object]:
+        yield self.pretension and any(self.strain) and "strain and pretension: give one of them"
         xx, yy, xy = (self.last_factor * component for component in self.strain)
-        if max(abs(xx), abs(yy), abs(xy)) > LARGEST_STRAIN:
-            raise ValueError(f"strain = [{xx:g}, {yy:g}, {xy:g}]: at most {LARGEST_STRAIN:g} either way")
-        return self
+        most = f"strain = [{xx:g}, {yy:g}, {xy:g}]: at most {LARGEST_STRAIN:g} either way"
+        yield max(abs(xx), abs(yy), abs(xy)) > LARGEST_STRAIN and most
 
 
 class Temperature(Loading):

@@ -16,12 +16,12 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from sheetbench.scenes.language.units import numbers
 from sheetbench.scenes.objects.quantities import Frozen, Modulus, Number, Unit
 
 NEEDED = ("young_1", "young_2", "poisson_12", "shear_12")
 MODULI = ("young_1", "young_2", "young_3", "shear_12", "shear_13", "shear_23")
-KEYS = (*NEEDED, "shear_13", "shear_23", "young_3", "poisson_13", "poisson_23", "angle")
+THROUGH = ("poisson_13", "poisson_23")
+KEYS = (*NEEDED, "shear_13", "shear_23", "young_3", *THROUGH, "angle")
 KIND = "kind = 'orthotropic'"
 FIBRES = f"material.{KIND}"
 LARGEST_POISSON = 0.49  # of the isotropic material that stands for one with fibres
@@ -75,20 +75,17 @@ class Ply(NamedTuple):
 def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:
     """Return the constants of a ply that keys of a material, patch or layer mean: what is left out of an
     orthotropic material's is that of another axis, and E and ν are an isotropic one's."""
-    constants = {key: value for key, value in own.items() if key in Ply._fields and value is not None}
-    if "young_1" in constants:
-        for key, like in (("shear_13", "shear_12"), ("shear_23", "shear_12"), ("young_3", "young_2")):
-            constants.setdefault(key, constants[like])
-        for key in ("poisson_13", "poisson_23"):
-            constants.setdefault(key, constants["poisson_12"])
-        constants.setdefault("angle", 0.0)
-    elif own.get("young") is not None:
+    constants = {key: value for key, value in own.items() if key in Ply._fields}
+    if "young_1" in own:
+        shear, poisson = dict.fromkeys(("shear_13", "shear_23"), own["shear_12"]), own["poisson_12"]
+        usual = {"young_3": own["young_2"], **shear, **dict.fromkeys(THROUGH, poisson)}
+    elif "young" in own:
         young, poisson = own["young"], own["poisson"]
-        constants |= dict.fromkeys(("young_1", "young_2", "young_3"), young)
-        constants |= dict.fromkeys(("poisson_12", "poisson_13", "poisson_23"), poisson)
-        constants |= dict.fromkeys(("shear_12", "shear_13", "shear_23"), young / (2.0 * (1.0 + poisson)))
-        constants.setdefault("angle", 0.0)
-    return constants
+        usual = dict.fromkeys(MODULI[:3], young) | dict.fromkeys(("poisson_12", *THROUGH), poisson)
+        usual |= dict.fromkeys(MODULI[3:], young / (2.0 * (1.0 + poisson)))
+    else:
+        return constants
+    return {**usual, "angle": 0.0, **constants}
 
 
 def like_isotropic(given: Mapping[str, float]) -> tuple[float, float]:
@@ -99,36 +96,9 @@ def like_isotropic(given: Mapping[str, float]) -> tuple[float, float]:
     return young, min(max(poisson, -LARGEST_POISSON), LARGEST_POISSON)
 
 
-def with_likeness(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the keys of an orthotropic material with young and poisson, where those are not given; any,
-    where constants are not numbers, which their own checks say."""
-    given = numbers(data, {key: "" if key == "poisson_12" else "Pa" for key in NEEDED})
-    real = given and min(given["young_1"], given["young_2"]) > 0.0
-    young, poisson = like_isotropic(given) if real else (1.0, 0.0)
-    return {"young": young, "poisson": poisson, **data}
-
-
-def fault(given: Mapping[str, Any]) -> str:
-    """Return what is wrong with the keys of a material as far as fibres are concerned, "" for nothing."""
-    own = [key for key in KEYS if given[key] is not None]
-    if given["kind"] == "isotropic":
-        if not own:
-            return ""
-        return f"{own[0]} = {given[own[0]]:g}: is of kind = 'orthotropic'; say so, or leave it out"
-    if given["law"] is not None:
-        return f"law = '{given['law']}': is of isotropic rubber; an orthotropic material has none"
-    if reason := impossible(given):
-        return reason
-    for key, value in zip(("young", "poisson"), like_isotropic(given), strict=True):
-        if abs(given[key] - value) > 1e-9 * abs(value):
-            needed = ", ".join(NEEDED)
-            return f"{key} = {given[key]:g}: of an orthotropic material {needed} are given; leave {key} out"
-    return ""
-
-
 def impossible(given: Mapping[str, Any]) -> str:
-    """Return why an orthotropic material's constants cannot be, "" where they can."""
-    if missing := [key for key in NEEDED if given.get(key) is None]:
+    """Return why an orthotropic material's constants, those that are given, cannot be, "" where they can."""
+    if missing := [key for key in NEEDED if key not in given]:
         return f"{KIND}: {', '.join(missing)} missing; it takes {', '.join(NEEDED)}"
     poisson, ratio = given["poisson_12"], given["young_1"] / given["young_2"]
     if poisson**2 >= ratio:
@@ -136,9 +106,8 @@ def impossible(given: Mapping[str, Any]) -> str:
             f"poisson_12 = {poisson:g}: its square must be below young_1/young_2 = {ratio:.4g}, "
             "or stretching would give energy"
         )
-    if any(given.get(key) is not None for key in ("young_3", "poisson_13", "poisson_23")):
-        return impossible_in_space(Ply(-0.5, 0.5, **in_own_axes(given)))
-    return ""
+    through = {"young_3", *THROUGH} & given.keys()
+    return impossible_in_space(Ply(-0.5, 0.5, **{"density": 0.0, **in_own_axes(given)})) if through else ""
 
 
 def impossible_in_space(ply: Ply) -> str:

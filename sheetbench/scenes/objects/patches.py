@@ -1,8 +1,8 @@
 """Patches: parts of a sheet with a thickness, a material or a natural state of their own."""
 
-from typing import Self
+from collections.abc import Iterator
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from sheetbench.scenes.objects.material import Material
 from sheetbench.scenes.objects.natural import Natural
@@ -31,19 +31,15 @@ class Patch(Frozen):
     natural: Natural | None = Field(default=None, kw_only=True)
     """Natural strain and curvature in place of the sheet's, there."""
 
-    @model_validator(mode="after")
-    def _differs(self) -> Self:
-        if not self.own and self.natural is None:
-            raise ValueError(f"needs one of {', '.join((*CONSTANTS, 'natural'))}")
-        if self.natural is not None and self.natural.pretension is not None:
-            raise ValueError("natural.pretension: is of a whole sheet; give strain")
-        return self
+    def _faults(self) -> Iterator[object]:
+        yield not self.own and not self.natural and f"needs one of {', '.join((*CONSTANTS, 'natural'))}"
+        whole = "natural.pretension: is of a whole sheet; give strain"
+        yield self.natural and self.natural.pretension and whole
 
     @property
     def own(self) -> dict[str, float]:
         """The constants that are its own."""
-        given = {name: getattr(self, name) for name in CONSTANTS}
-        return {name: value for name, value in given.items() if value is not None}
+        return self.given(CONSTANTS)
 
 
 def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
@@ -54,11 +50,11 @@ def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
     for number, patch in enumerate(patches, start=1):
         if patch.shape.area.intersection(plan).area <= 0.0:
             return (
-                f"{number}.shape: {patch.shape.in_words()}: no part of it is on the sheet, "
+                f"patch {number}.shape: {patch.shape.in_words()}: no part of it is on the sheet, "
                 f"0 ≤ x ≤ {1e3 * sheet.length_x:.4g}, 0 ≤ y ≤ {1e3 * sheet.length_y:.4g} mm"
             )
         if patch.thickness is not None and patch.thickness > min(sheet.lengths):
-            return f"{number}.thickness = {patch.thickness:g} m is more than the sheet's shorter side"
+            return f"patch {number}.thickness = {patch.thickness:g} m is more than the sheet's shorter side"
     return ""
 
 
@@ -66,11 +62,11 @@ def mismatched(patches: tuple[Patch, ...], material: Material) -> str:
     """Why a patch's constants are not of the sheet's kind of material, "" where all are."""
     for number, patch in enumerate(patches, start=1):
         if material.kind == "isotropic" and patch.angle is not None:
-            return f"{number}.angle = {patch.angle:g}: is of a material of kind = 'orthotropic'"
+            return f"patch {number}.angle = {patch.angle:g}: is of a material of kind = 'orthotropic'"
         if material.kind == "orthotropic" and (patch.young is None) != (patch.poisson is None):
             given = "poisson" if patch.young is None else "young"
             return (
-                f"{number}.{given} = {getattr(patch, given):g}: young and poisson together make a part of an "
-                "orthotropic sheet isotropic; give both, or neither"
+                f"patch {number}.{given} = {getattr(patch, given):g}: young and poisson together make a part "
+                "of an orthotropic sheet isotropic; give both, or neither"
             )
     return ""

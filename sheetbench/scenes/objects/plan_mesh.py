@@ -12,13 +12,14 @@ program of its own (`mesh_reader`) with limits of time and memory.
 """
 
 import sys
+from collections.abc import Iterator
 from functools import cached_property
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from sheetbench.process import ONE_THREAD, run
 from sheetbench.scenes.language.reading import LARGEST
@@ -56,31 +57,28 @@ class PlanMesh(Frozen):
     quads: Annotated[tuple[tuple[Corner, Corner, Corner, Corner], ...], Field(min_length=1)]
     """Numbers of each element's corners in turn, from 0 on; neighbours share corners."""
 
-    @model_validator(mode="after")
-    def _covers(self) -> Self:
+    def _faults(self) -> Iterator[object]:
         import shapely
 
         points, quads = self.arrays
-        if quads.max() >= len(points):
-            raise ValueError(f"quads: corner {quads.max()} is beyond the last of {len(points)} points")
+        yield quads.max() >= len(points) and (
+            f"quads: corner {quads.max()} is beyond the last of {len(points)} points"
+        )
         corners = points[quads]
         onwards, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
         turn = onwards[..., 0] * back[..., 1] - onwards[..., 1] * back[..., 0]
         size = np.ptp(points, axis=0).max()
         folded = np.any(turn * np.sign(turn.sum(axis=1, keepdims=True)) <= (ROUNDING * size) ** 2, axis=1)
-        if folded.any():
-            at = ", ".join(f"({x:g}, {y:g})" for x, y in corners[np.argmax(folded)])
-            raise ValueError(f"the element with corners {at} m crosses itself, or is not convex")
+        at = ", ".join(f"({x:g}, {y:g})" for x, y in corners[np.argmax(folded)])
+        yield folded.any() and f"the element with corners {at} m crosses itself, or is not convex"
         sides = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
         rim, count = np.unique(sides, axis=0, return_counts=True)
-        rim = rim[count == 1]
-        length = np.linalg.norm(np.diff(points[rim], axis=1)[:, 0], axis=1).sum()
+        length = np.linalg.norm(np.diff(points[rim[count == 1]], axis=1)[:, 0], axis=1).sum()
         area = shapely.area(shapely.polygons(corners)).sum()
-        if abs(self.area.area - area) > ROUNDING * area or count.max() > 2:
-            raise ValueError("elements lie over each other")
-        if abs(self.area.length - length) > ROUNDING * length:
-            raise ValueError("elements touch without sharing corners: merge what lies at one place")
-        return self
+        over = abs(self.area.area - area) > ROUNDING * area or count.max() > 2
+        yield over and "elements lie over each other"
+        apart = abs(self.area.length - length) > ROUNDING * length
+        yield apart and "elements touch without sharing corners: merge what lies at one place"
 
     @property
     def arrays(self) -> tuple[np.ndarray, np.ndarray]:

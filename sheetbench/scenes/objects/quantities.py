@@ -4,7 +4,7 @@ No number is larger than `LARGEST` in magnitude, and what must be positive not s
 them nothing is meant, and the products and quotients of the mechanics would overflow.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from inspect import Parameter, Signature
 from math import isfinite
 from typing import (
@@ -19,7 +19,15 @@ from typing import (
     get_type_hints,
 )
 
-from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    ValidationError,
+    model_validator,
+)
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from sheetbench.errors import BadInput, SceneError
@@ -161,6 +169,21 @@ class Frozen(BaseModel, frozen=True):
 
     def __str__(self) -> str:
         return repr(self)
+
+    def _faults(self) -> Iterator[object]:
+        """Yield what is wrong with the values beside each other, in sentences, the first of which is said;
+        what is false where nothing is."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _sound(self) -> Self:
+        if fault := next(filter(None, self._faults()), None):
+            raise ValueError(fault)
+        return self
+
+    def given(self, names: Iterable[str]) -> dict[str, Any]:
+        """Return the values of these keys that are not None."""
+        return {name: value for name in names if (value := getattr(self, name)) is not None}
 
     def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some keys. Raises SceneError for what makes no sense."""

@@ -7,13 +7,14 @@ shape = { polygon = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]] }
 Areas are shapely's; a circle is a polygon of CIRCLE_SIDES sides there, of the circle's area.
 """
 
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
 from math import cos, pi, sin, sqrt
-from typing import TYPE_CHECKING, Annotated, Self
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field
 
 from sheetbench.scenes.objects.quantities import Frozen, Number, PlanPoint, Positive, Unit
 
@@ -33,12 +34,10 @@ class Rectangle(Frozen):
     y: Span
     """From and to, along y."""
 
-    @model_validator(mode="after")
-    def _rises(self) -> Self:
+    def _faults(self) -> Iterator[object]:
         for name, (low, high) in (("x", self.x), ("y", self.y)):
-            if high <= low:
-                raise ValueError(f"{name} = [{low:g}, {high:g}]: the second must be greater than the first")
-        return self
+            more = f"{name} = [{low:g}, {high:g}]: the second must be greater than the first"
+            yield high <= low and more
 
 
 class Circle(Frozen):
@@ -62,14 +61,10 @@ class Shape(Frozen):
     polygon: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = None
     """Corners [x, y] in turn, either way round; its sides do not cross."""
 
-    @model_validator(mode="after")
-    def _one(self) -> Self:
-        given = [name for name in type(self).model_fields if getattr(self, name) is not None]
-        if len(given) != 1:
-            raise ValueError(f"{' and '.join(given) or 'empty'}: give one of rectangle, circle, polygon")
-        if self.polygon is not None and (wrong := crossing(self.polygon)):
-            raise ValueError(f"polygon: {wrong}")
-        return self
+    def _faults(self) -> Iterator[object]:
+        given = self.given(type(self).model_fields)
+        yield len(given) != 1 and f"{' and '.join(given) or 'empty'}: give one of rectangle, circle, polygon"
+        yield self.polygon and crossing("polygon", self.polygon)
 
     @cached_property
     def area(self) -> "Area":
@@ -113,14 +108,14 @@ class Shape(Frozen):
         return f"{what} {left} ≤ x ≤ {right}, {low} ≤ y ≤ {high} mm"
 
 
-def crossing(corners: tuple[PlanPoint, ...]) -> str:
-    """Why corners [m] in turn are no polygon, "" where they are one."""
+def crossing(key: str, corners: tuple[PlanPoint, ...]) -> str:
+    """Why corners [m] in turn are no polygon, beginning with their key; "" where they are one."""
     import shapely
 
     polygon = shapely.Polygon(corners)
     if polygon.is_valid and polygon.area > 0.0:
         return ""
-    return f"its sides cross or it has no area ({shapely.is_valid_reason(polygon)} m)"
+    return f"{key}: its sides cross or it has no area ({shapely.is_valid_reason(polygon)} m)"
 
 
 def straight_sides(*areas: "Area") -> tuple[set[float], set[float]]:

@@ -4,10 +4,11 @@ The flat sheet's mid-surface is z = 0 with x in [0, length_x] and y in [0, lengt
 An edge is named by the axis it is normal to and the end of that axis: x0, x1, y0, y1.
 """
 
-from typing import Annotated, Literal, NamedTuple, Self
+from collections.abc import Iterator
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field
 
 from sheetbench.scenes.objects.plan_mesh import PlanMesh, read_mesh
 from sheetbench.scenes.objects.quantities import Frozen, Length, PlanPoint, Positive, Unit, Vector3
@@ -65,33 +66,25 @@ class Sheet(Frozen):
     to the scene's file. Its triangles and quadrilaterals [m] in the plane z = 0 are what plate, shell and
     solid solve on, its boundary is the outline, with its holes."""
 
-    @model_validator(mode="after")
-    def _thinner_than_wide(self) -> Self:
+    def _faults(self) -> Iterator[object]:
         thickness, shorter = f"thickness = {self.thickness:g} m", min(self.lengths)
-        if self.thickness > shorter:
-            more = f"is more than the shorter side, {shorter:g} m; lengths are in metres"
-            raise ValueError(f"{thickness} {more}")
-        for name, ends in (("taper_x", self.taper_x), ("taper_y", self.taper_y)):
-            given = f"{name} = [{ends[0]:g}, {ends[1]:g}] m" if ends else ""
-            if ends and not min(ends) <= self.thickness <= max(ends):
-                raise ValueError(f"{given}: {thickness} is not between the two")
-            if ends and max(ends) > shorter:
-                raise ValueError(f"{given} is more than the shorter side")
-        if self.outline is not None and self.mesh is not None:
-            raise ValueError("outline and mesh: give one of them; the outline of a mesh is its boundary")
-        drawn = {"outline": self.outline, "mesh": None if self.mesh is None else self.mesh.points}
+        more = f"is more than the shorter side, {shorter:g} m; lengths are in metres"
+        yield self.thickness > shorter and f"{thickness} {more}"
+        for name, ends in self.given(("taper_x", "taper_y")).items():
+            given, beside = f"{name} = [{ends[0]:g}, {ends[1]:g}] m", f"{thickness} is not between the two"
+            yield not min(ends) <= self.thickness <= max(ends) and f"{given}: {beside}"
+            yield max(ends) > shorter and f"{given} is more than the shorter side"
+        drawn = {"outline": self.outline, "mesh": self.mesh and self.mesh.points}
+        one = "outline and mesh: give one of them; the outline of a mesh is its boundary"
+        yield all(drawn.values()) and one
         for key, corners in drawn.items():
-            if corners is None:
-                continue
-            for name, length, places in zip("xy", self.lengths, zip(*corners, strict=True), strict=True):
-                if max(abs(min(places)), abs(max(places) - length)) > COINCIDENT * length:
-                    raise ValueError(
-                        f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
-                        f"have to reach from 0 to length_{name} = {length:g} m"
-                    )
-        if self.outline is not None and (wrong := crossing(self.outline)):
-            raise ValueError(f"outline: {wrong}")
-        return self
+            every = zip(*corners or (), strict=True)
+            for name, length, places in zip("xy", self.lengths, every, strict=False):
+                yield max(abs(min(places)), abs(max(places) - length)) > COINCIDENT * length and (
+                    f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
+                    f"have to reach from 0 to length_{name} = {length:g} m"
+                )
+        yield self.outline and crossing("outline", self.outline)
 
     @property
     def drawn(self) -> bool:

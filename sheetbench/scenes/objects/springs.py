@@ -14,9 +14,10 @@ from one of two opposite edges to the other they are x0's and y0's, and those th
 y1's.
 """
 
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, Strict
 
 from sheetbench.scenes.objects.grading import Graded, through, towards
 from sheetbench.scenes.objects.quantities import (
@@ -66,7 +67,7 @@ Distribution = Literal["tributary", "gregory"]
 
 
 class SpringSet(Frozen):
-    """Stiffness of each family [N/m] and the distance of neighbouring layers [m]."""
+    """The [springs] table of a scene: springs, and the lattice that they were found for."""
 
     axial: Stiffness
     """Links along x and y within a layer (ka)."""
@@ -153,52 +154,34 @@ class SpringSet(Frozen):
     layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 
-    @property
-    def rubber(self) -> bool:
-        """Whether the layers' cells are rubber membranes."""
-        return bool(self.neo_hookean_shear or self.mooney_rivlin)
-
-    @model_validator(mode="after")
-    def _one_law_a_cell(self) -> Self:
-        if self.rubber and (self.area or self.stretch or self.shear):
-            raise ValueError("neo_hookean_shear: the same cells cannot have area, stretch and shear springs")
-        return self
-
-
-class SpringTable(SpringSet):
-    """The [springs] table of a scene: springs, and the lattice that they were found for."""
-
-    grid: tuple[Masses, Masses, Masses] | None = None
+    grid: tuple[Masses, Masses, Masses] | None = Field(default=None, kw_only=True)
     """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
     grid is requested; another grid is refused."""
-    grading: Annotated[float, Real(ge=0, le=1)] = 0.0
+    grading: Annotated[float, Real(ge=0, le=1)] = Field(default=0.0, kw_only=True)
     """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
-    graded_edges: tuple[EdgeName, ...] | None = None
+    graded_edges: tuple[EdgeName, ...] | None = Field(default=None, kw_only=True)
     """The edges towards which they are smaller, where that is not all four."""
-    lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = None
+    lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = Field(
+        default=None, kw_only=True
+    )
     """x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
-    masses: Distribution = "tributary"
+    masses: Distribution = Field(default="tributary", kw_only=True)
     """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
 
-    @model_validator(mode="before")
-    @classmethod
-    def _of_springs_alone(cls, data: Any) -> Any:
-        return data.model_dump() if type(data) is SpringSet else data
-
-    @model_validator(mode="after")
-    def _graded_somewhere(self) -> Self:
+    def _faults(self) -> Iterator[object]:
+        both = "neo_hookean_shear: the same cells cannot have area, stretch and shear springs"
+        membranes = self.neo_hookean_shear or self.mooney_rivlin
+        yield membranes and (self.area or self.stretch or self.shear) and both
         towards(self.grading, self.graded_edges)  # raises for what is no grading
-        return self
 
     @property
     def graded(self) -> Graded:
         """The grading of that lattice's lines."""
         return through(self.lines_at) if self.lines_at else towards(self.grading, self.graded_edges)
 
-    @property
-    def constants(self) -> SpringSet:
-        """The springs alone."""
-        return SpringSet(**{name: getattr(self, name) for name in SpringSet.model_fields})
+
+LATTICE = {"grid", "grading", "graded_edges", "lines_at", "masses"}  # keys of what the springs are of
+CONSTANTS = [name for name in SpringSet.model_fields if name not in LATTICE]
 
 
 class DamperSet(Frozen):

@@ -10,11 +10,11 @@ A rod that ends at a plane of symmetry has its middle there. A plane of symmetry
 it and the director's tilt across it.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from math import pi
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, ConfigDict, Field, field_validator, model_validator
+from pydantic import AfterValidator, ConfigDict, Field
 
 from sheetbench.scenes.objects.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
 from sheetbench.scenes.objects.shapes import Rectangle, Shape
@@ -68,11 +68,8 @@ class _Support(_EdgeSupport):
     where: Shape | None = Field(default=None, kw_only=True)
     """In place of `edge`: the part of the sheet that is supported."""
 
-    @model_validator(mode="after")
-    def _somewhere(self) -> Self:
-        if (self.edge is None) == (self.where is None):
-            raise ValueError("needs one of edge and where")
-        return self
+    def _faults(self) -> Iterator[object]:
+        yield (self.edge is None) == (self.where is None) and "needs one of edge and where"
 
 
 class Clamped(_Support):
@@ -82,18 +79,12 @@ class Clamped(_Support):
     tilt: Angle = 0.0
     """The clamp turned about the edge, at most π/2 either way; > 0 lets the sheet start off downwards."""
 
-    @field_validator("tilt")
-    @classmethod
-    def _a_quarter_turn_at_most(cls, tilt: Number) -> Number:
-        if abs(tilt) > LARGEST_TILT:
-            raise ValueError(f"{tilt:g} rad is more than π/2 either way, the most a clamp may be turned")
-        return tilt
-
-    @model_validator(mode="after")
-    def _about_an_edge(self) -> Self:
-        if self.tilt and self.where is not None:
-            raise ValueError(f"tilt = {self.tilt:g} rad turns the clamp of an edge; leave tilt or where out")
-        return self
+    def _faults(self) -> Iterator[object]:
+        yield from super()._faults()
+        more = f"tilt: {self.tilt:g} rad is more than π/2 either way, the most a clamp may be turned"
+        yield abs(self.tilt) > LARGEST_TILT and more
+        lost = f"tilt = {self.tilt:g} rad turns the clamp of an edge; leave tilt or where out"
+        yield self.tilt and self.where and lost
 
 
 class Hinged(_Support):

@@ -6,12 +6,12 @@ the samples rise the curve rises, where two are equal it rests. Source: Fritsch 
 Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from sheetbench.scenes.objects.quantities import Frozen, Number, Unit
 
@@ -78,17 +78,13 @@ class OverTime(Frozen):
     time: Annotated[tuple[Number, ...], Unit("s")] = Field(min_length=1)
     """Increasing times; the first sample holds before and the last one after."""
 
-    @model_validator(mode="after")
-    def _one_sample_each(self) -> Self:
+    def _faults(self) -> Iterator[object]:
         for name, field in type(self).model_fields.items():
             samples = getattr(self, name)
-            if not isinstance(samples, tuple) or not (samples or field.is_required()):
-                continue
-            if len(samples) != len(self.time):
-                raise ValueError(f"{len(self.time)} times but {len(samples)} in {name}")
-        if any(b <= a for a, b in pairwise(self.time)):
-            raise ValueError("times must increase")
-        return self
+            if isinstance(samples, tuple) and (samples or field.is_required()):
+                unlike = f"{len(self.time)} times but {len(samples)} in {name}"
+                yield len(samples) != len(self.time) and unlike
+        yield any(b <= a for a, b in pairwise(self.time)) and "times must increase"
 
 
 class FactorTable(OverTime):

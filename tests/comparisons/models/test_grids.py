@@ -29,7 +29,7 @@ from fem_reference.surface.mesh import divisions
 from fem_reference.verification import strips
 from sheetbench.answers.solution import Status
 from sheetbench.face import solve
-from sheetbench.scenes import BadInput, Clamped, Pressure, Scene, Sheet, SpringTable, load
+from sheetbench.scenes import BadInput, Clamped, Pressure, Scene, Sheet, load
 from sheetbench.scenes.objects.grading import amount, as_settings, towards
 from sheetbench.scenes.objects.grid import grid_of, near_square
 from studies.promises.expected import stored
@@ -83,16 +83,13 @@ def test_springs_of_another_grid_are_refused(tmp_path, capsys):
 
 
 def test_masses_and_grading_of_pasted_springs():
-    springs = lumped.calibrate(LONG, RUBBER, 3).springs.model_dump()
-    table = {**springs, "grid": (5, 3, 2), "masses": "gregory"}
-    scene = OBLONG.model_copy(update={"springs": SpringTable(**table)})
-    assert lumped.given(scene).masses == "gregory"
-    graded = OBLONG.model_copy(update={"springs": SpringTable(**table, grading=0.5)})
+    springs = lumped.calibrate(LONG, RUBBER, 3).springs.replace(grid=(5, 3, 2), masses="gregory")
+    assert lumped.given(OBLONG.replace(springs=springs)).masses == "gregory"
     with pytest.raises(BadInput, match=r"grading = 0\.5"):
-        lumped.given(graded)
+        lumped.given(OBLONG.replace(springs=springs.replace(grading=0.5)))
     for wrong in ({"grid": (1, 3, 2)}, {"masses": "lumps"}, {"grading": 2.0}):
         with pytest.raises(BadInput, match=next(iter(wrong))):
-            SpringTable(**{**table, **wrong})
+            springs.replace(**wrong)
 
 
 def test_auto_says_why(capsys):

@@ -66,7 +66,7 @@ def test_the_tangent_is_the_derivative_of_the_force(name):
     move = sheet.expand(sheet.shape(flat, at), rng.normal(size=sheet.unknowns))
     q = sheet.moved(flat, np.where(sheet.scale == 1.0, 2e-3 * sheet.lever, 2e-2) * move)
     forces = static.forces(StaticState(q), at)
-    matrix, _ = static.system(StaticState(q), forces, at, mixed=False)
+    matrix, _ = static.linearised(StaticState(q), forces, at, mixed=False)
     step = rng.normal(size=sheet.unknowns)
     along = sheet.expand(forces.shape, step)
 

@@ -36,7 +36,7 @@ def test_the_linear_step_honours_constraints_and_extrapolates_the_stress():
     turned = director / np.linalg.norm(director, axis=1, keepdims=True) - [0, 0, 1.0]
     static, stretched = Static(sheet), StaticState(sheet.of_vectors(moved, turned) * 1.01)
     forces = static.forces(stretched, 1.0)
-    matrix, rows = static.system(stretched, forces, 1.0)
+    matrix, rows = static.linearised(stretched, forces, 1.0)
     following = static.advance(stretched, forces, 1.0, np.linalg.solve(matrix.toarray(), rows)).q
     director, step = sheet.directors(stretched.q), following - stretched.q
     square = np.einsum("nc,nc->n", director, director)
@@ -51,7 +51,7 @@ def test_the_linear_step_honours_constraints_and_extrapolates_the_stress():
 def test_the_free_sheet_has_exactly_six_zero_modes(elements, thickness):
     sheet = DiscreteShell(distorted(elements=elements), FREE.replace(thickness=thickness))
     static, rest = Static(sheet), Static(sheet).rest()
-    matrix, _ = static.system(rest, static.forces(rest, 0.0), 0.0)
+    matrix, _ = static.linearised(rest, static.forces(rest, 0.0), 0.0)
     # a rotation counts as a thickness
     scale = np.where(np.arange(sheet.unknowns) % 5 < 3, 1.0, 1.0 / thickness)
     eigenvalues = np.linalg.eigvalsh(scale[:, None] * matrix.toarray() * scale)

@@ -41,7 +41,7 @@ class Spring(Structure[float, Balance]):
     def gap(self, u, load_factor):
         return 0.0
 
-    def system(self, u, forces, load_factor, mixed=True):
+    def linearised(self, u, forces, load_factor, mixed=True):
         return csr_matrix(([self.slope(u)], ([0], [0]))), np.array([-forces.residual])
 
     def advance(self, u, forces, load_factor, step):

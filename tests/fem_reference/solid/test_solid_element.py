@@ -11,7 +11,8 @@ from skfem import ElementHex2
 
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import Bricks, reference, shape, tangent
-from fem_reference.solid.materials import LAWS, PAIRS, lame
+from fem_reference.solid.materials import LAWS, lame
+from fem_reference.surface.biquadratic import IN_SPACE
 from fem_reference.surface.mesh import rectangle
 
 pytestmark = pytest.mark.smoke
@@ -110,7 +111,7 @@ def test_samples_are_green_s_strains_at_the_sites(rng):
     bricks = Bricks.build(warped(rng), LAWS["st-venant-kirchhoff"], material("st-venant-kirchhoff"))
     change = rng.uniform(-0.1, 0.1, bricks.positions.shape)
     expected = []
-    for at, (a, b) in zip(sites(), PAIRS, strict=True):
+    for at, (a, b) in zip(sites(), IN_SPACE, strict=True):
         _, slope = shape((at.T + 1.0) / 2.0)
         flat = bricks.positions
         then, now = (np.einsum("ic,idt->tdc", x[0], slope) for x in (flat, flat + change))

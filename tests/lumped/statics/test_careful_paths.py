@@ -11,7 +11,6 @@ from sheetbench.numerics import direct
 from sheetbench.numerics.continuation import trace as tracer
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.direct import Factor
-from sheetbench.numerics.multifrontal import NoFactorsError
 from sheetbench.scenes import Curved, EdgeLoad, Gravity, load
 
 PRESS, ACROSS = 0.0334127, 0.002  # N/m: 1.3 of Euler's load, and a little upwards
@@ -88,7 +87,7 @@ def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, mod
     """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so."""
     monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 40)
     scene = load("one-edge-clamped")
-    monkeypatch.setattr(direct, "SignedFactors", without_factors)
+    monkeypatch.setattr(direct, "signed_factors", lambda data, fronts: None)
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
     monkeypatch.setattr(direct, "_superlu", lambda matrix, columns: Factor(matrix, splu(columns).solve))
@@ -97,7 +96,3 @@ def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, mod
     usual = equilibrium(scene, model, (7, 6), 4)
     assert any("held to its branch" in note for note in found.remarks)
     assert found.displacement([(0.1, 0.1)]) == pytest.approx(usual.displacement([(0.1, 0.1)]), rel=1e-6)
-
-
-def without_factors(*_):
-    raise NoFactorsError

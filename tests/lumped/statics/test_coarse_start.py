@@ -6,7 +6,7 @@ from cases import relative
 
 import lumped
 import sheetbench as sb
-from lumped.statics import solver, structure
+from lumped.statics import problem, solver
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import load
@@ -17,7 +17,7 @@ from sheetbench.scenes.meaning.parameters import put
 def counts_as_large(monkeypatch):
     """Lattices of a few hundred unknowns count as large."""
     monkeypatch.setattr(solver, "FROM", 500)
-    monkeypatch.setattr(structure, "ITERATED", 500)
+    monkeypatch.setattr(problem, "ITERATED", 500)
     monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
 
 

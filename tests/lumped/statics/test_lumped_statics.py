@@ -6,7 +6,7 @@ from cases import CONVERGED, sheet, with_material
 
 import lumped
 from lumped.assembly import Assembly
-from lumped.statics.structure import LIMITS
+from lumped.statics.problem import LIMITS
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Clamped, EdgeLoad, Held, Hinged, PerDirection, PointLoad, Pressure, SpringSet

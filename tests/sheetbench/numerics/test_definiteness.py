@@ -8,7 +8,6 @@ from scipy.sparse.linalg import splu
 
 import lumped
 from lumped.statics import energy_descent
-from lumped.statics.structure import LatticeStructure
 from sheetbench.numerics import direct
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.direct import DirectSolver, Factor, NearFactor
@@ -70,11 +69,10 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     problem = lumped.build_problem(scene, springs)
     flat = np.zeros_like(problem.loads.dead)
     factor = problem.system.factor(problem.tangent(flat, 0.0))
-    structure = LatticeStructure(scene, problem)
     monkeypatch.setattr(factor, "solve", lambda b, enough, of=factor.solve: -of(b))
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
     with pytest.raises(LoadStepFailed, match="not positive definite"):
-        energy_descent.settle(Path(structure, structure, structure.rest()), 1.0)
+        energy_descent.settle(Path(problem, problem, problem.rest()), 1.0)
 
 
 @pytest.mark.parametrize("layers", [2, 3, 4])

@@ -5,17 +5,16 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scipy.sparse import bsr_array, csc_array, csr_matrix
+from scipy.sparse import bsr_array, csr_matrix
 
 import lumped
-from lumped import supports
 from lumped.statics.energy_descent import _disturbed
 from lumped.statics.solver import solve_path
 from sheetbench import scenes
-from sheetbench.numerics import banded, direct, multifrontal, pardiso, reduced
+from sheetbench.numerics import banded, direct
 from sheetbench.numerics.direct import CHOLESKY, DirectSolver, SingularMatrixError
 from sheetbench.numerics.fronts import CoupledCells, fronts_of
-from sheetbench.numerics.multifrontal import NoFactorsError
+from sheetbench.numerics.multifrontal import signed_factors
 from sheetbench.numerics.reduced import reduction
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import load
@@ -37,8 +36,10 @@ def system(nx, ny, unknowns, seed=0):
 
 
 def by_fronts(matrix, cells):
-    factors = multifrontal.SignedFactors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells))
-    return factors.solve, factors.negative
+    found = signed_factors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells))
+    if found is None:
+        raise SingularMatrixError
+    return found
 
 
 def by_band(matrix, cells):
@@ -49,15 +50,8 @@ def by_band(matrix, cells):
     band = banded.band_of(np.arange(entries.nnz), entries.row, entries.col, ones, order, width)
     factors = banded.stored(entries.data, band)
     if not banded.factor(factors, n, band.width):
-        raise NoFactorsError
+        raise SingularMatrixError
     return partial(banded.solve_unrefined, factors, band.width, band.order), 0
-
-
-def by_pardiso(matrix, cells):
-    """The extra `mkl`; of two factors of one analysis, each in its own memory."""
-    analysis = pardiso.Analysis(csc_array(matrix))
-    factors, _ = analysis.factor(csc_array(matrix)), analysis.factor(csc_array(2.0 * matrix))
-    return factors.solve, factors.inertia[1]
 
 
 def by_library(matrix, cells, own=True):
@@ -74,17 +68,12 @@ def by_library(matrix, cells, own=True):
 KINDS = {
     "fronts": by_fronts,
     "band": by_band,
-    "pardiso": by_pardiso,
     "rslab": by_library,
     "superlu": partial(by_library, own=False),
 }
-WITHOUT_MKL = pytest.mark.skipif(pardiso.library() is None, reason="needs the extra sheetbench[mkl]")
-EACH = pytest.mark.parametrize(
-    "kind", [pytest.param(kind, marks=WITHOUT_MKL if kind == "pardiso" else ()) for kind in KINDS]
-)
 
 
-@EACH
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("shape", [(1, 1, 3), (2, 1, 1), (5, 4, 2), (1, 13, 5), (12, 12, 5), (7, 7, 31)])
 def test_factors_solve_and_tell_the_inertia(kind, shape):
     """Shifted to the middle of its spectrum a matrix is as indefinite as can be: fronts may refuse it."""
@@ -98,7 +87,7 @@ def test_factors_solve_and_tell_the_inertia(kind, shape):
         shifted = csr_matrix((matrix.data - shift * diagonal, matrix.indices, matrix.indptr))
         try:
             solve, negative = KINDS[kind](shifted, cells)
-        except NoFactorsError:
+        except SingularMatrixError:
             assert below and kind in ("fronts", "band")
             continue
         taken.append(below)
@@ -109,7 +98,7 @@ def test_factors_solve_and_tell_the_inertia(kind, shape):
     assert len(taken) > (n > 20 and kind != "band")
 
 
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "pardiso"])
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("entry", [1.0, np.nan, np.inf], ids=["singular", "not a number", "infinite"])
 def test_what_has_no_factors_is_told(kind, entry):
     spring = np.array([[1.0, -1.0], [-1.0, 1.0]]) / 3.0
@@ -118,7 +107,7 @@ def test_what_has_no_factors_is_told(kind, entry):
     matrix.data *= np.where(np.arange(matrix.nnz) == 3, entry, 1.0)
     if kind == "band":  # which may take rounding for a pivot
         matrix.data[-1] -= 0.1
-    with pytest.raises((NoFactorsError, SingularMatrixError)):
+    with pytest.raises(SingularMatrixError):
         solve, _ = KINDS[kind](matrix, cells)
         solve(np.arange(4.0))
 
@@ -140,8 +129,7 @@ def test_factors_that_grow_are_refused():
     pattern = Pattern(cells.unknowns, size=2)
     for small in (1e-8, -1e-8):
         matrix = pattern.matrix(np.array([[[small, 1.0], [1.0, -1.0]]]))
-        with pytest.raises(NoFactorsError):
-            multifrontal.SignedFactors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells))
+        assert signed_factors(matrix.data, fronts_of(matrix.indices, matrix.indptr, cells)) is None
         fronts = partial(fronts_of, matrix.indices, matrix.indptr, cells)
         factor = DirectSolver(fronts=fronts).factor(matrix)
         assert (factor.negative, factor.zero) == (1, 0)
@@ -184,41 +172,6 @@ def test_reduction_is_the_triple_product(name, edge):
     assert found.toarray() == pytest.approx(expected, rel=1e-13, abs=1e-13)
 
 
-@WITHOUT_MKL
-def test_a_lattice_comes_to_rest_where_it_does_without_it(monkeypatch):
-    scene = scenes.load("two-edges-clamped")
-    springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
-    monkeypatch.setattr(reduced, "BANDED_LIMIT", 0.0)
-    monkeypatch.setattr(direct, "LARGE", 0)
-    _forget_systems()
-    sizes: list[int] = []
-    factor = pardiso.Analysis.factor
-
-    def counted(self, matrix):
-        sizes.append(matrix.shape[0])
-        return factor(self, matrix)
-
-    monkeypatch.setattr(pardiso.Analysis, "factor", counted)
-    points = scene.probe_points()
-    found = lumped.solve(scene, springs).displacement(points)
-    assert sizes
-    monkeypatch.setattr(pardiso, "library", lambda: None)
-    _forget_systems()
-    factored = len(sizes)
-    np.testing.assert_allclose(found, lumped.solve(scene, springs).displacement(points), rtol=1e-9)
-    assert len(sizes) == factored
-    _forget_systems()
-
-
-def _forget_systems():
-    """Of small lattices, which are kept with what factorises them."""
-    supports._kept.cache_clear()
-    reduced._reduced.forget()
-
-
-BY_FRONTS = pytest.mark.skipif(pardiso.library() is not None, reason="PARDISO factorises large lattices")
-
-
 @pytest.fixture(scope="module")
 def fine():
     """A lattice whose tangent has no narrow band and is not kept."""
@@ -226,7 +179,6 @@ def fine():
     return lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(41, 41)))
 
 
-@BY_FRONTS
 def test_factors_of_a_large_lattice_take_no_library(fine, monkeypatch):
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr(direct, "splu", None)
@@ -248,7 +200,6 @@ def test_factors_of_a_large_lattice_take_no_library(fine, monkeypatch):
     assert factors.negative == 0
 
 
-@BY_FRONTS
 def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_off_it(monkeypatch):
     """A compressed strip stays straight, and beside it the energy falls along the one direction reported."""
     scene = load("two-edges-clamped").replace(
@@ -259,8 +210,7 @@ def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_o
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr(direct, "splu", None)
     problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
-    outcome = solve_path(scene, problem)
-    assert outcome.status == "unstable" and outcome.path.factor.negative == 1
-    state, factor = outcome.path.state, outcome.path.factor
-    beside = _disturbed(outcome.path, problem, state, factor, share=0.1)
-    assert problem.potential(beside, 1.0) < problem.potential(outcome.state.u, 1.0)
+    path = solve_path(problem)
+    assert path.status == "unstable" and path.factor.negative == 1
+    beside = _disturbed(path, problem, path.state, path.factor, share=0.1)
+    assert problem.potential(beside, 1.0) < problem.potential(path.state.u, 1.0)

@@ -1,0 +1,92 @@
+"""A correction of Newton's method on a lattice as compiled loops: tangent, factors in a band, step, and the
+forces where it leads. With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from lumped.springs import all_families
+from lumped.springs.all_families import SpringArrays, Stresses
+from sheetbench.numerics import banded
+from sheetbench.numerics.maps import Rows, product, transposed_product
+from sheetbench.numerics.typed import njit
+
+
+class Unknowns(NamedTuple):
+    """held: (n, 3) bool, what supports hold; free: T; band: where the reduced matrix goes, if in a band."""
+
+    held: np.ndarray
+    free: Rows
+    band: banded.Band
+
+
+@njit(cache=True, nogil=True)
+def advance(
+    u: np.ndarray,
+    step: np.ndarray,
+    moved: np.ndarray,
+    load: np.ndarray,
+    driving: float,
+    load_factor: float,
+    unknowns: Unknowns,
+    springs: SpringArrays,
+) -> tuple[np.ndarray, float, np.ndarray, Stresses, tuple[np.ndarray, np.ndarray, float, float]]:
+    """Return what `all_families.advance` does of a step (m,) [m] of the unknowns with what is `moved` (n, 3)
+    [m] beside, if anything, and `unbalanced_force` there."""
+    move = product(unknowns.free, step).reshape(u.shape)
+    if len(moved):
+        move += moved
+    after, length, internal, stresses = all_families.advance(u, move, springs)
+    residual = unbalanced_force(internal, load, driving, load_factor, unknowns, len(step))
+    return after, length, internal, stresses, residual
+
+
+@njit(cache=True, nogil=True)
+def correct(
+    u: np.ndarray,
+    stresses: Stresses,
+    rows: np.ndarray,
+    load: np.ndarray,
+    driving: float,
+    load_factor: float,
+    unknowns: Unknowns,
+    springs: SpringArrays,
+) -> tuple[np.ndarray, np.ndarray, bool, np.ndarray, Any]:
+    """Return the tangent's blocks, factors in a band, whether they are such and give a finite step, that step
+    from u and what `advance` makes of it."""
+    none, band = np.empty(0), unknowns.band
+    predicted = len(stresses[0]) + len(stresses[1]) > 0
+    blocks = all_families.tangent(u, stresses, predicted, 1.0, 1.0, none, springs)
+    factors, definite = banded.factored(blocks, band)
+    step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else np.zeros(len(rows))
+    definite = definite and np.isfinite(np.sum(step))
+    found = advance(u, step, np.empty((0, 3)), load, driving, load_factor, unknowns, springs)
+    return blocks, factors, definite, step, found
+
+
+@njit(cache=True, nogil=True)
+def unbalanced_force(
+    internal: np.ndarray,
+    load: np.ndarray,
+    driving: float,
+    load_factor: float,
+    unknowns: Unknowns,
+    n: int,
+) -> tuple[np.ndarray, np.ndarray, float, float]:
+    """Return load_factor × load less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the
+    external forces plus those of the supports' and, driving, of a natural state [N]."""
+    out = np.empty_like(internal)
+    total = loads = supports = 0.0
+    for i in range(len(out)):
+        for q in range(3):
+            external = load_factor * load[i, q]
+            out[i, q] = external - internal[i, q]
+            loads += external**2
+            if unknowns.held[i, q]:
+                supports += internal[i, q] ** 2
+    reduced = transposed_product(unknowns.free, out.ravel(), n)
+    for value in reduced:
+        total += value * value
+    return out, reduced, np.sqrt(total), np.sqrt(loads) + np.sqrt(supports) + abs(load_factor) * driving

@@ -143,7 +143,8 @@ def fitted(
     first = consistent(sheet, material, grid, layer_distance, grading=grading)
     if kind is ModalTarget:
         first = replace(first, masses="gregory")
-    names = [name for name in first.constants.names() if name not in FIXED_CONSTANTS]
+    every = first.constants.names()
+    names = [name for name in every if name.removesuffix("_x").removesuffix("_y") not in FIXED_CONSTANTS]
     start = {name: first.constants.value(name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}
     unit = first.constants.value("diagonal")

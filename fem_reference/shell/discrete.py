@@ -30,6 +30,7 @@ from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.hyperelastic import elements_of
+from fem_reference.shell.laws import LAWS
 from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
@@ -68,7 +69,7 @@ class DiscreteShell(DiscreteElements):
         super().__init__(scene, moving)
         self.plan = plan = plan_of(mesh)
         self.element, self.natural = self.elements_of(section, law)
-        self.any_strain = self.element.stands_any_strain
+        self.any_strain = LAWS[law].stands_any_strain
         n = self.nodes
 
         bound = self.bound_rods()

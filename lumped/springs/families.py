@@ -65,14 +65,13 @@ class Family(ABC):
 @dataclass(frozen=True, eq=False)
 class Links(Family):
     """Central links, all together: offset (m, 3) [m] rest vectors, rest_length (m,) [m], kind (m,) numbers
-    into the lattice's `names`; natural: rest_length and δg₀ (2, m) of a sheet that is not flat at rest, which
-    rest_length then is a row of."""
+    into the lattice's `names`; natural: δg₀ (m,) [m²] of a sheet that is not flat at rest."""
 
     offset: np.ndarray
     rest_length: np.ndarray
     kind: np.ndarray
     names: tuple[str, ...]
-    natural: np.ndarray | None = None
+    natural: np.ndarray | float = 0.0
 
     loops: ClassVar[Any] = links
     measures: ClassVar[int] = 1
@@ -80,7 +79,7 @@ class Links(Family):
     @cached_property
     def arrays(self) -> LinkArrays:
         """Return what the loops take."""
-        rest = self.rest_length if self.natural is None else self.natural
+        rest = np.stack(np.broadcast_arrays(self.rest_length, self.natural))
         return typed(LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots))
 
     def largest_strain(self, u: np.ndarray) -> float:
@@ -95,9 +94,7 @@ class Links(Family):
         """Return the position (m, 3) of every link's second end beside its first, its length and its
         elongation (m,) [m]."""
         d = u[self.nodes[:, 1]] - u[self.nodes[:, 0]]
-        r, change = self.offset + d, ((2.0 * self.offset + d) * d).sum(axis=1)
-        if self.natural is not None:
-            change -= self.natural[1]
+        r, change = self.offset + d, ((2.0 * self.offset + d) * d).sum(axis=1) - self.natural
         length = np.linalg.norm(r, axis=1)
         return r, length, change / (length + self.rest_length)
 
@@ -157,8 +154,10 @@ class SpringCells(Family):
     @cached_property
     def arrays(self) -> CellArrays:
         """Return what the loops take."""
-        area = self.area if self.natural is None else self.natural
-        return typed(CellArrays(self.nodes, self.sides, area, self.law.tag(self.constants), self.slots))
+        rest = self.natural
+        if rest is None:
+            rest = np.vstack([self.area, np.zeros((3, len(self)))])
+        return typed(CellArrays(self.nodes, self.sides, rest, self.law.tag(self.constants), self.slots))
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
         """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and
@@ -167,12 +166,6 @@ class SpringCells(Family):
         values, vectors = np.linalg.eigh(s[:, [[0, 2], [2, 1]]] * [[1.0, 0.5], [0.5, 1.0]])
         part = (vectors * np.maximum(values, 0.0)[:, None]) @ vectors.swapaxes(1, 2)
         return np.column_stack([part[:, [0, 1], [0, 1]], 2.0 * part[:, 0, 1], np.maximum(s[:, 3], 0.0)])
-
-    def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return the energy of every cell's springs, (c,) [J]; of rubber that of the membrane less that of
-        the links along its sides."""
-        stored: np.ndarray = cells.energies(u, self.arrays)
-        return stored
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""

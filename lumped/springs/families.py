@@ -7,7 +7,6 @@ family's arrays. Stresses S, stiffness D and its material part M are those of `l
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
@@ -22,7 +21,7 @@ from sheetbench.numerics.typed import typed
 
 
 @dataclass(frozen=True, eq=False)
-class Family(ABC):
+class Family:
     """nodes: (m, …) masses of each spring; stiffness: (m,) or (m, 4) [N/m]; slots: (m, …) block numbers of
     each spring's pairs of masses. Displacements and forces are (n, 3) [m], [N]."""
 
@@ -31,30 +30,17 @@ class Family(ABC):
     slots: np.ndarray
 
     loops: ClassVar[Any]
+    arrays: ClassVar[Any]  # what the loops take after the displacement, `LinkArrays` or `CellArrays`
     measures: ClassVar[int] = 4  # that a spring's memory holds room for
 
     def __len__(self) -> int:
         return len(self.nodes)
-
-    @property
-    @abstractmethod
-    def arrays(self) -> Any:
-        """Return what the loops take after the displacement, `LinkArrays` or `CellArrays`."""
-
-    def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
-        """Add the force over a step whose work is the energy stored in it."""
-        self.loops.add_average_forces(start, end, self.arrays, force)
 
     def stresses(self, u: np.ndarray) -> np.ndarray:
         """Return the stress of every spring, (m, 1) of links, (m, 4) of cells [N/m]."""
         stress, change, none = np.zeros((3, len(self), self.measures))
         self.loops.add_forces(u, self.arrays, np.zeros_like(u), (0.0, none, stress, change))
         return stress
-
-    @abstractmethod
-    def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
-        """Return stresses with which, and with the material part M, the tangent is a sum of squares; with
-        negative area springs (ν < 1/3) only while strains are small."""
 
     def damped(self, time: float) -> Family:
         """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
@@ -117,10 +103,6 @@ class DirectionalLinks(Links):
         across = (elongation / length)[:, None, None] * (np.eye(3) - along)
         block = self.stiffness[:, :, None] * (along + across)
         np.add.at(blocks, self.slots, np.stack([block, -block, -block, block], axis=1))
-
-    def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
-        """Add the force in the middle of the step, for want of an energy."""
-        self.add_force(0.5 * (start + end), force)
 
     def damped(self, time: float) -> Links:
         """Return dampers along the links, of the mean stiffness."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.system import State, System
+from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, StepFailed
 
 __all__ = ["Advance", "Integrator", "LatticeSamples", "StepFailed"]
@@ -46,7 +47,8 @@ class Integrator(ABC):
 
     step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
     unless it is made `fixed`; explicit: whether its steps have a limit of stability; options: names of
-    what else the user may choose. adapts, span, kinks: as `sheetbench.numerics.time.method` has them.
+    what else the user may choose; chains: whether it takes their constraints. adapts, span, kinks: as
+    `sheetbench.numerics.time.method` has them.
     """
 
     name: ClassVar[str]
@@ -54,10 +56,18 @@ class Integrator(ABC):
     adaptive: ClassVar[bool] = False
     explicit: ClassVar[bool] = False
     options: ClassVar[tuple[str, ...]] = ()
+    chains: ClassVar[bool] = False
     state: ClassVar[type[State]] = State
 
     def __init__(self, system: System, step: float, fixed: bool = True):
+        self.require_no_chains(system)
         self.system, self.step, self.adapts = system, step, not fixed
+
+    @classmethod
+    def require_no_chains(cls, system: System) -> None:
+        """Raise BadInput for chains, where it takes none."""
+        if system.constrained and not cls.chains:
+            raise BadInput(f"integrator = {cls.name!r}: does not take chains; choose another integrator")
 
     @property
     def span(self) -> int | None:

@@ -25,6 +25,7 @@ class GeneralisedAlpha(Integrator):
     """Generalised-α with radius ρ∞; adaptive unless the step is `fixed`."""
 
     name, order, adaptive, options = "generalised-alpha", 2, True, ("radius",)
+    chains = True
 
     def __init__(self, system: System, step: float, radius: float = 0.9, fixed: bool = True):
         super().__init__(system, step, fixed)

@@ -22,7 +22,7 @@ from fem_reference.discrete.energies import SheetMotion, spent
 from fem_reference.sheets import start
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
-from sheetbench.numerics.time.method import Advance, StepFailed
+from sheetbench.numerics.time.method import Advance, MotionMethod, StepFailed
 from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted, step_of
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.objects.relaxation import BranchStep
@@ -39,8 +39,6 @@ SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
-REMEMBERED = ("_before", "_largest", "_local", "_euler", "failed")
-
 
 class Sampled(NamedTuple):
     """Motions at k moments (k,) [s], and the energies (k,) [J] dissipated and put in since a step began."""
@@ -51,7 +49,7 @@ class Sampled(NamedTuple):
     work: np.ndarray
 
 
-class ConstrainedAlpha:
+class ConstrainedAlpha(MotionMethod[SheetMotion]):
     """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
 
     late: the share of its end in the forces that a step balances. adapts, span, kinks: as
@@ -59,14 +57,15 @@ class ConstrainedAlpha:
     small strains that a cubic between the ends of a step leaves, steps end at samples.
     """
 
-    state = SheetMotion
+    state, remembered = SheetMotion, ("_before", "_largest", "_local", "_euler", "failed")
+    control: Controller
 
     def __init__(self, model: DiscreteElements, step: float | None, error: float, first: float):
         self._usual = generalised(RADIUS)
         self.late = 1.0 - self._usual.af
         self._model, self.adapts, self._error = model, step is None, error
         self._first = first if step is None else step
-        self._control = Controller(3, 2.0, (0.95, 1.25), self._first)
+        self.control = Controller(3, 2.0, (0.95, 1.25), self._first)
         self.span, self.kinks = 1 if model.rods else None, np.array(kinks(model.scene))
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
@@ -88,20 +87,6 @@ class ConstrainedAlpha:
     def settings(self) -> dict[str, Any]:
         """Return how many steps failed, if any."""
         return {"failed_steps": self.failed} if self.failed else {}
-
-    def notes(self) -> str:
-        """Return a clause on steps that counted in spite of their error."""
-        return self._control.notes()
-
-    def memory(self) -> dict[str, Any]:
-        """Return what a resumed run needs besides the motion."""
-        return {**self._control.memory(), **{name: getattr(self, name) for name in REMEMBERED}}
-
-    def recall(self, memory: dict[str, Any]) -> None:
-        """Take up what `memory` gave."""
-        self._control.recall(memory)
-        for name in REMEMBERED:
-            setattr(self, name, type(getattr(self, name))(memory[name]))
 
     def start(self) -> Advance[SheetMotion]:
         """Return the motion at t = 0, with the work of what moves at once."""
@@ -168,18 +153,18 @@ class ConstrainedAlpha:
         if self.adapts:
             fastest = float(np.abs(model.displacement(a)).max())
             allowed = self._error * self._largest
-            self._control.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
+            self.control.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
         before, after = (float(u @ (model.mass @ u)) for u in (v, rate))  # twice the kinetic energy
         if self.adapts and self._euler:
             taken = max(float(a @ (model.mass @ a)), 1e-30)  # h² times half of it
-            self._control.step = min(self._control.step, np.sqrt(TAKEN * max(before, after) / taken))
+            self.control.step = min(self.control.step, np.sqrt(TAKEN * max(before, after) / taken))
         memory = self._remembered(q, branches)
         motion = SheetMotion(time, q, rate, a, a, model.mass @ a + forces, memory)
         return Advance(motion, 0.0, 0.5 * (after - before))
 
     def advance(self, motion: SheetMotion, at_most: float) -> SheetMotion:
         """One step of at most so long [s]. Raises StepFailed."""
-        control, largest = self._control, self._largest
+        control, largest = self.control, self._largest
         control.order = self._rule.order
 
         def attempt(h: float) -> tuple[tuple[SheetMotion, float], float, float]:

@@ -53,9 +53,9 @@ class MotionMethod(Remembering, ABC, Generic[AnyState]):
         """Return the states at times (k,) [s] within the last step, as an observer takes them: `time`, and
         the energies (k,) [J] `dissipated` and put in, `work`, since that began."""
 
-    @abstractmethod
     def settings(self) -> dict[str, Any]:
-        """Return what a history says of its steps: `step` [s] or "adaptive", and others by name."""
+        """Return what a history says of its steps beside what was requested."""
+        return {}
 
     def notes(self) -> str:
         """Return a clause on steps that counted in spite of their error, "" for none."""
@@ -71,5 +71,5 @@ class MotionMethod(Remembering, ABC, Generic[AnyState]):
         if self.control is not None:
             self.control.recall(memory)
 
-    def forget(self) -> None:  # some keep nothing
+    def forget(self) -> None:
         """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""

@@ -110,9 +110,8 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba 
 
 
 class Library(codegen.JITCodeLibrary):  # type: ignore[misc]
-    """A compiled kernel: numba's library, but of the cache, which reads the LLVM code beside the machine code
-    only where a kernel is compiled that calls this one (half of the time of loading otherwise), and which
-    optimises a kernel with what it calls alone, not every function before (a tenth of compiling)."""
+    """A compiled kernel of the cache: numba's library, which reads the LLVM code beside the machine code only
+    where a kernel is compiled that calls this one. It takes half of the time of loading otherwise."""
 
     bitcode = b""
 
@@ -127,9 +126,6 @@ class Library(codegen.JITCodeLibrary):  # type: ignore[misc]
         library._set_compiled_object(object_code)
         library._finalize_final_module()
         return library
-
-    def _optimize_functions(self, ll_module: Any) -> None:
-        ll_module.data_layout = self._codegen._data_layout
 
     def get_pointer_to_function(self, name: str) -> int:
         """Return the address of a kernel's machine code."""

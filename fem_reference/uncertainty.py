@@ -91,13 +91,9 @@ class Uncertainty:
 def coarser(elements: Elements) -> list[Elements]:
     """The meshes to solve on, the one requested first: elements along the shorter side, or along x and y."""
 
-    def smaller(share: float) -> Elements:
-        if isinstance(elements, int):
-            return max(1, round(elements * share))
-        along_x, along_y = elements
-        return max(1, round(along_x * share)), max(1, round(along_y * share))
-
-    return list(dict.fromkeys(smaller(share) for share in MESHES))
+    counts = (elements,) if isinstance(elements, int) else elements
+    meshes: Any = dict.fromkeys(tuple(max(1, round(n * share)) for n in counts) for share in MESHES)
+    return [mesh[0] for mesh in meshes] if isinstance(elements, int) else list(meshes)
 
 
 def mesh_size(scene: Scene, elements: Elements) -> float:
@@ -172,7 +168,10 @@ def estimate(
         order = _observed(step, before, ratio, sizes[2] / sizes[1])
         order[rounding] = np.nan
         trusted = rounding | (order >= LEAST_ORDER)
-        of_field, own, neighbours = min(_median(order[~rounding]), largest), 1.0, NEIGHBOURS
+        steep = np.where(order >= LEAST_ORDER, order, np.inf)[~rounding]  # those that are none count as high
+        of_field, own, neighbours = largest, 1.0, NEIGHBOURS
+        if len(steep):
+            of_field = min(float(np.median(steep)), largest)
         change = np.where(trusted, step / (ratio ** np.where(trusted, order, 1.0) - 1.0), 0.0)
     error = _by_pairs(answers, sizes, of_field) + _by_layer(answers, layers)
     bar = own * error + neighbours * _relative(error, fine) * np.abs(fine)
@@ -185,11 +184,6 @@ def estimate(
         trusted=trusted,
         converging=converging,
     )
-
-
-def _median(orders: np.ndarray) -> float:
-    """Of the orders (m,) observed; those that are none count as high."""
-    return float(np.median(np.where(orders >= LEAST_ORDER, orders, np.inf))) if len(orders) else np.inf
 
 
 def _by_pairs(answers: Sequence[np.ndarray], sizes: Sequence[float], order: float) -> np.ndarray:

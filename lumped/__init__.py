@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lumped import moduli
 from lumped.assembly import Assembly
-from lumped.calibration import Calibration, given, homogenised
+from lumped.calibration import Calibration, given
 from lumped.calibration.cell_by_cell import with_shares
 from lumped.description import Description, describe
 from lumped.fitting.fits import FittedCalibration, ModalTarget, StaticTarget
@@ -64,7 +64,6 @@ __all__ = [
     "explicit_limit",
     "footprint",
     "given",
-    "homogenised",
     "identifiability",
     "linearise",
     "modes",

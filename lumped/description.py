@@ -120,7 +120,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     number = np.full(lattice.mass_count, -1)  # of every mass of the lattice among those that are there
     number[there] = np.arange(len(there))
     flat = np.zeros_like(loads.dead)
-    moments, pressures = loads.at_time(None)
+    columns, moments, pressures = loads.at_time(None)
     pressed = pressures != 0.0
     states, why = check_states(scene, calibration, problem)
     none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
@@ -137,7 +137,10 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         dead=(loads.force(flat) - loads.followers(flat))[there],  # with the last factors of their histories
         pressure=pressures[pressed],
         pressed=number[lattice.mid_cells[pressed]],
-        couples=tuple(c for edge, moment, turn in moments for c in _couples(number[edge], turn * moment)),
+        couples=tuple(
+            Couple(own[-1], own[0], tuple(before), tuple(after), moment)
+            for (own, before, after), moment in zip(number[columns].tolist(), moments.tolist(), strict=True)
+        ),
         contact=(number[touching], *contact),
         states=tuple(
             replace(one, displacement=one.displacement[there], force=one.force[there]) for one in states
@@ -210,20 +213,6 @@ def _holds(problem: Problem, number: np.ndarray) -> tuple[Hold, ...]:
                     hold = Hold(edge, tuple(number[held].tolist()), axis, float(place[held, axis].mean()))
                     found.setdefault((*hold.masses, axis), hold)
     return tuple(found.values())
-
-
-def _couples(edge: np.ndarray, moment: np.ndarray) -> list[Couple]:
-    last = len(edge) - 1
-    return [
-        Couple(
-            int(column[-1]),
-            int(column[0]),
-            tuple(edge[max(at - 1, 0)].tolist()),
-            tuple(edge[min(at + 1, last)].tolist()),
-            float(moment[at]),
-        )
-        for at, column in enumerate(edge)
-    ]
 
 
 def _left_out(scene: Scene) -> tuple[str, ...]:

@@ -147,7 +147,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     (_, mass), (drag, damping), (spring, stiffness) = (sparse(*one) for one in np.eye(3).tolist())
     probes = MidSurface(problem.assembly.lattice, scene.probe_points())
     outputs = [(name, axis) for name in scene.probes for axis in range(3)]
-    picked = np.stack([probes.shared(_unit(scene, *one), len(u)).ravel() for one in outputs])
+    picked = probes.matrix(len(u)).toarray()
     inputs, forces, rates_of, placed = _inputs(scene, calibration, problem, system, u, picked, (spring, drag))
     return Linear(
         mass=mass,
@@ -178,13 +178,6 @@ def _allowed(system: System, u: np.ndarray) -> sp.csr_array:
     basis[free, np.arange(len(free))] = 1.0
     basis[bound, len(free) :] = kernel
     return sp.csr_array(system.moving_part @ basis)
-
-
-def _unit(scene: Scene, name: str, axis: int) -> np.ndarray:
-    """1 along an axis at a probe, (probes, 3)."""
-    values = np.zeros((len(scene.probes), 3))
-    values[list(scene.probes).index(name), axis] = 1.0
-    return values
 
 
 def _inputs(
@@ -227,22 +220,22 @@ def _inputs(
 
 def _at_last(scene: Scene) -> Scene:
     """The scene with the last values of its chains' commands."""
-    actuators = []
-    for actuator in scene.actuators:
-        if isinstance(actuator, Chain) and hasattr(actuator.curvature, "value"):
-            actuator = actuator.replace(curvature=actuator.curvature.value[-1])
-        actuators.append(actuator)
-    return scene.replace(actuators=tuple(actuators))
+    at_last = [
+        a.replace(curvature=a.curvature.value[-1])
+        if isinstance(a, Chain) and hasattr(a.curvature, "value")
+        else a
+        for a in scene.actuators
+    ]
+    return scene.replace(actuators=tuple(at_last))
 
 
 def _loads(scene: Scene) -> list[tuple[str, Scene]]:
     """Every load alone, by name."""
     bare = scene.replace(gravity=None, loads=())
     found = [(f"load {n}", bare.replace(loads=(load,))) for n, load in enumerate(scene.loads, start=1)]
-    return [
-        *found,
-        *([("gravity", bare.replace(gravity=scene.gravity))] if scene.gravity is not None else []),
-    ]
+    if scene.gravity is not None:
+        found.append(("gravity", bare.replace(gravity=scene.gravity)))
+    return found
 
 
 def _bent(scene: Scene) -> list[str]:

@@ -16,7 +16,7 @@ Follower loads have unsymmetric tangents, all but pressure on a sheet whose edge
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from lumped.coverage import areas_of_masses, cell_shares
 from lumped.lattice import Lattice
 from lumped.masses import masses
 from lumped.mid_surface import MidSurface
-from lumped.pressure import add_forces, add_tangent
+from lumped.pressure import add_couples, add_forces, add_tangent
 from sheetbench.numerics.kept import frozen
 from sheetbench.scenes import (
     EDGES,
@@ -45,14 +45,15 @@ from sheetbench.scenes.meaning.region import edge_parts
 class LoadPart:
     """Loads that share a history, if they have one.
 
-    dead: (n, 3) [N]; pressure: (cells,) [Pa] of those present, by their shares under it; moments: masses of
-    an edge, [N·m] by column, turn.
+    dead: (n, 3) [N]; pressure: (cells,) [Pa] of those present, by their shares under it; columns, moments: of
+    edges, (e, 3, p) and (e,) [N·m], as `lumped.pressure.add_couples` has them.
     """
 
     history: PiecewiseCurve | None
     dead: np.ndarray
     pressure: np.ndarray
-    moments: list[tuple[np.ndarray, np.ndarray, float]] = field(default_factory=list)
+    columns: np.ndarray
+    moments: np.ndarray
 
     def factor(self, time: float | None) -> float:
         """The history's factor at a time [s]; the last one without a time."""
@@ -95,19 +96,20 @@ class Loads:
                 if load.moment_per_length:
                     along = np.eye(3)[EDGES[load.edge].along_axis]
                     turn = np.cross(EDGES[load.edge].outward, [0.0, 0.0, 1.0]) @ along
-                    part.moments.append((edge, length * load.moment_per_length, float(turn)))
+                    at = np.arange(len(edge))
+                    around = edge[np.maximum(at - 1, 0)], edge[np.minimum(at + 1, len(edge) - 1)]
+                    part.columns = np.append(part.columns, np.stack([edge, *around], axis=1), axis=0)
+                    part.moments = np.append(part.moments, turn * length * load.moment_per_length)
             elif isinstance(load, AreaLoad):
-                area = areas_of_masses(scene, lattice, load.where).ravel() / lattice.grid[2]
-                part.dead[lattice.columns().reshape(len(area), -1)] += area[:, None, None] * np.array(
-                    load.force_per_area
-                )
+                area = areas_of_masses(scene, lattice, load.where)
+                part.dead[: len(area)] += area[:, None] * np.array(load.force_per_area)
             elif isinstance(load, Pressure):
                 part.pressure += load.value * cell_shares(scene, lattice, load.where)
         last = [(part.factor(None), part) for part in self._parts.values()]
         self.pressure = sum(factor * part.pressure for factor, part in last)
         others = [factor * part.dead for factor, part in last[1:]]
         self.last_dead = np.sum([self.dead, *others], axis=0) if others else self.dead
-        self.turning = any(part.moments for _, part in last)
+        self.turning = any(len(part.moments) for _, part in last)
         self.follow = self.turning or any(part.pressure.any() for _, part in last)
         enclosed = self.follow and encloses_volume(scene.supports) and not scene.shaped_by
         self.conservative = not self.turning and (enclosed or not self.follow)
@@ -123,15 +125,18 @@ class Loads:
         """The part with this history, made when it is first requested."""
         if history not in self._parts:
             course = None if history is None else PiecewiseCurve(history.time, history.factor)
-            pressure = np.zeros(len(self._assembly.lattice.mid_cells))
-            self._parts[history] = LoadPart(course, np.zeros((self._assembly.pattern.size, 3)), pressure)
+            lattice = self._assembly.lattice
+            dead, pressure = np.zeros((self._assembly.pattern.size, 3)), np.zeros(len(lattice.mid_cells))
+            no_columns = np.empty((0, 3, lattice.grid[2]), dtype=int)
+            self._parts[history] = LoadPart(course, dead, pressure, no_columns, np.empty(0))
         return self._parts[history]
 
-    def at_time(self, time: float | None) -> tuple[list[tuple[np.ndarray, np.ndarray, float]], np.ndarray]:
-        """Edge moments (masses of an edge, [N·m] by column, turn) and pressure (cells,) [Pa] at a time."""
+    def at_time(self, time: float | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return columns (e, 3, p) and moments (e,) [N·m] of edges, and pressure (cells,) [Pa], at a time."""
         scaled = [(part.factor(time), part) for part in self._parts.values()]
-        moments = [(edge, by * moment, turn) for by, part in scaled for edge, moment, turn in part.moments]
-        return moments, np.sum([by * part.pressure for by, part in scaled], axis=0)
+        columns = np.concatenate([part.columns for _, part in scaled])
+        moments = np.concatenate([by * part.moments for by, part in scaled])
+        return columns, moments, np.sum([by * part.pressure for by, part in scaled], axis=0)
 
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
         """External force (n, 3) [N] on the masses displaced by u, at a time [s]; without a time, as statics
@@ -154,11 +159,9 @@ class Loads:
         if not self.follow:
             return force
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
-        moments, pressure = self.at_time(time)
-        for edge, moment, turn in moments:
-            top, bottom, couple = self._couple(x, edge, moment, turn)[:3]
-            force[top] += couple
-            force[bottom] -= couple
+        columns, moments, pressure = self.at_time(time)
+        if len(moments):
+            add_couples(x, columns, moments, force)
         if pressure.any():
             add_forces(x, self._assembly.lattice.mid_cells, pressure, force)
         return force
@@ -170,49 +173,34 @@ class Loads:
         if not self.follow:
             return
         x = self._assembly.lattice.positions + u[: self._assembly.lattice.mass_count]
-        moments, pressure = self.at_time(time)
-        for edge, moment, turn in moments:
-            self._add_couple_tangent(x, edge, load_factor * moment, turn, blocks)
+        columns, moments, pressure = self.at_time(time)
+        if len(moments):
+            self._add_couple_tangent(x, columns, load_factor * moments, blocks)
         if pressure.any():
             cells = self._assembly.lattice.mid_cells
             slots = self._assembly.pattern.among(cells.reshape(len(cells), -1))
             add_tangent(x, cells, slots, -load_factor * pressure, blocks)
 
-    def _couple(
-        self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float
-    ) -> tuple[np.ndarray, ...]:
-        """Top and bottom masses, the force on the top, and what its derivative needs."""
-        mean = x[edge].mean(axis=1)
-        last = np.arange(len(edge))
-        before, after = np.maximum(last - 1, 0), np.minimum(last + 1, len(edge) - 1)
-        chord = mean[after] - mean[before]
-        length = np.linalg.norm(chord, axis=1)
-        tangent = turn * chord / length[:, None]
-        top, bottom = edge[:, -1], edge[:, 0]
-        director = x[top] - x[bottom]
-        square = (director**2).sum(axis=1)
-        couple = (moment / square)[:, None] * np.cross(tangent, director)
-        return top, bottom, couple, tangent, length, director, square, before, after
-
     def _add_couple_tangent(
-        self, x: np.ndarray, edge: np.ndarray, moment: np.ndarray, turn: float, blocks: np.ndarray
+        self, x: np.ndarray, columns: np.ndarray, moment: np.ndarray, blocks: np.ndarray
     ) -> None:
-        top, bottom, couple, tangent, length, director, square, before, after = self._couple(
-            x, edge, moment, turn
-        )
-        scale = (moment / square)[:, None, None]
+        before, after, top, bottom = columns[:, 1], columns[:, 2], columns[:, 0, -1], columns[:, 0, 0]
+        chord, director = (x[after] - x[before]).mean(axis=1), x[top] - x[bottom]
+        length, square = np.linalg.norm(chord, axis=1), (director**2).sum(axis=1)
+        tangent, scale = chord / length[:, None], (moment / square)[:, None, None]
+        couple = scale[:, 0] * np.cross(tangent, director)
         by_director = (
             scale * _spin(tangent) - 2.0 * couple[:, :, None] * (director / square[:, None])[:, None, :]
         )
-        projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) * (turn / length)[:, None, None]
-        by_chord = -scale * _spin(director) @ projector / edge.shape[1]
+        projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) / length[:, None, None]
+        by_chord = -scale * _spin(director) @ projector / columns.shape[2]
         slots = self._assembly.pattern.slots
-        for row, sign in ((top, -1.0), (bottom, 1.0)):  # no two of a row's blocks are the same
-            blocks[slots(row, top)] += sign * by_director
-            blocks[slots(row, bottom)] -= sign * by_director
-            for layer in range(edge.shape[1]):
-                blocks[slots(row, edge[after, layer])] += sign * by_chord
-                blocks[slots(row, edge[before, layer])] -= sign * by_chord
+        for row, sign in ((top, -1.0), (bottom, 1.0)):
+            for column, part in ((top, by_director), (bottom, -by_director)):
+                np.add.at(blocks, slots(row, column), sign * part)
+            for layer in range(columns.shape[2]):
+                for column, part in ((after, by_chord), (before, -by_chord)):
+                    np.add.at(blocks, slots(row, column[:, layer]), sign * part)
 
 
 def _lengths(scene: Scene, lattice: Lattice, load: EdgeLoad) -> np.ndarray:

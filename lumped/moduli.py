@@ -30,7 +30,7 @@ import numpy as np
 from lumped.lattice import STEPS
 from lumped.sections import ROUNDING, CellSection, free
 from lumped.spring_constants import FACES, Springs, of_faces, of_rubber
-from sheetbench.scenes import Constants, Material, Sheet, SpringSet
+from sheetbench.scenes import SpringSet
 
 # of the links of STEPS: family and direction, how many there are, and whether they span lx, ly and lz
 LINKS = Counter((family, direction, tuple(map(abs, step))) for family, direction, step in STEPS)
@@ -138,11 +138,12 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     )
 
 
-def of_springs(springs: Springs | SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
+def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
     """Moduli of an interior patch of the lattice with these springs, alike in all cells."""
-    one = springs if isinstance(springs, Springs) else Springs.read(springs)
-    found = of_cells(replace(one, layer_distance=spacing[2]), np.array([[spacing[:2]]]), layers)
-    return Moduli(found.membrane[0, 0], found.bending[0, 0], found.shear[0, 0], found.coupling[0, 0])
+    found = of_cells(
+        replace(Springs.read(springs), layer_distance=spacing[2]), np.array([[spacing[:2]]]), layers
+    )
+    return Moduli(*(part[0, 0] for part in vars(found).values()))
 
 
 def _of_links(form: np.ndarray) -> np.ndarray:
@@ -178,8 +179,3 @@ def of_section(section: CellSection, spacing: Any) -> Moduli:
     residual = (np.square(spacing) / (12.0 * own))[..., None] * np.eye(2)
     shear = np.linalg.inv(np.linalg.inv(section.shear) + residual)
     return Moduli(section.membrane, section.bending, np.diagonal(shear, axis1=-2, axis2=-1), shear[..., 0, 1])
-
-
-def of_sheet(sheet: Sheet, material: Material, spacing: tuple[float, float]) -> Moduli:
-    """Moduli of the sheet, with MacNeal's S* as `of_section`."""
-    return of_section(CellSection.of(Constants.of(sheet, material)), spacing)

@@ -20,9 +20,9 @@ WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M by how many corners farther
 
 @njit(cache=True, error_model="numpy")
 def _means(x: np.ndarray, columns: np.ndarray, out: np.ndarray) -> None:
-    """The means (4, 3) of a cell's columns of masses (4, p)."""
+    """The means (4, 3) of columns of masses (4 or fewer, p)."""
     out[:] = 0.0
-    for a in range(4):
+    for a in range(len(columns)):
         for mass in columns[a]:
             for q in range(3):
                 out[a, q] += x[mass, q] / columns.shape[1]
@@ -37,10 +37,10 @@ def add_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np
         columns = cells[c]
         _means(x, columns, corners)
         for b in range(4):
-            r, s = corners[(b + 1) % 4] - corners[b], corners[b - 1] - corners[b]
-            turned[b, 0] = r[1] * s[2] - r[2] * s[1]
-            turned[b, 1] = r[2] * s[0] - r[0] * s[2]
-            turned[b, 2] = r[0] * s[1] - r[1] * s[0]
+            after, before = (b + 1) % 4, (b + 3) % 4
+            for q, r, s in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+                turned[b, q] = (corners[after, r] - corners[b, r]) * (corners[before, s] - corners[b, s])
+                turned[b, q] -= (corners[after, s] - corners[b, s]) * (corners[before, r] - corners[b, r])
         for a in range(4):
             for q in range(3):
                 share = 0.0
@@ -48,6 +48,24 @@ def add_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np
                     share += WEIGHTS[(b - a) % 4] * turned[b, q]
                 for mass in columns[a]:
                     force[mass, q] += pressure[c] * share / columns.shape[1]
+
+
+@njit(cache=True, error_model="numpy")
+def add_couples(x: np.ndarray, columns: np.ndarray, moments: np.ndarray, force: np.ndarray) -> None:
+    """Add couples (e,) [N·m] at positions x (n, 3) [m] to `force` (n, 3) [N], each on the outer layers of its
+    column of masses about the chord of its neighbours': columns (e, 3, p), its own and those."""
+    means, along, across = np.empty((3, 3)), np.empty(3), np.empty(3)
+    for e in range(len(columns)):
+        _means(x, columns[e], means)
+        top, bottom, length, square = columns[e, 0, -1], columns[e, 0, 0], 0.0, 0.0
+        for q in range(3):
+            along[q], across[q] = means[2, q] - means[1, q], x[top, q] - x[bottom, q]
+            length, square = length + along[q] ** 2, square + across[q] ** 2
+        scale = moments[e] / (np.sqrt(length) * square)
+        for q, r, s in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            couple = scale * (along[r] * across[s] - along[s] * across[r])
+            force[top, q] += couple
+            force[bottom, q] -= couple
 
 
 @njit(cache=True, error_model="numpy")

@@ -12,7 +12,7 @@ Where bent and tilted edges are at a load factor λ is the scene's to say (`scen
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -21,8 +21,6 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Coupling
-from lumped.actuators.chain import BoundChain
-from lumped.actuators.corners import Tie
 from lumped.coverage import Reach, held_columns, reached_parts
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
@@ -160,10 +158,13 @@ def _constrain(
         dependent[tie.rows] = True
     if coupling is not None:
         fixed[lattice.mass_count :] = held[lattice.mass_count :] = ~coupling.free
-    free = ~(fixed | dependent)
-    transform = _selection(free)
-    if mean_held or bodies:
-        transform = _with_dependent(free, mean_held, ties, bodies)
+    transform = _selection(~(fixed | dependent))
+    maps = [_last_layers(n, mean_held)] if mean_held else []
+    maps += [_link(n, tie.rows, tie.others, tie.weights) for tie in ties]
+    maps += [_link(n, b.masses, b.place.start + np.arange(b.rows), b.binding) for b in bodies]
+    for of_others in maps:
+        transform = sp.csr_array(transform + of_others @ transform)
+    transform.sort_indices()
     driven = bent_or_tilted(supports, sheet)
 
     def turned(load_factor: float) -> np.ndarray:
@@ -194,36 +195,14 @@ def _selection(free: np.ndarray) -> sp.csr_array:
     )
 
 
-def _with_dependent(
-    free: np.ndarray,
-    mean_held: dict[tuple[int, int], np.ndarray],
-    ties: Sequence[Tie],
-    bodies: Sequence[BoundChain],
-) -> sp.csr_array:
-    """The transform where the last layer is minus the sum of the others (last mass, axis → its column), rows
-    of actuators are tied to rows of others, and masses are bound to rows of actuators."""
-    n = len(free)
-    number = np.full((n, 3), -1)
-    number[free] = np.arange(free.sum())
-    rows = [np.flatnonzero(free)]
-    columns = [number[free]]
-    values = [np.ones(free.sum())]
-    for (last, axis), column in mean_held.items():
-        rows.append(np.full(len(column) - 1, 3 * last + axis))
-        columns.append(number[column[:-1], axis])
-        values.append(np.full(len(column) - 1, -1.0))
-    shape = (3 * n, int(free.sum()))
-    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    transform = sp.csr_array(sp.coo_array(entries, shape=shape))
-    linked = [
-        *((tie.rows, tie.others, tie.weights) for tie in ties),
-        *((body.masses, body.place.start + np.arange(body.rows), body.binding) for body in bodies),
-    ]
-    for targets, sources, weights in linked:
-        transform = transform + _link(n, targets, sources, weights) @ transform
-    transform = sp.csr_array(transform)
-    transform.sort_indices()
-    return transform
+def _last_layers(n: int, mean_held: dict[tuple[int, int], np.ndarray]) -> sp.csr_array:
+    """The map (3n, 3n) of last layers that are minus the sum of the others: by last mass and axis,
+    its column."""
+    last, axes = np.array([*mean_held]).T
+    others = 3 * np.array([*mean_held.values()])[:, :-1] + axes[:, None]
+    rows = np.broadcast_to((3 * last + axes)[:, None], others.shape)
+    entries = (np.full(others.size, -1.0), (rows.ravel(), others.ravel()))
+    return sp.csr_array(sp.coo_array(entries, shape=(3 * n, 3 * n)))
 
 
 def _link(n: int, targets: np.ndarray, sources: np.ndarray, weights: np.ndarray) -> sp.csr_array:

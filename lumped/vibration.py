@@ -17,7 +17,6 @@ from lumped.carried import pairs_of, rotary_masses
 from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
-from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
@@ -127,31 +126,23 @@ def frequency_slopes(
     resists, and by a constant that is 0.
     """
     found = modes(scene, calibration, count, calibration.masses)
-    problem = build_problem(scene, calibration)
-    rest = np.zeros_like(problem.loads.dead)
-    weight = masses(scene, problem.assembly.lattice, calibration.masses, calibration.cells)
+    weight = masses(scene, found.lattice, calibration.masses, calibration.cells)
     modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
-    slopes = {}
+
+    def stored(springs: Calibration) -> np.ndarray:
+        """φᵀ K φ of every mode, (count,)."""
+        problem = build_problem(scene, springs)
+        blocks = problem.tangent(np.zeros_like(problem.loads.dead), 0.0)
+        return np.array([np.sum(shape * problem.system.apply(blocks, shape)) for shape in found.shapes])
+
+    own, slopes, of = stored(calibration), {}, 8.0 * np.pi**2 * found.frequencies
     for name in parameters:
-        step = 1e-3 * abs(calibration.constants.value(name))
-        slopes[name] = np.zeros_like(found.frequencies)
-        if step == 0.0:  # a fit that ends without this spring
-            continue
-        sides = []
-        for sign in (1.0, -1.0):
-            value = calibration.constants.value(name) + sign * step
-            changed = build_problem(scene, calibration.with_constant(name, value))
-            stiffness = [float(np.sum(shape * _product(changed, rest, shape))) for shape in found.shapes]
-            sides.append(np.array(stiffness))
-        squares = (sides[0] - sides[1]) / (2.0 * step) / modal
-        of = 2.0 * (2.0 * np.pi) ** 2 * found.frequencies
-        np.divide(squares, of, out=slopes[name], where=of > 0.0)
+        k = calibration.constants.value(name)
+        slopes[name] = np.zeros_like(of)
+        if k != 0.0:  # else a fit that ends without this spring
+            squares = (stored(calibration.with_constant(name, 2.0 * k)) - own) / k / modal
+            np.divide(squares, of, out=slopes[name], where=of > 0.0)
     return found.frequencies, slopes
-
-
-def _product(problem: Problem, rest: np.ndarray, shape: np.ndarray) -> np.ndarray:
-    """K times a shape (n, 3), K the tangent at rest."""
-    return problem.system.apply(problem.tangent(rest, 0.0), shape)
 
 
 def _shift(scene: Scene) -> float:

@@ -140,7 +140,7 @@ def question(study: Study) -> list[tuple[str, str]]:
     """Pairs of a part's name and what it says: of the scene, of each model's settings, of those of none;
     reasons of choices are among the notes."""
     scene = study.scene
-    parts = study.attempt("scene", lambda: in_words(scene)) if scene is not None else []
+    parts = study.attempt("scene", lambda: [*in_words(scene)]) if scene is not None else []
     settings = study.run.get("settings")
     settings = settings if isinstance(settings, dict) else {}
     nested = {k: v for k, v in settings.items() if isinstance(v, dict)}

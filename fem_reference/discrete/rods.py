@@ -32,6 +32,7 @@ from fem_reference.discrete.course import Factor, factor_at
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import SIDE_MASS
 from fem_reference.surface.rod import INPLANE, NORMAL, BoundRods, RodElements
+from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import Scene
 
 LIGHT = 1e-3
@@ -57,7 +58,7 @@ class Rods:
         self.bound, self._linear, self._size = bound, linear, size
         self._commands = commands if bound.rods else ()
         places = np.arange(9) if places is None else places
-        self._directors = places[3:6]
+        self._line, self._directors = places[:3], places[3:6]
         k, a = bound.sites.shape
         self.rows = (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
         self.elements: RodElements = bound.elements
@@ -70,11 +71,11 @@ class Rods:
     def weight(self, scene: Scene) -> np.ndarray:
         """Dead forces (k, a, 3) on the sides' vectors of the chains under a scene's gravity."""
         acceleration = np.zeros(3) if scene.gravity is None else scene.gravity.last_acceleration
-        return np.multiply.outer(self.elements.weight, acceleration)
+        return np.multiply.outer(self._mass[:, :, self._line].sum(axis=2), acceleration)
 
     def mass(self) -> csr_matrix:
         """The rods' mass (N, N)."""
-        return self.matrix(_by_axis(self._mass))
+        return Pattern(self.rows, size=self._size).matrix(_by_axis(self._mass))
 
     def stress(self, shape: SheetShape) -> np.ndarray:
         """Elastic and viscous stresses (k, s)."""
@@ -133,12 +134,6 @@ class Rods:
         )
         slow._commands = [None]
         return slow
-
-    def matrix(self, sides: np.ndarray) -> csr_matrix:
-        """The sum (N, N) of matrices of sides (k, 3 a, 3 a)."""
-        width = self.rows.shape[1]
-        rows, columns = np.repeat(self.rows, width, axis=1).ravel(), np.tile(self.rows, (1, width)).ravel()
-        return csr_matrix((sides.ravel(), (rows, columns)), (self._size, self._size))
 
     def gather(self, q: np.ndarray) -> np.ndarray:
         """The sides' vectors (k, a, 3) of coordinates (N,)."""

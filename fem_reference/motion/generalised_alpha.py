@@ -20,10 +20,10 @@ import numpy as np
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.energies import SheetMotion, spent
 from fem_reference.sheets import start
-from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
+from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance, StepFailed
-from sheetbench.numerics.time.rule import BACKWARD_EULER, Rule, generalised, shifted, step_of
+from sheetbench.numerics.time.rule import BACKWARD_EULER, AlphaStep, generalised, shifted, step_of
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.objects.relaxation import BranchStep
 
@@ -33,13 +33,13 @@ SOLVED = 1e-3  # last correction, relative to the error allowed
 ROUNDED = 1e-13  # correction, relative to the displacement
 CORRECTIONS = 12
 QUICK = 0.1  # a correction's share of the one before, up to which factors are kept
-HALVED = 6  # times, a fixed step that fails
+FRACTION = 1.0 / 64.0  # of a fixed step, that it is divided into where it fails
 LEAST = 1e-8  # of the sheet's longer side: no displacement counts as smaller
 SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
-REMEMBERED = ("_before", "_largest", "_local", "_euler", "failed")
+REMEMBERED = ("_before", "_largest", "_local", "_euler")
 
 
 class Sampled(NamedTuple):
@@ -54,19 +54,18 @@ class Sampled(NamedTuple):
 class ConstrainedAlpha:
     """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
 
-    late: the share of its end in the forces that a step balances. adapts, span, kinks: as
-    `sheetbench.numerics.time.method` has them; with chains, whose firm stiffnesses make much energy of the
-    small strains that a cubic between the ends of a step leaves, steps end at samples.
+    adapts, span, kinks: as `sheetbench.numerics.time.method` has them; with chains, whose firm stiffnesses
+    make much energy of the small strains that a cubic within a step leaves, steps end at samples.
     """
 
     state = SheetMotion
 
     def __init__(self, model: DiscreteElements, step: float | None, error: float, first: float):
-        self._usual = generalised(RADIUS)
-        self.late = 1.0 - self._usual.af
         self._model, self.adapts, self._error = model, step is None, error
+        self._usual = self._rule = generalised(RADIUS)
         self._first = first if step is None else step
-        self._control = Controller(3, 2.0, (0.95, 1.25), self._first)
+        band = (0.95, 1.25) if self.adapts else (0.0, np.inf)  # a fixed one always counts
+        self._control = Controller(3, 2.0, band, self._first)
         self.span, self.kinks = 1 if model.rods else None, np.array(kinks(model.scene))
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
@@ -74,11 +73,6 @@ class ConstrainedAlpha:
         self._largest = LEAST * max(model.scene.sheet.lengths)  # displacement [m]
         self._local = 1.0  # the last step's error over that allowed
         self._euler = 0  # steps to come by backward Euler
-        self.failed = 0
-
-    @property
-    def _rule(self) -> Rule:
-        return BACKWARD_EULER if self._euler else self._usual
 
     def forget(self) -> None:
         """Drop the factors, so that a resumed run goes on exactly as one never stopped."""
@@ -86,8 +80,8 @@ class ConstrainedAlpha:
         self._solver.forget()
 
     def settings(self) -> dict[str, Any]:
-        """Return how many steps failed, if any."""
-        return {"failed_steps": self.failed} if self.failed else {}
+        """Return nothing: the steps are as requested."""
+        return {}
 
     def notes(self) -> str:
         """Return a clause on steps that counted in spite of their error."""
@@ -108,6 +102,10 @@ class ConstrainedAlpha:
         q = start(self._model)
         return self.begin(0.0, q, np.zeros_like(q))
 
+    def _reach(self, change: np.ndarray) -> float:
+        """The largest component of the nodes' displacements in a change (N,) of the coordinates."""
+        return float(np.abs(self._model.displacement(change)).max())
+
     def _branches(self, motion: SheetMotion, time: float) -> BranchStep | None:
         """The step of the branches from a motion to a time [s], if there are any."""
         branches = self._model.branches
@@ -123,7 +121,7 @@ class ConstrainedAlpha:
                 begun = self.begin(kink, model.placed(motion.q, kink), motion.v, branches)
                 motion, work = begun.state, begun.work
         after = self.advance(motion, at_most)
-        self._step = motion, spent(model, motion, after, self.late), work
+        self._step = motion, spent(model, motion, after, 1.0 - self._rule.af), work
         return Advance(after, float(self._step[1][0]), work + float(self._step[1][1]))
 
     def at(self, times: np.ndarray, last: Advance[SheetMotion]) -> Sampled:
@@ -133,10 +131,7 @@ class ConstrainedAlpha:
             return Sampled(times, [end], np.array([last.dissipated]), np.array([last.work]))
         start, spent, work = self._step
         motions = [between(start, end, time) for time in times.tolist()]
-        if self._model.branches.times:
-            motions = [
-                replace(m, memory=self._remembered(m.q, self._branches(start, m.time))) for m in motions
-            ]
+        motions = [replace(m, memory=self._remembered(m.q, self._branches(start, m.time))) for m in motions]
         share = np.array([(m.time - start.time) / (end.time - start.time) for m in motions])
         return Sampled(times, motions, share * spent[0], work + share * spent[1])
 
@@ -165,14 +160,13 @@ class ConstrainedAlpha:
         a = a - basis @ factor.solve(basis.T @ (model.mass @ a + forces))
         self._before, self._factor = 0.0, None
         self._euler = EULER if np.any(rate != v) else 0
+        before, after, taken = (float(u @ (model.mass @ u)) for u in (v, rate, a))  # twice kinetic energies
         if self.adapts:
-            fastest = float(np.abs(model.displacement(a)).max())
-            allowed = self._error * self._largest
-            self._control.step = min(self._first, np.sqrt(2.0 * allowed / max(fastest, 1e-30)))
-        before, after = (float(u @ (model.mass @ u)) for u in (v, rate))  # twice the kinetic energy
-        if self.adapts and self._euler:
-            taken = max(float(a @ (model.mass @ a)), 1e-30)  # h² times half of it
-            self._control.step = min(self._control.step, np.sqrt(TAKEN * max(before, after) / taken))
+            allowed = 2.0 * self._error * self._largest
+            steps = [self._first, np.sqrt(allowed / max(self._reach(a), 1e-30))]
+            if self._euler:  # h² times half of `taken`
+                steps.append(np.sqrt(TAKEN * max(before, after) / max(taken, 1e-30)))
+            self._control.step = min(steps)
         memory = self._remembered(q, branches)
         motion = SheetMotion(time, q, rate, a, a, model.mass @ a + forces, memory)
         return Advance(motion, 0.0, 0.5 * (after - before))
@@ -180,61 +174,34 @@ class ConstrainedAlpha:
     def advance(self, motion: SheetMotion, at_most: float) -> SheetMotion:
         """One step of at most so long [s]. Raises StepFailed."""
         control, largest = self._control, self._largest
-        control.order = self._rule.order
+        self._rule = rule = BACKWARD_EULER if self._euler else self._usual
+        control.order = rule.order
+        allowed, smallest = 1.0, SMALLEST * max(motion.time, at_most)
+        if not self.adapts:
+            allowed, smallest, control.step = np.inf, FRACTION * self._first, self._first
 
         def attempt(h: float) -> tuple[tuple[SheetMotion, float], float, float]:
             nonlocal largest
             old = shifted(motion.a, motion.algorithm, h, self._before)
-            after = self._halving(motion, h)
-            largest = max(self._largest, float(np.abs(self._model.displacement(after.q)).max()))
-            error = self._local_error(after, old, h) / (self._error * largest)
-            return (after, error), error, 1.0
+            after = self._advanced(motion, h, step_of(rule, h, motion.q, motion.v, motion.a, old))
+            largest = max(self._largest, self._reach(after.q))
+            jump = self._reach(after.a if self._euler else after.algorithm - old)
+            error = h * h * rule.error * jump / (self._error * largest)
+            return (after, error), error, allowed
 
-        if self.adapts:
-            smallest = SMALLEST * max(motion.time, at_most)
-            (after, error), h = control.take(attempt, at_most, smallest, fewer=4)
-            self._before = h
-        else:
-            h = control.dividing(at_most, fewer=4)
-            try:
-                (after, error), *_ = attempt(h)
-            except (StepFailed, SingularMatrixError) as failure:
-                raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
-        self._largest, self._local = largest, error
+        (after, error), h = control.take(attempt, at_most, smallest, fewer=4)
+        self._before, self._largest, self._local = h, largest, error
         short = control.ratio(error, 1.0) < 2.0 or h > 0.5 * at_most
         if self._euler and (short or not self.adapts):
             self._euler -= 1
             self._factor = self._factor if self._euler else None
         return after
 
-    def _local_error(self, after: SheetMotion, before: np.ndarray, h: float) -> float:
-        """Of the displacement [m] in a step; before: its a'₀."""
-        jump = after.a if self._euler else after.algorithm - before
-        return h * h * self._rule.error * float(np.abs(self._model.displacement(jump)).max())
-
-    def _halving(self, motion: SheetMotion, h: float, times: int = 0) -> SheetMotion:
-        """A step, in halves where it is fixed and fails. Raises StepFailed, SingularMatrixError."""
-        try:
-            after = self._advanced(motion, h)
-        except (StepFailed, SingularMatrixError):
-            self._factor = None
-            self.failed += 1
-            if self.adapts or times == HALVED:
-                raise
-            middle = self._halving(motion, 0.5 * h, times + 1)
-            return self._halving(middle, 0.5 * h, times + 1)
-        if not self.adapts:
-            self._before = h
-        return after
-
-    def _advanced(self, motion: SheetMotion, h: float) -> SheetMotion:
+    def _advanced(self, motion: SheetMotion, h: float, step: AlphaStep) -> SheetMotion:
         """The end of a step of h [s] by Newton's iteration, factors kept as long as corrections shrink to the
         share `QUICK`. Raises StepFailed, SingularMatrixError."""
-        model, time, rule = self._model, motion.time + h, self._rule
+        model, time = self._model, motion.time + h
         branches = self._branches(motion, time)
-        self.late = 1.0 - rule.af
-        old = shifted(motion.a, motion.algorithm, h, self._before)
-        step = step_of(rule, h, motion.q, motion.v, motion.a, old)
 
         def at(q: np.ndarray) -> SheetMotion:
             v, a = step.velocity(q), step.acceleration(q)
@@ -242,11 +209,11 @@ class ConstrainedAlpha:
             return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
         found = at(model.placed(step.guess, time))
-        largest = max(self._largest, float(np.abs(model.displacement(found.q)).max()))
+        largest = max(self._largest, self._reach(found.q))
         enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:
             self._factor = None
-        last: float | None = None
+        last = 0.0
         for _ in range(CORRECTIONS):
             basis = model.basis(found.q)
             if self._factor is None:
@@ -254,14 +221,14 @@ class ConstrainedAlpha:
                 matrix = model.tangent(shape, found.exerted, step.by_a, step.by_v)
                 self._factor, self._taken = self._solver.factor(matrix), h
             move = basis @ self._factor.solve_unrefined(-(basis.T @ found.exerted))
-            length = float(np.abs(model.displacement(move)).max())
+            length = self._reach(move)
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")
             found = at(model.moved(found.q, move))
             share = length / last if last else 1.0
             if length * min(share, 1.0) <= enough:
                 return replace(found, memory=self._remembered(found.q, branches)) if branches else found
-            if last is not None and share > QUICK:
+            if last and share > QUICK:
                 self._factor = None
             last = length
         raise StepFailed("the corrections do not shrink")

@@ -46,8 +46,8 @@ def simulate(
 
     Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for a model that
     does not move, what a model cannot move, an error not below 0.1, and for a folder that holds
-    another run, that another process writes to, or whose files are damaged. A step that fails is halved;
-    `settings["failed_steps"]` says how many.
+    another run, that another process writes to, or whose files are damaged. A fixed step that fails is
+    made again, a quarter as long.
 
     >>> import fem_reference
     >>> history = fem_reference.simulate("two-edges-settling", "shell", 0.01, elements=2)

@@ -49,7 +49,7 @@ from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.numerics.sparsity import Pattern
+from sheetbench.numerics.sparsity import Pattern, pattern_of
 from sheetbench.scenes import Scene
 
 
@@ -60,6 +60,7 @@ class DiscreteSolid(DiscreteElements):
     model = "solid"
     norm: ClassVar[int] = 2
     element: Bricks
+    _share = np.nan  # of the frames that are kept
 
     def __init__(
         self,
@@ -90,8 +91,8 @@ class DiscreteSolid(DiscreteElements):
         every = np.concatenate([self.free.ravel(), ~self._held_aside])
         self._free = np.flatnonzero(every)
         number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
-        kinds = (number[sites] for sites in (columns.stacks, bound.sites))
-        self.pattern = Pattern(*(n.reshape(len(n), 3 * n.shape[1]) for n in kinds), size=len(self._free))
+        kinds = (number[s].reshape(len(s), 3 * s.shape[1]) for s in (columns.stacks, bound.sites))
+        self.pattern = pattern_of(self.places(bound), *kinds, size=len(self._free))
         self.unknowns, self.size, self._cut = len(self._free), every.size, columns.positions.size
         self.scale = np.ones(self.size)
         self.scale[self._cut :] = self.lever
@@ -120,12 +121,21 @@ class DiscreteSolid(DiscreteElements):
 
     def frame(self, q: np.ndarray, at: float) -> np.ndarray:
         """Z of the columns (n, 3 levels, 3 levels)."""
-        share = self.instant(at)[0] if self.supports.driven else 1.0
-        return self._turned_fully if share == 1.0 else self.column_supports.bases(share)
+        return self._frames(at)[0]
 
-    @cached_property
-    def _turned_fully(self) -> np.ndarray:
-        return self.column_supports.bases(1.0)
+    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
+        return self._frames(at)[1]
+
+    def _frames(self, at: float) -> tuple[np.ndarray, csc_matrix]:
+        """Z of the columns, and of all vectors; those of the last share are kept."""
+        share = self.instant(at)[0] if self.supports.driven else 1.0
+        if share != self._share:
+            bases = self.column_supports.bases(share)
+            blocks, aside = np.arange(len(bases) + 1), identity(len(self._held_aside))
+            of_columns = bsr_matrix((bases, blocks[:-1], blocks))
+            every = block_diag([of_columns, aside], format="csc")[:, self._free]
+            self._share, self._kept_frames = share, (bases, every)
+        return self._kept_frames
 
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         rate = self.column_supports.spread(self.supports.rate(time))
@@ -140,20 +150,6 @@ class DiscreteSolid(DiscreteElements):
         gap = applied(np.linalg.inv(bases), target - self._on_columns(q))
         step = applied(bases, np.where(self.free, 0.0, gap))
         return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
-
-    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
-        bases = self.frame(q, at)
-        return self._constant_basis if bases is self._turned_fully else self._basis(bases)
-
-    @cached_property
-    def _constant_basis(self) -> csc_matrix:
-        return self._basis(self._turned_fully)
-
-    def _basis(self, bases: np.ndarray) -> csc_matrix:
-        blocks = np.arange(len(bases) + 1)
-        of_columns = bsr_matrix((bases, blocks[:-1], blocks)).tocsc()
-        aside = identity(len(self._held_aside), format="csc")
-        return block_diag([of_columns, aside], format="csc")[:, self._free]
 
     def _on_columns(self, q: np.ndarray) -> np.ndarray:
         """The columns' part (n, levels, 3)."""
@@ -226,9 +222,8 @@ class DiscreteSolid(DiscreteElements):
         k, size = len(tangent), 3 * self.columns.stacks.shape[1]
         parts = tangent.reshape(k, 2, 9, 3, 2, 9, 3)
         averages = self.columns.averages
-        return np.einsum("epicrjd,pl,rm->eilcjmd", parts, averages, averages, optimize=True).reshape(
-            k, size, size
-        )
+        stacks = np.einsum("epicrjd,pl,rm->eilcjmd", parts, averages, averages, optimize=True)
+        return stacks.reshape(k, size, size)
 
     @cached_property
     def onto_surface(self) -> csr_matrix:
@@ -269,9 +264,10 @@ class DiscreteSolid(DiscreteElements):
         return self.columns.field_mesh(self._on_columns(q))
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
-        columns, displacement = self.columns, self._on_columns(q)
-        middle = (columns.positions + displacement)[:, columns.layers]
-        return HoldingForces(columns.about_middle(displacement, self._on_columns(exerted)), middle)
+        now, nodal = self.columns.positions + self._on_columns(q), self._on_columns(exerted)
+        middle = now[:, self.columns.layers]
+        moment = np.cross(now - middle[:, None], nodal).sum(axis=1)
+        return HoldingForces(np.concatenate([nodal.sum(axis=1), moment], axis=1), middle)
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         turned = self.frame(q, at).swapaxes(1, 2)

@@ -32,6 +32,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+from scipy.linalg import block_diag
 from skfem import ElementHex2
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefHex
@@ -45,9 +46,7 @@ from sheetbench.scenes.meaning.composition import of_sheet
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 NODES = 27
-RETAINED_SHEAR = (
-    0.3  # at most, of the dropped shear: bent strips are stable up to surface strains of 0.045 (ν = 0)
-)
+RETAINED_SHEAR = 0.3  # at most, of the dropped shear: bent strips are stable to strains of 0.045 (ν = 0)
 # Of the covariant components ξξ, ηη, ζζ, ξη, ηζ, ξζ (the order of IN_SPACE): the points of [−1, 1]² between
 # which the strain is interpolated, and those at which it is sampled.
 _EVERY = (THREE, THREE)
@@ -97,8 +96,11 @@ def reference() -> Reference:
         dropped.append(_product([lagrange(site, at) for _, site, at in axes]) - kept[-1])
     modes = np.array([np.ones_like(x), x, y, z, z * x, z * y]).T
     levels = np.isclose(points[2][:, None], points[2]).astype(float)
-    weighted = _by_component(kept), _by_component(dropped)
-    return frozen(Reference(points, weights, np.concatenate(forms), *weighted, levels, modes))
+    assumed, lost = (  # (q, 6, k): the weights of a component act on its own samples
+        np.array([block_diag(*(w[[q]] for w in of_components)) for q in range(len(weights))])
+        for of_components in (kept, dropped)
+    )
+    return frozen(Reference(points, weights, np.concatenate(forms), assumed, lost, levels, modes))
 
 
 @dataclass(frozen=True)
@@ -288,12 +290,3 @@ def _kept(jacobian: np.ndarray) -> np.ndarray:
 def _product(axes: list[np.ndarray]) -> np.ndarray:
     """(q, k) of the weights (q, k_axis) along ξ, η, ζ: products, the last axis fastest."""
     return np.einsum("qa,qb,qc->qabc", *axes).reshape(len(axes[0]), -1)
-
-
-def _by_component(weights: list[np.ndarray]) -> np.ndarray:
-    """(q, 6, k): the weights of a component act on its own samples."""
-    counts = np.cumsum([0, *(w.shape[1] for w in weights)])
-    out = np.zeros((len(weights[0]), len(weights), counts[-1]))
-    for component, weight in enumerate(weights):
-        out[:, component, counts[component] : counts[component + 1]] = weight
-    return out

@@ -73,15 +73,11 @@ def _green_bulk(material: Material | Constants) -> float:
 
 def _green_distortion(material: Material | Constants, strain: np.ndarray) -> Triad:
     if isinstance(material, Constants) and material.plies:
-        stiffness = in_space(material.plies[0]) - np.asarray(_green_bulk(material))[
-            ..., None, None
-        ] * np.outer(_TRACE, _TRACE)
-        tangent = np.broadcast_to(stiffness, (*strain.shape, 6))
-        stress = (tangent @ strain[..., None])[..., 0]
-        return Triad(0.5 * np.sum(strain * stress, axis=-1), stress, tangent)
-    shear = np.asarray(lame(material)[1])[..., None]
-    stress = shear * _DOUBLE.diagonal() * strain
-    tangent = np.broadcast_to(shear[..., None] * _DOUBLE, (*strain.shape, 6))
+        volumetric = np.multiply.outer(_green_bulk(material), np.outer(_TRACE, _TRACE))
+        stiffness = in_space(material.plies[0]) - volumetric
+    else:
+        stiffness = np.multiply.outer(lame(material)[1], _DOUBLE)
+    stress, tangent = (stiffness @ strain[..., None])[..., 0], np.broadcast_to(stiffness, (*strain.shape, 6))
     return Triad(0.5 * np.sum(strain * stress, axis=-1), stress, tangent)
 
 
@@ -90,15 +86,13 @@ def _green_volume(strain: np.ndarray) -> Triad:
 
 
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
-    c = np.tile(np.eye(3), (*strain.shape[:-1], 1, 1))  # 2E + 1
-    for place, (i, j) in enumerate(IN_SPACE):
-        c[..., i, j] += (2.0 if i == j else 1.0) * strain[..., place]
-        c[..., j, i] = c[..., i, j]
+    i, j = np.transpose(IN_SPACE)
+    c = np.zeros((*strain.shape[:-1], 3, 3))  # 2E + 1
+    c[..., i, j] = c[..., j, i] = _TRACE + strain @ _DOUBLE
     inverse, determinant = np.linalg.inv(c), np.linalg.det(c)
-    first = np.stack([inverse[..., i, j] for i, j in IN_SPACE], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
         value = 0.5 * np.log(determinant)
-    return Triad(value, first, -_DOUBLE @ pulled_back(inverse, IN_SPACE))
+    return Triad(value, inverse[..., i, j], -_DOUBLE @ pulled_back(inverse, IN_SPACE))
 
 
 def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:

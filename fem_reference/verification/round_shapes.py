@@ -33,6 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -45,8 +46,8 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
-from fem_reference.surface.biquadratic import areas
-from fem_reference.surface.loads import Line, area_force
+from fem_reference.surface.biquadratic import AT_GAUSS, areas
+from fem_reference.surface.loads import Line, spread
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import mesh_of, nodes_of, plan_of, quarters
 from fem_reference.verification.rows import THEORY, Row, absolutely, curve, relatively
@@ -77,6 +78,8 @@ LIFTED = {
 BRICKS, WITHIN, GRADING = (8, 12, 6), 1e-2, 1.5  # of the elliptic plate: radial, around and layers
 PRESSURE = 1e6
 STEEL = Material(young=210e9, poisson=0.3, density=7800.0)
+
+Side = tuple[int, float]
 
 
 def disc(thick: float = THICK) -> Scene:
@@ -217,8 +220,9 @@ def rise(model: str, share: float, radial: int) -> np.ndarray:
     scene = specimen(sheet, material, (Clamped(edge="y1"),), loads=(lift,))
     radii = np.linspace(6.0, 10.0, radial + 1)
     angles = np.linspace(0.0, 2.0 * np.pi, radial * AROUND // RADIAL + 1)
-    sides = {"y0": (1, 0.0), "y1": (1, 2.0 * np.pi)}
-    mesh = mapped(radii, angles, lambda r, turn: (r * np.cos(turn), r * np.sin(turn)), sides)
+    mesh = mapped(
+        radii, angles, lambda r, turn: (r * np.cos(turn), r * np.sin(turn)), y0=(1, 0.0), y1=(1, 2.0 * np.pi)
+    )
     solution = solve_on(DiscreteShell, mesh, scene)
     lifted = np.unique(mesh.facets[:, mesh.boundaries["y0"]])
     ends = lifted[np.argsort(np.hypot(*mesh.p[:, lifted]))[[0, -1]]]
@@ -233,10 +237,10 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
         return (2.0 + 1.25 * outwards) * np.cos(angle), (1.0 + 1.75 * outwards) * np.sin(angle)
 
     held = Symmetric("x0"), Symmetric("y0"), Clamped("x1")
-    mesh = mapped(share, angles, place, {"x1": (0, 1.0), "y0": (1, 0.0), "x0": (1, np.pi / 2.0)})
+    mesh = mapped(share, angles, place, x1=(0, 1.0), y0=(1, 0.0), x0=(1, np.pi / 2.0))
     sheet = DiscreteSolid(mesh, specimen(Sheet(3.25, 2.75, 0.6), STEEL, held), layers=layers)
     columns, plan, force = sheet.columns, sheet.plan, np.zeros_like(sheet.columns.positions)
-    force[:, -1, 2:] = area_force(areas(plan.corners), plan.elements, sheet.nodes, np.array([-PRESSURE]))
+    force[:, -1, 2:] = spread(plan, plan.elements, areas(plan.corners) @ AT_GAUSS[0], np.array([-PRESSURE]))
     displacement = sheet.displacement(linear_step(sheet, force.ravel()))
     at_d = int(np.argmin(np.hypot(plan.nodes[:, 0] - 2.0, plan.nodes[:, 1])))
     bricks = columns.stacks[:, columns.places[-1]]
@@ -249,18 +253,10 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     return first * np.trace(strain) * np.eye(3) + 2.0 * second * strain
 
 
-def mapped(
-    first: np.ndarray,
-    second: np.ndarray,
-    place: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
-    sides: dict[str, tuple[int, float]],
-) -> MeshQuad2:
-    """The mesh with lines at two coordinates, whose nodes lie where `place` puts them [m]; sides: name → the
+def mapped(first: np.ndarray, second: np.ndarray, place: Callable[..., Any], **sides: Side) -> MeshQuad2:
+    """The mesh with lines at two coordinates, whose nodes lie where `place` puts them [m]; sides: by name the
     coordinate that is constant there, and its value."""
-    plan = MeshQuad.init_tensor(first, second)
+    on = {name: lambda x, axis=axis, at=at: np.isclose(x[axis], at) for name, (axis, at) in sides.items()}
+    plan = MeshQuad.init_tensor(first, second).with_boundaries(on)
     mesh = MeshQuad2.from_mesh(plan)
-    on = {
-        name: plan.facets_satisfying(lambda x, axis=axis, at=at: np.isclose(x[axis], at))
-        for name, (axis, at) in sides.items()
-    }
-    return replace(mesh, doflocs=np.array(place(*mesh.doflocs))).with_boundaries(on)
+    return replace(mesh, doflocs=np.array(place(*mesh.doflocs))).with_boundaries(plan.boundaries)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -22,6 +22,7 @@ EXACT = "exact"
 THEORY = "theory"  # of the elements' order
 OURS = "this project"
 SLACK = 0.15  # of an order
+Values = Sequence[float | None]
 
 
 @dataclass(frozen=True)
@@ -57,19 +58,12 @@ def absolutely(
     return Row("", quantity, mesh, float(published), source, float(computed), None, tolerance, passed)
 
 
-def relatively(
-    quantity: str,
-    mesh: str,
-    published: float,
-    source: str,
-    computed: float,
-    tolerance: float,
-    scale: float | None = None,
-) -> Row:
-    """A row held to a relative difference, of `scale` where it is given and else of the published value."""
-    row = absolutely(quantity, mesh, published, source, computed, tolerance)
-    relative = float(abs(computed - published) / abs(published if scale is None else scale))
-    return replace(row, relative=relative, passed=relative <= tolerance)
+def relatively(*cells: Any, scale: float | None = None) -> Row:
+    """A row of the cells that `absolutely` takes, held to a relative difference: of `scale` where it is given
+    and else of the published value."""
+    row = absolutely(*cells)
+    relative = abs(row.computed - row.published) / abs(row.published if scale is None else scale)
+    return replace(row, relative=relative, passed=relative <= row.tolerance)
 
 
 def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: float) -> Row:
@@ -108,18 +102,13 @@ def curve(
             whose = source if isinstance(source, str) else source[load]
             for name, expected, computed in zip(names, values, found[load], strict=True):
                 scale = size if abs(expected) < 1e-9 * size else None
-                yield relatively(name.format(load), mesh, expected, whose, computed, tolerance, scale)
+                yield relatively(name.format(load), mesh, expected, whose, computed, tolerance, scale=scale)
         load = max(published) if half_at is None else half_at
         yield mesh_change(mesh, answer(model, load, elements // 2), found[load], tolerance)
 
 
 def lowest(
-    quantity: str,
-    mesh: str,
-    published: Sequence[float | None],
-    source: str,
-    found: np.ndarray,
-    tolerance: float,
+    quantity: str, mesh: str, published: Values, source: str, found: np.ndarray, tolerance: float
 ) -> Iterator[Row]:
     """Rows of the lowest frequencies, but for those that are not published; quantity: with a place for their
     number."""

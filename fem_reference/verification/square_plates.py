@@ -80,6 +80,9 @@ STEEL = Material(young=200e9, poisson=0.3, density=8000.0)
 NAFEMS = Sheet(length_x=10.0, length_y=10.0, thickness=0.05)
 COEFFICIENT = "ω a² √(ρh/D)"
 LAYERS = tuple(Layer(2.5e-4, angle=angle) for angle in (0.0, pi / 2, pi / 2, 0.0))
+# Layers, the outer ones' share of the second moment, along x, and the source.
+PLY = (), 1.0, "Navier's series, Timoshenko & Woinowsky-Krieger 1959"
+LAMINATE = LAYERS, 0.875, "Navier's series of the laminate, Reddy 2004"
 
 
 class Benchmark(NamedTuple):
@@ -153,9 +156,9 @@ def _middle(scene: Scene, model: str, elements: int, hard: bool) -> float:
     return float(moved(scene, (0.5, 0.5), model, elements, **options)[2])
 
 
-def frequencies(case: str) -> Iterator[Row]:
-    """Six modes of every model of a case of `BENCHMARKS`."""
-    _, sheet, edges, source, unit, converged, bounds, models = BENCHMARKS[case]
+def frequencies(benchmark: Benchmark) -> Iterator[Row]:
+    """Six modes of every model of one of `BENCHMARKS`."""
+    _, sheet, edges, source, unit, converged, bounds, models = benchmark
     scene, scale = specimen(sheet, STEEL, around(Clamped, edges)), 1.0
     if unit == COEFFICIENT:
         rigidity = bending_stiffness(STEEL, sheet.thickness)[0, 0]
@@ -168,19 +171,9 @@ def frequencies(case: str) -> Iterator[Row]:
         yield mesh_change(mesh, coarse, found, CONVERGED)
 
 
-def ply() -> Iterator[Row]:
-    """A single ply, fibres along x."""
-    yield from _fibres((), 1.0, "Navier's series, Timoshenko & Woinowsky-Krieger 1959")
-
-
-def laminate() -> Iterator[Row]:
-    """[0/90]s."""
-    yield from _fibres(LAYERS, 0.875, "Navier's series of the laminate, Reddy 2004")
-
-
-def _fibres(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
+def fibres(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
     """w D22/(q a⁴) in the middle, of the plate and of the shell under so small a load that it is linear, and
-    their first six frequencies [Hz]; outer: the outer layers' share of the second moment, along x."""
+    their first six frequencies [Hz]."""
     moment, left = THIN.thickness**3 / 12.0, 1.0 - NU**2 * E2 / E1
     mixed = moment * (NU * E2 / left + 2.0 * G)
     along, across = (moment * (a * E1 + (1.0 - a) * E2) / left for a in (outer, 1.0 - outer))

@@ -2,6 +2,5 @@
 
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.methods import MAKERS, default, given
-from lumped.calibration.report import homogenised
 
-__all__ = ["MAKERS", "Calibration", "default", "given", "homogenised"]
+__all__ = ["MAKERS", "Calibration", "default", "given"]

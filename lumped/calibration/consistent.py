@@ -23,20 +23,13 @@ from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.objects.grading import Graded
 
 
-def _tables(
-    sheet: Sheet,
-    material: Material,
-    grid: Grid,
-    *_: object,
-    grading: Graded = 0.0,
-    cells: object = None,
-    **__: object,
-) -> float:
-    """Whether cells have springs of their own."""
-    return float(bool(grading) or cells is not None or material.kind == "orthotropic")
-
-
-@kept(last=16, most=0, size=_tables)
+@kept(  # of cells that are alike
+    last=16,
+    most=0,
+    size=lambda _, material, *__, grading=0.0, cells=None, **___: float(
+        bool(grading) or cells is not None or material.kind == "orthotropic"
+    ),
+)
 def consistent(
     sheet: Sheet,
     material: Material,

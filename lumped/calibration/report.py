@@ -10,12 +10,9 @@ import numpy as np
 from lumped import moduli
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.cell_by_cell import EachCell
-from lumped.grid_lines import grid_lines
 from lumped.spring_constants import COUPLINGS, MID_COUPLINGS, Springs
 from sheetbench.answers.table import number
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Sheet, SpringSet
-from sheetbench.scenes.objects.grid import Grid
 
 ALIKE = 1e-9
 
@@ -71,12 +68,6 @@ def report(
     return Calibration(
         method, each.grid, table, tuple(rows.values()), notes, grading=each.grading, cells=each.cells
     )
-
-
-def homogenised(sheet: Sheet, grid: Grid, springs: SpringSet) -> moduli.Moduli:
-    """Moduli of the interior of a sheet's lattice with these springs, alike in all its cells."""
-    x, y = grid_lines(sheet, grid)
-    return moduli.of_springs(springs, (x.mean, y.mean, springs.layer_distance), grid[2])
 
 
 def _like(name: str) -> str:

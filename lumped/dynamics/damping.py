@@ -17,6 +17,7 @@ from lumped.assembly import Assembly
 from lumped.dynamics import drag
 from lumped.springs.all_families import AllFamilies, table_dampers
 from lumped.springs.all_forces import add_forces as add_spring_forces
+from lumped.springs.all_forces import resist_again
 from lumped.springs.families import Family
 from lumped.springs.packing import Packing, Scratch
 from sheetbench.numerics.typed import njit
@@ -91,4 +92,16 @@ def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.n
             resisting = forces.rate[i] * v[i, q]
             out[i, q] += resisting
             power += resisting * v[i, q]
+    return power
+
+
+@njit(cache=True)
+def add_damping_again(
+    forces: MovingForces, u: np.ndarray, v: np.ndarray, pushed: bool, out: np.ndarray
+) -> float:
+    """Return the power [W] that all that damps takes at velocity v (n, 3) [m/s], at the displacement of the
+    last `add_forces`; add the springs' dampers' force to `out` only if `pushed`."""
+    power = add_resistance(forces, u, v, out)
+    if forces.packing.damped:
+        power += resist_again(v, pushed, forces.packing, forces.scratch, out)
     return power

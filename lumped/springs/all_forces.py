@@ -1,8 +1,7 @@
-"""The forces of all springs and dampers of a lattice in one compiled pass, arrays in and arrays out.
-
-`add_forces` takes displacements and velocities (n, 3) as everyone has them; `add_at_places` is for whoever
-keeps them in the order of a `Packing`, flat. The forces are those of the families
+"""The forces of all springs and dampers of a lattice in one compiled pass: those of the families
 (`lumped.springs.families`), to rounding.
+
+`add_forces` takes arrays (n, 3); `at_places` is for whoever keeps them at the places of a `Packing`, flat.
 """
 
 from __future__ import annotations
@@ -16,8 +15,7 @@ from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
 from sheetbench.numerics.typed import njit
 
-CELLS, FACES = np.uint64(kinds.CELLS), np.uint64(kinds.FACES)
-UINT_ONE = np.uint64(1)
+CELLS, FACES, ONE, THREE = (np.uint64(number) for number in (kinds.CELLS, kinds.FACES, 1, 3))
 
 
 @njit(**OPTIONS)
@@ -33,76 +31,39 @@ def add_forces(
     """Add the internal force at displacement u (n, 3) [m] and the damping force at velocity v (n, 3) [m/s],
     or one of them, to `force` (n, 3) [N]; the energy [J] and the power taken [W]. Rows after those of the
     masses are left alone."""
-    order, size = packing.order, packing.size
-    for q in range(3):
-        past = np.uint64(q) * size
-        for p in range(len(order)):
-            scratch.u[past + np.uint64(p)] = u[order[p], q]
-        if damped:
-            for p in range(len(order)):
-                scratch.v[past + np.uint64(p)] = v[order[p], q]
-    scratch.force[:] = 0.0
-    found = add_at_places(scratch.u, scratch.v, elastic, damped, packing, scratch.force, scratch.tile)
-    for q in range(3):
-        past = np.uint64(q) * size
-        for p in range(len(order)):
-            force[order[p], q] += scratch.force[past + np.uint64(p)]
+    lay_out(u, packing, scratch.u)
+    if damped:
+        lay_out(v, packing, scratch.v)
+    found = at_places(NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, scratch)
+    add_from_places(scratch.force, packing, force)
     return found
 
 
 @njit(**OPTIONS)
-def add_at_places(
-    u: np.ndarray,
-    v: np.ndarray,
-    elastic: bool,
-    damped: bool,
-    packing: Packing,
-    force: np.ndarray,
-    tile: np.ndarray,
+def resist_again(v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch, force: np.ndarray) -> float:
+    """Return the power [W] that dampers take at velocity v (n, 3) [m/s], at the displacement of the last
+    `add_forces`, whose shapes are taken if the packing keeps them; add their force to `force` (n, 3) [N] if
+    `pushed`."""
+    lay_out(v, packing, scratch.v)
+    power = at_places(not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, pushed, packing, scratch)[1]
+    if pushed:
+        add_from_places(scratch.force, packing, force)
+    return power
+
+
+@njit(**OPTIONS)
+def at_places(
+    fresh: bool, elastic: bool, damped: bool, pushed: bool, packing: Packing, at: Scratch
 ) -> tuple[float, float]:
-    """Add internal and damping forces as `add_forces` does, u, v and force flat at the places of a packing.
-    The mid-surface's places of u are written to."""
+    """Return energy [J] and power [W] of the displacement and velocity at the places of a packing by a pass
+    that finds shapes (fresh) or takes those that were kept; put the forces there if they are pushed. The
+    mid-surface's places are written to."""
+    u, v, force, tile = at
+    force[:] = 0.0
     if packing.mid:
         average(packing, u)
-    return _pass(u, v, NUMBA_TRUE, elastic, damped, packing, force, tile)
-
-
-@njit(**OPTIONS)
-def add_damping_again(
-    u: np.ndarray, v: np.ndarray, packing: Packing, force: np.ndarray, tile: np.ndarray
-) -> float:
-    """Add the damping force at velocity v once more, at the displacement u of the last pass, whose shapes
-    are taken if the packing keeps them; the power taken [W]. The mid-surface's places of v are written to."""
-    return _pass(u, v, not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, packing, force, tile)[1]
-
-
-@njit(**OPTIONS)
-def power_again(v: np.ndarray, packing: Packing, scratch: Scratch) -> float:
-    """Return the power [W] that dampers take at velocity v (n, 3) [m/s], at the displacement of the last
-    `add_forces`."""
-    for q in range(3):
-        past = np.uint64(q) * packing.size
-        for p in range(len(packing.order)):
-            scratch.v[past + np.uint64(p)] = v[packing.order[p], q]
-    return add_damping_again(scratch.u, scratch.v, packing, scratch.force, scratch.tile)
-
-
-@njit(**OPTIONS)
-def _pass(
-    u: np.ndarray,
-    v: np.ndarray,
-    fresh: bool,
-    elastic: bool,
-    damped: bool,
-    packing: Packing,
-    force: np.ndarray,
-    tile: np.ndarray,
-) -> tuple[float, float]:
-    """Energy and power of a pass that finds shapes (fresh) or takes those that were kept."""
-    if packing.mid:
         if damped:
             average(packing, v)
-        clear(packing, force)
     size, rest, share = packing.size, packing.rest, 1.0 if elastic else 0.0
     energy = power = 0.0
     for r in range(len(packing.runs)):
@@ -115,8 +76,9 @@ def _pass(
                 tile[: blocks * LANES] = 0.0
             if damped:
                 power += tiles.resist_links(v, rest, t, a, b, size, blocks, tile, at)
-            tiles.pull_ends(-1.0, a, size, blocks, tile, at, force)
-            tiles.pull_ends(1.0, b, size, blocks, tile, at, force)
+            if pushed:
+                tiles.pull_ends(-1.0, a, size, blocks, tile, at, force)
+                tiles.pull_ends(1.0, b, size, blocks, tile, at, force)
             continue
         c, d = run[5], run[6]
         if fresh:
@@ -135,48 +97,56 @@ def _pass(
         if damped:
             tiles.gather_sides(v, a, b, c, d, size, blocks, tile)
             power += tiles.resist_cells(rest, t, blocks, tile, at)
-        tiles.push_corner(-0.5, -0.5, a, size, blocks, tile, force)
-        tiles.push_corner(0.5, -0.5, b, size, blocks, tile, force)
-        tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
-        tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
-    if packing.mid:
+        if pushed:
+            tiles.push_corner(-0.5, -0.5, a, size, blocks, tile, force)
+            tiles.push_corner(0.5, -0.5, b, size, blocks, tile, force)
+            tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
+            tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
+    if packing.mid and pushed:
         share_out(packing, force)
     return energy, power
+
+
+@njit(**OPTIONS)
+def lay_out(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
+    """Put a vector (n, 3) at the places of a packing."""
+    layers, plane, flat = packing.layers, packing.plane, x.reshape(-1)
+    for q in range(THREE):
+        for k in range(layers):
+            for i in range(plane):
+                out[q * packing.size + k * plane + i] = flat[THREE * (i * layers + k) + q]
+
+
+@njit(**OPTIONS)
+def add_from_places(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
+    """Add a vector at the places of a packing to one (n, 3)."""
+    layers, plane, flat = packing.layers, packing.plane, out.reshape(-1)
+    for q in range(THREE):
+        for k in range(layers):
+            for i in range(plane):
+                flat[THREE * (i * layers + k) + q] += x[q * packing.size + k * plane + i]
 
 
 @njit(**OPTIONS)
 def average(packing: Packing, x: np.ndarray) -> None:
     """Put the layers' mean in the mid-surface's places."""
     plane, mid = packing.plane, packing.layers * packing.plane
-    part = 1.0 / packing.layers
-    for q in range(3):
-        first = np.uint64(q) * packing.size
+    for q in range(THREE):
+        first = q * packing.size
         for i in range(plane):
-            x[first + mid + i] = x[first + i]
-        for k in range(UINT_ONE, packing.layers):
+            x[first + mid + i] = x[first + i] / packing.layers
+        for k in range(ONE, packing.layers):
             for i in range(plane):
-                x[first + mid + i] += x[first + k * plane + i]
-        for i in range(plane):
-            x[first + mid + i] *= part
-
-
-@njit(**OPTIONS)
-def clear(packing: Packing, force: np.ndarray) -> None:
-    """No force on the mid-surface."""
-    plane, mid = packing.plane, packing.layers * packing.plane
-    for q in range(3):
-        first = np.uint64(q) * packing.size + mid
-        for i in range(plane):
-            force[first + i] = 0.0
+                x[first + mid + i] += x[first + k * plane + i] / packing.layers
 
 
 @njit(**OPTIONS)
 def share_out(packing: Packing, force: np.ndarray) -> None:
     """Give the force on the mid-surface to the layers, equally."""
     plane, mid = packing.plane, packing.layers * packing.plane
-    part = 1.0 / packing.layers
-    for q in range(3):
-        first = np.uint64(q) * packing.size
+    for q in range(THREE):
+        first = q * packing.size
         for k in range(packing.layers):
             for i in range(plane):
-                force[first + k * plane + i] += part * force[first + mid + i]
+                force[first + k * plane + i] += force[first + mid + i] / packing.layers
+        force[first + mid : first + mid + plane] = 0.0

@@ -55,7 +55,6 @@ def examine(
     when flat. shortest: of a link, over its length at rest; areas (ny − 1, nx − 1) [m²], 0 of absent cells,
     the rest as in `surface`."""
     ny, nx, _ = columns.shape
-    first, second, mean = np.empty(3), np.empty(3), np.empty(3)
     sound, kind, mass = len(states), -1, 0
     for k in range(len(states)):
         for i in range(len(positions)):
@@ -70,15 +69,12 @@ def examine(
         least, which = np.inf, 0
         for j in range(ny - 1):
             for i in range(nx - 1):
-                for q in range(3):
-                    first[q] = middle[j + 1, i + 1, q] - middle[j, i, q]
-                    second[q] = middle[j + 1, i, q] - middle[j, i + 1, q]
-                    mean[q] = director[j, i, q] + director[j, i + 1, q]
-                    mean[q] += director[j + 1, i + 1, q] + director[j + 1, i, q]
+                a, b, c, d = middle[j, i], middle[j, i + 1], middle[j + 1, i + 1], middle[j + 1, i]
                 facing = 0.0
-                for q in range(3):
-                    r, s = (q + 1) % 3, (q + 2) % 3
-                    facing += (first[r] * second[s] - first[s] * second[r]) * mean[q]
+                for q, r, s in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+                    normal = (c[r] - a[r]) * (d[s] - b[s]) - (c[s] - a[s]) * (d[r] - b[r])
+                    mean = director[j, i, q] + director[j, i + 1, q]
+                    facing += normal * (mean + director[j + 1, i + 1, q] + director[j + 1, i, q])
                 if areas[j, i] > 0.0 and facing < least * areas[j, i]:
                     least, which = facing / areas[j, i], columns[j, i, 0]
         if least <= 0.0:

@@ -114,7 +114,7 @@ class History(Answer):
 
     def notes(self) -> list[str]:
         """Where the run went on from, why the integrator is the one that it is, how long explicit steps
-        may be, which failed, and how well the run kept its energy, a line each."""
+        may be, and how well the run kept its energy, a line each."""
         notes = []
         if self.resumed_from:
             notes.append(f"went on from {self.resumed_from:.4g} s, which an earlier run had reached")
@@ -123,8 +123,6 @@ class History(Answer):
         if limit := self.settings.get("largest_step"):
             taken = number(1e3 * self.settings["step"], ".4g")
             notes.append(f"steps of {taken} ms; the largest stable one is {number(1e3 * limit, '.4g')} ms")
-        if failed := self.settings.get("failed_steps"):
-            notes.append(f"{failed} steps failed and were made again, shorter")
         if not self.energies or not len(self.time):
             return notes
         if self.energies["kinetic"].any() and not self.energies["dissipated"].any():

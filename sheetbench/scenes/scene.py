@@ -36,7 +36,8 @@ class Scene(SceneFields, defer_build=False):
             off = f"{key} = {[x, y]} is off the sheet, which is 0 ≤ x ≤ {lx:g} m, 0 ≤ y ≤ {ly:g} m"
             yield not (0.0 <= x <= lx and 0.0 <= y <= ly) and off
         yield self.patches and misplaced(self.patches, self.sheet)
-        yield self.shaped_by and region.misplaced(self)
+        if self.shaped_by:
+            yield from region.misplaced(self)
         if self.layers:
             varied = f"layer: a laminate is the same all over, without {self.varied_by}"
             yield not self.homogeneous and varied

@@ -40,7 +40,8 @@ def homogenised(scene: dict[str, Any], elements: int, **lattice: Any) -> dict[st
     """Return the displacement at the points of the shell whose section is the lattice's."""
     parsed = Scene.model_validate(scene)
     springs = _springs(parsed, **lattice)
-    moduli = lumped.homogenised(parsed.sheet, springs.grid, springs.springs)
+    sides = np.divide(parsed.sheet.lengths, np.subtract(springs.grid[:2], 1))
+    moduli = lumped.moduli.of_springs(springs.springs, (*sides, springs.layer_distance), springs.grid[2])
     section = Section(moduli.membrane, moduli.bending, np.diag(moduli.shear))
     return _displacement(fem_reference.solve(parsed, "shell", elements=elements, section=section), parsed)
 

@@ -13,14 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.damping import add_resistance
+from lumped.dynamics.damping import add_damping_again
 from lumped.dynamics.implicit.compiled_newton import (
     CONVERGED,
     Arrays,
     NewtonLimits,
     iterate,
 )
-from lumped.springs.all_forces import power_again
+from lumped.springs.tiles import NUMBA_FALSE
 from sheetbench.numerics.typed import njit
 
 
@@ -85,12 +85,8 @@ def solve_stages(
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.damping_coefficient * change
             a[row] = step.mass_coefficient * change
-        forces, power = (
-            arrays.forces,
-            add_resistance(arrays.forces, stages.u[i], stages.v[i], arrays.force),
-        )
-        if forces.packing.damped:
-            power += power_again(stages.v[i], forces.packing, forces.scratch)
+        forces = arrays.forces
+        power = add_damping_again(forces, stages.u[i], stages.v[i], NUMBA_FALSE, arrays.force)
         stages.power[i, 0] = power
     return CONVERGED, len(stages.u), 0, made
 

@@ -9,7 +9,7 @@ sheet, and a sheet that nothing moves.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from math import hypot
 from warnings import warn
 
@@ -35,14 +35,13 @@ BURDEN = 100.0  # a payload's mass over the sheet's
 
 def slips(scene: SceneFields) -> tuple[str, ...]:
     """Sentences about what was hardly meant; for most scenes none."""
-    warnings = [*sheet_slips(scene.sheet), *material_slips(scene.material)]
-    if scene.gravity is not None:
-        warnings += _gravity(scene.gravity)
+    sheet, springs = scene.sheet, scene.springs
+    warnings = [*sheet_slips(sheet), *material_slips(scene.material), *_gravity(scene.gravity)]
     warnings += _payloads(scene)
-    if scene.springs is not None:
-        warnings += layer_slips(scene.sheet, scene.springs.layer_distance, "springs.layer_distance")
+    if springs is not None:
+        warnings += layer_slips(sheet, springs.layer_distance, "springs.layer_distance")
     if not warnings:  # else that may be why
-        warnings = _strains(scene)
+        warnings = [*_strains(scene)]
     if _unmoved(scene):
         warnings.append(
             "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
@@ -58,45 +57,39 @@ def warn_of_slips(scenes: Iterable[tuple[str, SceneFields]], stacklevel: int) ->
         vars(scene)["_warned"] = True  # no key of the scene: equal ones stay equal
 
 
-def sheet_slips(sheet: Sheet) -> list[str]:
-    """Lengths that are not in metres."""
-    sizes = {key: getattr(sheet, key) for key in ("length_x", "length_y", "thickness")}
-    if max(sheet.lengths) > LARGEST:
-        written = ", ".join(f"{key} = {value:g} m" for key, value in sizes.items())
-        side = max(sheet.lengths)
-        return [f'{written}: lengths are in metres; {side:g} mm is written {side / 1e3:g} or "{side:g} mm"']
-    shorter = min(sheet.lengths)
-    if sheet.thickness > THICKEST * shorter:
-        return [
+def sheet_slips(sheet: Sheet) -> Iterator[str]:
+    """Yield lengths that are not in metres."""
+    side, shorter, keys = max(sheet.lengths), min(sheet.lengths), ("length_x", "length_y", "thickness")
+    if side > LARGEST:
+        written = ", ".join(f"{key} = {getattr(sheet, key):g} m" for key in keys)
+        yield f'{written}: lengths are in metres; {side:g} mm is written {side / 1e3:g} or "{side:g} mm"'
+    elif sheet.thickness > THICKEST * shorter:
+        yield (
             f"thickness = {sheet.thickness:g} m is {few(sheet.thickness / shorter)} of the shorter side, "
             f"{shorter:g} m, which is no thin sheet; lengths are in metres"
-        ]
-    return []
+        )
 
 
-def material_slips(material: Material) -> list[str]:
-    """A modulus that is not in pascals, a density that is not in kilograms a cubic metre."""
-    warnings = []
-    density = material.density
+def material_slips(material: Material) -> Iterator[str]:
+    """Yield a modulus that is not in pascals, a density that is not in kilograms a cubic metre."""
     for key in ("young",) if material.kind == "isotropic" else ("young_1", "young_2"):
         young = getattr(material, key)
         if young < SOFTEST:
-            warnings.append(
+            yield (
                 f"{key} = {young:g} Pa is softer than any solid sheet; "
                 f'it is in pascals: {young:g} MPa is written {young:g}e6 or "{young:g} MPa"'
             )
         elif young > (STIFFEST if key == "young" else STIFFEST_FIBRE):
-            warnings.append(
-                f"{key} = {young:g} Pa is {young / 1e9:g} GPa, stiffer than any soft sheet; it is in pascals"
-            )
+            stiff = f"is {young / 1e9:g} GPa, stiffer than any soft sheet; it is in pascals"
+            yield f"{key} = {young:g} Pa {stiff}"
+    density = material.density
     if density < LIGHTEST:
-        warnings.append(
+        yield (
             f"density = {density:g} kg/m³ is lighter than foam; "
             f'it is in kg/m³: {density:g} g/cm³ is written {1e3 * density:g} or "{density:g} g/cm³"'
         )
     elif density > HEAVIEST:
-        warnings.append(f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³")
-    return warnings
+        yield f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³"
 
 
 def _payloads(scene: SceneFields) -> list[str]:
@@ -110,22 +103,21 @@ def _payloads(scene: SceneFields) -> list[str]:
     ]
 
 
-def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> list[str]:
-    """A distance of neighbouring layers [m] far from the sheet's thickness; `key` is how it was given."""
+def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> Iterator[str]:
+    """Yield a distance of neighbouring layers [m] far from the sheet's thickness; `key` is how it was
+    given."""
     ratio = distance / sheet.thickness
-    if 1.0 / LAYERS <= ratio <= LAYERS:
-        return []
-    times = f"{_three_digits(ratio)} times the thickness, {sheet.thickness:g} m"
-    return [f"{key} = {distance:g} m is {times}; lengths are in metres"]
+    if not 1.0 / LAYERS <= ratio <= LAYERS:
+        times = f"{_three_digits(ratio)} times the thickness, {sheet.thickness:g} m"
+        yield f"{key} = {distance:g} m is {times}; lengths are in metres"
 
 
-def _strains(scene: SceneFields) -> list[str]:
-    """A weight or loads that would tear the sheet."""
-    warnings = []
+def _strains(scene: SceneFields) -> Iterator[str]:
+    """Yield a weight or loads that would tear the sheet."""
     sheet, young, law = scene.sheet, scene.material.young, scene.material.law
     heaviest, strongest = (WEIGHT_LIMIT, STRETCH_LIMIT) if law is None else (RUBBER, RUBBER)
     if (weight := weight_strain(scene)) > heaviest:
-        warnings.append(
+        yield (
             f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
             f"{heaviest:g} {'no linear model means anything' if law is None else 'rubber tears'}"
         )
@@ -133,34 +125,29 @@ def _strains(scene: SceneFields) -> list[str]:
     whole = sum(abs(load.last_factor) * hypot(*resultant(scene, load)) for load in acting)
     pull = whole / (young * sheet.thickness * min(sheet.lengths))
     if pull > strongest:
-        warnings.append(
+        yield (
             f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
             "sheet; forces are in N, forces per length in N/m, pressures in Pa"
         )
-    return warnings
 
 
 def _three_digits(value: float) -> str:
     return f"{float(format(value, '.3g')):g}"  # 1000, not 1e+03
 
 
-def _gravity(gravity: Gravity) -> list[str]:
-    size = hypot(*gravity.acceleration)
-    if size == 0.0 or EARTH[0] <= size <= EARTH[1]:
-        return []
-    likely = f": {size:g} mm/s² is written {size / 1e3:g}" if EARTH[0] <= size / 1e3 <= EARTH[1] else ""
-    return [
-        f"gravity.acceleration = {list(gravity.acceleration)} is {size:g} m/s² strong, not the Earth's 9.81; "
-        f"it is in m/s²{likely}"
-    ]
+def _gravity(gravity: Gravity | None) -> Iterator[str]:
+    size = hypot(*gravity.acceleration) if gravity else 0.0
+    if gravity and size and not EARTH[0] <= size <= EARTH[1]:
+        likely = f": {size:g} mm/s² is written {size / 1e3:g}" if EARTH[0] <= size / 1e3 <= EARTH[1] else ""
+        yield (
+            f"gravity.acceleration = {list(gravity.acceleration)} is {size:g} m/s² strong, not the Earth's "
+            f"9.81; it is in m/s²{likely}"
+        )
 
 
 def _unmoved(scene: SceneFields) -> bool:
     """Whether nothing whatever moves the sheet; its modes are all there is to ask for."""
     weight = scene.gravity is not None and any(scene.gravity.acceleration)
-    bent = any(
-        getattr(support, "tilt", 0.0) or getattr(support, "curvature", 0.0) or support.motion is not None
-        for support in scene.supports
-    )
-    bent = bent or any(obstacle.motion is not None for obstacle in scene.obstacles)
+    held = (*scene.supports, *scene.obstacles)
+    bent = any(getattr(one, key, None) for one in held for key in ("tilt", "curvature", "motion"))
     return not (weight or bent or scene.loads or scene.actuators or scene.natural_by)

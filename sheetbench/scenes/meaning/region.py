@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -106,61 +107,45 @@ def off_sheet(scene: SceneFields, point: PlanPoint) -> bool:
     return bool(scene.region.distance(Point(point)) > COINCIDENT * max(scene.sheet.lengths))
 
 
-def misplaced(scene: SceneFields) -> str:
-    """Why something is held, loaded or probed where there is no sheet; "" where nothing is."""
+def misplaced(scene: SceneFields) -> Iterator[object]:
+    """Yield why something is held, loaded or probed where no sheet is; what is false where it is not."""
     for key, point in marked(scene).items():
-        if off_sheet(scene, point):
-            return f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
-    extended = {name: s for name, s in named(scene.supports).items() if not isinstance(s, Point)}
-    shapes = {name: place(support) for name, support in extended.items()}
-    shapes |= {f"load {n}": getattr(load, "where", None) for n, load in enumerate(scene.loads, start=1)}
-    shapes |= {f"mass {n}": payload.where for n, payload in enumerate(scene.masses, start=1)}
+        where = f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
+        yield off_sheet(scene, point) and where
+    parts: dict[str, Any] = {name: s for name, s in named(scene.supports).items() if not isinstance(s, Point)}
+    parts |= {f"load {n}": load for n, load in enumerate(scene.loads, start=1)}
+    parts |= {f"mass {n}": payload for n, payload in enumerate(scene.masses, start=1)}
     least = NECK * min(scene.sheet.lengths)
-    for name, shape in shapes.items():
-        if shape is not None and area_in(scene, shape) <= least**2:
-            return f"{name}.where: {shape.in_words()}: no part of it is on the sheet"
-    for n, load in enumerate(scene.loads, start=1):
-        if isinstance(load, EdgeLoad) and load.where and edge_length(scene, load.edge, load.where) <= least:
-            return f"load {n}.where: {load.where.in_words()}: no part of edge {load.edge} is in it"
-    edges = {f"support on edge {s.edge}": s.edge for s in scene.supports if place(s) is None}
-    edges |= {
-        f"load {n} on edge {each.edge}": each.edge
-        for n, each in enumerate(scene.loads, start=1)
-        if isinstance(each, EdgeLoad)
-    }
-    for name, edge in edges.items():
-        if edge_length(scene, edge) <= least:
-            return f"{name}: the sheet touches that edge at points at most; say where by a shape"
+    for name, part in parts.items():
+        if (shape := getattr(part, "where", None)) is not None:
+            where = f"{name}.where: {shape.in_words()}: no part of"
+            yield area_in(scene, shape) <= least**2 and f"{where} it is on the sheet"
+            if isinstance(part, EdgeLoad):
+                inside = edge_length(scene, part.edge, shape) > least
+                yield not inside and f"{where} edge {part.edge} is in it"
+    for name, edge in ((name, getattr(part, "edge", None)) for name, part in parts.items()):
+        where = f"{'support' if name == edge else name} on edge {edge}"
+        touches = f"{where}: the sheet touches that edge at points at most; say where by a shape"
+        yield edge and edge_length(scene, edge) <= least and touches
     for number, actuator in enumerate(scene.actuators, start=1):
         whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
-        if edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole:
-            return f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
-    return _disconnected(scene)
+        short = f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
+        yield edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole and short
+    yield _moved_apart(scene)
 
 
-def _disconnected(scene: SceneFields) -> str:
+def _moved_apart(scene: SceneFields) -> str:
     """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
     import shapely
 
     supports = named(scene.supports)
-    names, shapes = list(supports), [place(support) for support in supports.values()]
-    motions: list[Any] = []
-    which = []  # of them each makes
-    for support in supports.values():
-        if support.motion not in motions:
-            motions.append(support.motion)
-        which.append(motions.index(support.motion))
-    if len(motions) < 2:
+    names, motions = list(supports), [support.motion for support in supports.values()]
+    if all(motion == motions[0] for motion in motions):
         return ""
-    move, on_edge = np.array(which), np.array([shape is None for shape in shapes])
-    edges = [scene.sheet.edge_ends(support.edge) if support.edge else () for support in supports.values()]
-    held = np.array(
-        [shapely.LineString(e) if s is None else s.area for s, e in zip(shapes, edges, strict=True)]
-    )
-    tree = shapely.STRtree(held)
-    for i in np.flatnonzero(~on_edge):
-        others = np.sort(tree.query(held[i]))
-        others = others[(move[others] != move[i]) & (on_edge[others] | (others > i))]
-        if (met := others[shapely.intersects(held[i], held[others])]).size:
-            return f"{names[i]} and {names[met[0]]} move the same part of the sheet differently"
+    shapes = [place(support) for support in supports.values()]
+    ends = [scene.sheet.edge_ends(support.edge) if support.edge else () for support in supports.values()]
+    held = [shapely.LineString(e) if s is None else s.area for s, e in zip(shapes, ends, strict=True)]
+    for one, other in shapely.STRtree(held).query(held, predicate="intersects").T.tolist():
+        if shapes[one] and (shapes[other] is None or other > one) and motions[one] != motions[other]:
+            return f"{names[one]} and {names[other]} move the same part of the sheet differently"
     return ""

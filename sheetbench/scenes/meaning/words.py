@@ -14,7 +14,6 @@ from sheetbench.scenes.meaning.natural_state import TENSOR, Source, expansion_of
 from sheetbench.scenes.meaning.region import area_in, resultant
 from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions
 from sheetbench.scenes.objects.actuators import Actuator, Chain, CurvatureTable
-from sheetbench.scenes.objects.air import Air
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.layers import plane_stress
 from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, PointLoad, Pressure
@@ -30,21 +29,20 @@ from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Held
 from sheetbench.scenes.objects.tables import FactorTable
 
 
-def in_words(scene: SceneFields) -> list[tuple[str, str]]:
-    """What each part of the scene means: pairs of a part's name and a sentence."""
-    return [*_parts(scene)]
-
-
-def _parts(scene: SceneFields) -> Iterator[tuple[str, str]]:
+def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
+    """Yield what each part of the scene means: a part's name and a sentence."""
     sheet, material, mass = scene.sheet, scene.material, mass_of(scene)
+    tapers = "".join(
+        f", from {_mm(ends[0])} to {_mm(ends[1])} mm along {key[-1]}"
+        for key, ends in sheet.given(("taper_x", "taper_y")).items()
+    )
     yield (
         "sheet",
         f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}, {_mm(sheet.thickness)} mm thick "
-        f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){_tapers(sheet)}, "
-        f"{1e3 * mass:.3g} g",
+        f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){tapers}, {1e3 * mass:.3g} g",
     )
     rubber = f" at small strains, rubber by the law {material.law}" if material.law else ""
-    rubber += f" ({own})" if (own := _own({key: getattr(material, key) for key in CONSTANTS})) else ""
+    rubber += f" ({own})" if (own := _own(material.given(CONSTANTS))) else ""
     dampers = f", dampers of {1e3 * time:.4g} ms · k" if (time := material.dashpot_time) else ""
     drag = f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""
     elasticity = f"{_elasticity(material)}, {_own({'density': material.density})}"
@@ -60,14 +58,16 @@ def _parts(scene: SceneFields) -> Iterator[tuple[str, str]]:
     yield from natural_in_words(scene)
     yield "weight", _weight(scene, mass + carried(scene))
     if scene.air is not None:
-        yield "air", _air(scene.air, sheet, mass)
+        share = 100.0 * scene.air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
+        yield (
+            "air",
+            f"drag of {scene.air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest. The "
+            f"mass of air that moves along, up to {share:.2g} % of the sheet's, is left out",
+        )
     for name, support in named(scene.supports).items():
-        shape = place(support)
-        inside = f", everywhere in the {shape.in_words()}" if shape is not None else ""
-        inside = f" at {_point(support.at)} mm" if isinstance(support, Point) else inside
-        yield name if shape is not None else f"edge {name}", f"{_support(support, sheet)}{inside}"
+        yield f"edge {name}" if place(support) is None else name, _support(support, sheet)
     for n, load in enumerate(scene.loads, start=1):
-        yield f"load {n}", _load(load, scene)
+        yield f"load {n}", f"{_load(load, scene)}{_over_time(load.history)}"
     for name, one in scene.named_obstacles().items():
         yield name, _obstacle(one, nearest(scene, one)[0])
     for n, actuator in enumerate(scene.actuators, start=1):
@@ -105,14 +105,6 @@ def _outline(scene: SceneFields) -> str:
     return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 
-def _tapers(sheet: Sheet) -> str:
-    """Return a clause on each taper."""
-    tapers = {"x": sheet.taper_x, "y": sheet.taper_y}
-    return "".join(
-        f", from {_mm(ends[0])} to {_mm(ends[1])} mm along {axis}" for axis, ends in tapers.items() if ends
-    )
-
-
 NONE = 1e-12  # of the largest natural strain, for what is rounding
 IN_PASCALS = {"young", *MODULI, *STRESSES}
 SYMBOLS = {
@@ -122,8 +114,8 @@ SYMBOLS = {
 
 
 def _own(constants: Mapping[str, Any]) -> str:
-    """Return constants by their keys, those that are not None, with commas between."""
-    return ", ".join(_constant(key, value) for key, value in constants.items() if value is not None)
+    """Return constants by their keys with commas between."""
+    return ", ".join(_constant(key, value) for key, value in constants.items())
 
 
 def _constant(key: str, value: Any) -> str:
@@ -138,9 +130,8 @@ def _constant(key: str, value: Any) -> str:
 def _elasticity(material: Material) -> str:
     """Return E and ν, or the constants of fibres."""
     if material.kind == "isotropic":
-        return _own({"young": material.young, "poisson": material.poisson})
-    keys = ("young_1", "young_2", "shear_12", "poisson_12")
-    constants = _own({key: getattr(material, key) for key in keys})
+        return _own(material.given(("young", "poisson")))
+    constants = _own(material.given(("young_1", "young_2", "shear_12", "poisson_12")))
     return f"fibres at {degrees(material.ply.angle):.4g}° from x, {constants}"
 
 
@@ -209,38 +200,37 @@ def _weight(scene: SceneFields, mass: float) -> str:
     return f"{_vector(force, 'N')}{whole}{_over_time(scene.gravity.history)}"
 
 
-def _air(air: Air, sheet: Sheet, mass: float) -> str:
-    share = air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
-    return (
-        f"drag of {air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest. The mass of "
-        f"air that moves along, up to {100.0 * share:.2g} % of the sheet's, is left out"
-    )
-
-
 def _support(support: AnySupport, sheet: Sheet) -> str:
-    moved = ""
+    """Return how and where the sheet is supported."""
+    moved, inside = "", ""
     if support.motion is not None:
         far = max(support.motion.displacement, key=lambda moved: sum(part * part for part in moved))
         how = {"smooth": "smoothly", "linear": "linearly between samples"}[support.motion.interpolation]
         by = _vector([1e3 * part for part in far], "mm")
         moved = f", moved {how} over {support.motion.time[-1]:g} s, farthest by {by}"
-    if isinstance(support, Clamped):
-        if support.tilt == 0.0:
-            return f"clamped: the mid-surface and its normal held{moved}"
-        way = "downwards" if support.tilt > 0.0 else "upwards"
-        return (
-            f"clamped, turned by {abs(support.tilt):g} rad ({degrees(abs(support.tilt)):.3g}°): "
-            f"the sheet starts off {way}{moved}"
-        )
-    if isinstance(support, Hinged):
-        return f"hinged: the mid-surface held, free to turn{moved}"
-    if isinstance(support, Held | Point):
-        free = [axis for axis in "xyz" if axis not in support.components]
-        slides = f", free to move along {' and '.join(free)}" if free else ""
-        return f"held along {' and '.join(support.components)}{slides}, free to turn{moved}"
-    if isinstance(support, Curved):
-        return f"clamped to a rigid rod, {_bent(support.curvature, sheet, support.edge)}{moved}"
-    return "a plane of symmetry: the sheet goes on beyond it as its mirror image"
+    if isinstance(support, Point):
+        inside = f" at {_point(support.at)} mm"
+    elif (shape := place(support)) is not None:
+        inside = f", everywhere in the {shape.in_words()}"
+    match support:
+        case Clamped(tilt=0.0):
+            held = "clamped: the mid-surface and its normal held"
+        case Clamped(tilt=tilt):
+            held = (
+                f"clamped, turned by {abs(tilt):g} rad ({degrees(abs(tilt)):.3g}°): the sheet starts off "
+                f"{'downwards' if tilt > 0.0 else 'upwards'}"
+            )
+        case Hinged():
+            held = "hinged: the mid-surface held, free to turn"
+        case Held() | Point():
+            free = [axis for axis in "xyz" if axis not in support.components]
+            slides = f", free to move along {' and '.join(free)}" if free else ""
+            held = f"held along {' and '.join(support.components)}{slides}, free to turn"
+        case Curved():
+            held = f"clamped to a rigid rod, {_bent(support.curvature, sheet, support.edge)}"
+        case _:
+            held = "a plane of symmetry: the sheet goes on beyond it as its mirror image"
+    return f"{held}{moved}{inside}"
 
 
 def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
@@ -252,22 +242,23 @@ def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
 
 
 def _load(load: AnyLoad, scene: SceneFields) -> str:
-    history, whole = _over_time(load.history), hypot(*resultant(scene, load))
-    if isinstance(load, PointLoad):
-        return f"{_vector(load.force, 'N')} at {_point(load.at)} mm{_on_edges(load.at, scene.sheet)}{history}"
-    if isinstance(load, Pressure):
-        way = "along the normal, at first +z" if load.value > 0.0 else "against the normal, at first −z"
-        where = _in(load.where)
-        return f"pressure of {abs(load.value):g} Pa {way}{where}; {whole:.3g} N on the flat sheet{history}"
-    if isinstance(load, AreaLoad):
-        return f"{_vector(load.force_per_area, 'N/m²')}, {whole:.3g} N in all{_in(load.where)}{history}"
+    """Return what a load is in full."""
+    where, whole = _in(load.where) if not isinstance(load, PointLoad) else "", hypot(*resultant(scene, load))
+    match load:
+        case PointLoad(at=at):
+            return f"{_vector(load.force, 'N')} at {_point(at)} mm{_on_edges(at, scene.sheet)}"
+        case Pressure(value=value):
+            way = "along the normal, at first +z" if value > 0.0 else "against the normal, at first −z"
+            return f"pressure of {abs(value):g} Pa {way}{where}; {whole:.3g} N on the flat sheet"
+        case AreaLoad():
+            return f"{_vector(load.force_per_area, 'N/m²')}, {whole:.3g} N in all{where}"
     parts = []
     if any(load.force_per_length):
         parts.append(f"{_vector(load.force_per_length, 'N/m')} ({whole:.3g} N in all)")
     if load.moment_per_length:
         way = "up" if load.moment_per_length > 0.0 else "down"
         parts.append(f"a moment of {abs(load.moment_per_length):g} N·m/m that turns what is outside it {way}")
-    return f"on edge {load.edge}{_in(load.where)}: {' and '.join(parts) or 'nothing'}{history}"
+    return f"on edge {load.edge}{where}: {' and '.join(parts) or 'nothing'}"
 
 
 def _in(where: Shape | None) -> str:
@@ -286,9 +277,7 @@ def _actuator(actuator: Actuator, sheet: Sheet) -> str:
         bent = f"its joints' curvatures from {min(curvature):g} to {max(curvature):g} 1/m"
     else:
         bent = _bent(curvature, sheet, actuator.edge)
-    where = {"mid": "in the mid-surface", "top": "on the top face", "bottom": "on the bottom face"}[
-        actuator.face
-    ]
+    where = "in the mid-surface" if actuator.face == "mid" else f"on the {actuator.face} face"
     held = "" if actuator.base == "free" else f", held at its {actuator.base}"
     return (
         f"on edge {actuator.edge} a chain of {actuator.segments} segments of "

@@ -111,7 +111,7 @@ def test_halves_of_fixed_steps_have_a_quarter_of_the_error_behind_a_jump(strip, 
     """Two steps of first order leave the second order of all."""
     started = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.2)))
     scene = strip.replace(gravity=None, supports=(Clamped(edge="x0", motion=started),))
-    assert order(scene, model, 1e-3) == pytest.approx(2.0, abs=0.3)
+    assert order(scene, model, 5e-4) == pytest.approx(2.0, abs=0.3)
 
 
 @pytest.mark.parametrize("model", ["plate", "solid"])
@@ -121,22 +121,21 @@ def test_edges_that_actuators_move_are_left_to_the_shell(strip, model):
         fem_reference.simulate(strip.replace(actuators=(moved,)), model, 0.1, elements=2)
 
 
-def test_a_fixed_step_that_fails_is_halved_and_said(monkeypatch):
+def test_a_fixed_step_that_fails_is_made_again_shorter(monkeypatch):
     once = ConstrainedAlpha._advanced
 
-    def failing(self, motion, h):
+    def failing(self, motion, h, step):
         if h > 0.9e-3 and 4e-3 < motion.time < 5.5e-3:
             raise StepFailed("on request")
-        return once(self, motion, h)
+        return once(self, motion, h, step)
 
     scene = load("two-edges-settling")
     plain = fem_reference.simulate(scene, "shell", 0.01, elements=2, step=1e-3, every=2e-3)
     monkeypatch.setattr(ConstrainedAlpha, "_advanced", failing)
-    halved = fem_reference.simulate(scene, "shell", 0.01, elements=2, step=1e-3, every=2e-3)
-    assert halved.status is Status.CONVERGED and halved.settings["failed_steps"] >= 1
-    assert "failed_steps" not in plain.settings
+    shorter = fem_reference.simulate(scene, "shell", 0.01, elements=2, step=1e-3, every=2e-3)
+    assert shorter.status is Status.CONVERGED and shorter.steps > plain.steps
     for probe, u in plain.probes.items():
-        assert np.abs(halved.probes[probe] - u).max() < 2e-3 * np.abs(plain.probes["P4"]).max()
+        assert np.abs(shorter.probes[probe] - u).max() < 2e-3 * np.abs(plain.probes["P4"]).max()
 
 
 @pytest.fixture(scope="module")

@@ -84,9 +84,9 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
                 along[place[~inside]] = values[~inside]
                 found[f"{'far_' * far}{name}"].append(along)
     springs_of_rims = dict(zip(RIMS_OWN, np.moveaxis(rims, -1, 0)[:, None], strict=True))
-    of = springs.of | {name: values for name, values in springs_of_rims.items() if values.any()}
+    rims_of = {name: tuple(values) for name, values in springs_of_rims.items() if values.any()}
     edges = {name: either(*pair) for name, pair in found.items()}
-    return replace(springs, of=of, edges=edges), list(dict.fromkeys(notes))
+    return replace(springs, of={**springs.of, **rims_of, **edges}), list(dict.fromkeys(notes))
 
 
 def _beside(rows: np.ndarray, beyond: float) -> tuple[np.ndarray, np.ndarray]:

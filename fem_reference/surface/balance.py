@@ -142,7 +142,7 @@ def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:
     )
     axes = [
         chain.line_density * (line + chain.axis_height(scene.sheet.thickness) * director)
-        for chain in scene.chains()[edge.rod.edge].values()
+        for chain in edge.rod.chains.values()
     ]
     return np.cross(np.sum(axes, axis=0), scene.gravity.last_acceleration)
 

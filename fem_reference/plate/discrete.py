@@ -33,10 +33,9 @@ from fem_reference.plate.validity import buckling_load, strained
 from fem_reference.shell.directors import projected
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.natural import natural_strains
-from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import on_boundary, require_upright
+from fem_reference.surface.mesh import require_upright
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
@@ -74,10 +73,10 @@ class DiscretePlate(DiscreteShell):
         self.section = section or section_at(self.scene, nodes)
         return PlateElements.build(nodes, self.section), natural_strains(self.scene, nodes, linear=True)
 
-    def supports_of(self, mesh: MeshQuad) -> Supports:
-        found = surface_supports.of_scene(self.scene, mesh)
+    def supports_of(self) -> Supports:
+        found = super().supports_of()
         for name in self._hard_edges:
-            found.tilt[on_boundary(mesh, name), EDGES[name].along_axis] = True
+            found.tilt[self.plan.on_boundary(name), EDGES[name].along_axis] = True
         return replace(found, director=found.director | found.tilt.all(axis=1))
 
     @property

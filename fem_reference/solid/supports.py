@@ -99,7 +99,7 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
     if clamp not in CLAMPS:
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
-    line = hold_bases(supports.of_scene(scene, columns.plan.mesh), rods)
+    line = hold_bases(supports.of_scene(scene, columns.plan), rods)
     kinds, edges = named(scene.supports), {}
     none, by_mean = (
         np.zeros(columns.positions.shape, dtype=bool),

@@ -26,7 +26,7 @@ from fem_reference.surface.biquadratic import AT_GAUSS, THREE, THREE_WEIGHTS, ar
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
-from fem_reference.surface.mesh import Plan, elements_in, facets_on
+from fem_reference.surface.mesh import Plan, facets_on
 from sheetbench.answers.balance import Balance, dead_force
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene
 from sheetbench.scenes.objects.loads import AreaLoad
@@ -170,7 +170,7 @@ def _first_moment(payload: Mass, surface: Surface) -> np.ndarray:
 def _area(where: Shape | None, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
     """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements in a shape, or of all."""
     plan = surface.plan
-    on = plan.elements[elements_in(where, plan.nodes, plan.elements)]
+    on = plan.elements[plan.within(where)]
     return areas(plan.nodes[on]), AT_GAUSS[0] @ surface.position[on]
 
 
@@ -178,7 +178,7 @@ def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.nda
     """Force [m²] and moment [m³] of a unit pressure; with the sheet to its right, the rim of what is pressed
     runs clockwise."""
     plan, mesh = surface.plan, surface.plan.mesh
-    inside = np.isin(mesh.f2t, elements_in(where, plan.nodes, plan.elements))
+    inside = np.isin(mesh.f2t, plan.within(where))
     facets = np.flatnonzero(inside.sum(axis=0) == 1)
     rim = surface.position[Line.along(plan, facets, np.where(inside[0], *mesh.f2t)[facets]).nodes]
     at, slope = _VALUE @ rim, _SLOPE @ rim

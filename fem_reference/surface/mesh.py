@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from skfem import Dofs, ElementQuad2, MeshQuad
+from skfem import MeshQuad, MeshQuad2
 
+from fem_reference.surface.alike import mesh_of_cells
 from fem_reference.surface.borders import Borders, borders_of, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
@@ -91,33 +92,28 @@ class Plan:
         """Plan positions of the elements' nodes (m, 9, 2) [m]."""
         return self.nodes[self.elements]
 
+    def within(self, shape: Shape | None) -> np.ndarray:
+        """The elements (k,) in a shape, whose borders lie on their sides, or all."""
+        middles = self.nodes[self.elements[:, 8]]
+        return np.arange(len(middles)) if shape is None else np.flatnonzero(shape.contains(middles))
 
-def nodes_of(mesh: MeshQuad) -> tuple[np.ndarray, np.ndarray]:
-    """Plan positions (n, 2) [m] of a mesh's biquadratic nodes, corners first, then mid-sides and centres, and
-    the nodes of every element (m, 9). Neither may be changed."""
-    return _nodes(type(mesh), mesh.doflocs, mesh.t)
+    def on_boundary(self, name: str) -> np.ndarray:
+        """The nodes (k,) of a boundary, in order."""
+        facets = self.mesh.boundaries[name]
+        return np.unique(np.concatenate([self.mesh.facets[:, facets].ravel(), self.mesh.nvertices + facets]))
 
 
 def plan_of(mesh: MeshQuad) -> Plan:
-    """A mesh with its biquadratic nodes."""
-    nodes, elements = nodes_of(mesh)
-    return Plan(mesh, elements, nodes)
+    """A mesh with its biquadratic nodes, corners first, then mid-sides and centres; not to be changed."""
+    return Plan(mesh, *_nodes(type(mesh), mesh.doflocs, mesh.t))
 
 
 @kept(last=8, most=1 << 18)
 def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    mesh, element = kind(places, elements), ElementQuad2()
-    numbers = Dofs(mesh, element)
-    nodes = np.empty((numbers.N, 2))
-    for of_elements, at in zip(numbers.element_dofs, mesh.mapping().F(element.doflocs.T).T, strict=True):
-        nodes[of_elements] = at
-    return nodes, np.ascontiguousarray(numbers.element_dofs.T)  # of one layout: kernels are compiled for it
-
-
-def on_boundary(mesh: MeshQuad, name: str) -> np.ndarray:
-    """The biquadratic nodes (k,) of a boundary, in order."""
-    facets = mesh.boundaries[name]
-    return np.unique(np.concatenate([mesh.facets[:, facets].ravel(), mesh.nvertices + facets]))
+    mesh = kind(places, elements)
+    curved = mesh if kind is MeshQuad2 else MeshQuad2.from_mesh(mesh)
+    # of one layout: kernels are compiled for it
+    return np.ascontiguousarray(curved.dofs.element_dofs.T), np.ascontiguousarray(curved.doflocs.T)
 
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
@@ -152,7 +148,7 @@ def _own(sheet: Sheet, counts: tuple[int, int]) -> MeshQuad | None:
     points, quads = sheet.mesh.arrays
     for _ in range(cuts):
         points, quads = divided(points, [quads])
-    return MeshQuad(np.ascontiguousarray(points.T), np.ascontiguousarray(quads.T))
+    return mesh_of_cells(points, quads)
 
 
 def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
@@ -250,14 +246,6 @@ def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
 
 def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda x: np.isclose(x[axis], position, rtol=1e-9, atol=1e-12)
-
-
-def elements_in(shape: Shape | None, nodes: np.ndarray, elements: np.ndarray) -> np.ndarray:
-    """The elements (k,) in a shape, whose borders lie on their sides, or all; nodes (n, 2) [m], elements
-    (m, 9)."""
-    return (
-        np.arange(len(elements)) if shape is None else np.flatnonzero(shape.contains(nodes[elements[:, 8]]))
-    )
 
 
 def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:

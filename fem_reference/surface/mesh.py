@@ -27,7 +27,7 @@ from sheetbench.scenes.objects.plan_mesh import divided
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
 
 if TYPE_CHECKING:
-    from shapely.geometry.base import BaseGeometry
+    pass
 
 Elements = int | tuple[int, int]
 
@@ -133,7 +133,12 @@ def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float
     borders = borders_of(scene)
     if borders is None or borders.along_axes:
         mesh = _tensor(*lines_of(scene, counts, graded, reach), *lengths)
-        return _with_edges(_within(mesh, borders.region), lengths) if borders and scene.pierced else mesh
+        if borders is None or not scene.pierced:
+            return mesh
+        import shapely
+
+        inside = shapely.contains_xy(borders.region, *mesh.p[:, mesh.t].mean(axis=1))
+        return _with_edges(mesh.restrict(np.flatnonzero(inside)), lengths)
     spacing = lengths[0] / counts[0], lengths[1] / counts[1]
     return _with_edges(quadrilaterals(*borders, spacing, graded), lengths)
 
@@ -200,13 +205,6 @@ def _with_rows(lines: np.ndarray) -> np.ndarray:
     return np.concatenate(
         [lines[:1], lines[0] + first * rows, lines[1:-1], lines[-1] - last * rows[::-1], lines[-1:]]
     )
-
-
-def _within(mesh: MeshQuad, region: BaseGeometry) -> MeshQuad:
-    """The elements of a mesh whose middles lie in a region."""
-    import shapely
-
-    return mesh.restrict(np.flatnonzero(shapely.contains_xy(region, *mesh.p[:, mesh.t].mean(axis=1))))
 
 
 def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:

@@ -143,25 +143,25 @@ def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarra
 
 def _forms(offset: float) -> np.ndarray:
     """H (15, 9, 9) with ½ Qᵀ H Q the covariant strains."""
-    forms = np.zeros((STRAINS, 9, 9))
-    for point in range(2):
-        value, slope = _VALUE[point], _SLOPE[point]
-        none = np.zeros(3)
-        axis_slope = np.concatenate([slope, offset * slope, none])
-        director, director_slope = np.concatenate([none, value, none]), np.concatenate([none, slope, none])
-        aside, aside_slope = np.concatenate([none, none, value]), np.concatenate([none, none, slope])
-        forms[AXIAL.start + point] = np.outer(axis_slope, axis_slope)
-        for part, a, b in (
-            (SHEAR, axis_slope, director),
-            (ASIDE, axis_slope, aside),
-            (NORMAL, -axis_slope, director_slope),
-            (INPLANE, -axis_slope, aside_slope),
-            (TWIST, director_slope, aside),
-        ):
-            forms[part.start + point] = np.outer(a, b) + np.outer(b, a)
-    for node in range(3):
-        forms[SQUARE.start + node, 3 + node, 6 + node] = forms[SQUARE.start + node, 6 + node, 3 + node] = 1.0
-    return forms
+    none, node = np.zeros((2, 3)), np.eye(9)
+    axis, director, bent, aside, bent_aside = (
+        np.concatenate(parts, axis=1)
+        for parts in (
+            (_SLOPE, offset * _SLOPE, none),  # r'
+            (none, _VALUE, none),
+            (none, _SLOPE, none),
+            (none, none, _VALUE),
+            (none, none, _SLOPE),
+        )
+    )
+    pairs = [(0.5 * axis, axis), (axis, director), (axis, aside), (-axis, bent), (-axis, bent_aside)]
+    pairs += [(bent, aside), (node[3:6], node[6:])]
+    return np.concatenate([products(a, b) for a, b in pairs])
+
+
+def products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return H (n, k, k) with ½ Qᵀ H Q = (a Q) · (b Q), of the rows of a and b (n, k)."""
+    return np.einsum("ni,nj->nij", a, b) + np.einsum("ni,nj->nij", b, a)
 
 
 def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: np.ndarray) -> np.ndarray:

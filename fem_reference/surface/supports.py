@@ -18,7 +18,7 @@ import numpy as np
 from fem_reference.surface.mesh import Plan
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
-from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted
+from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
 from sheetbench.scenes.objects.shapes import COINCIDENT
 from sheetbench.scenes.objects.supports import Point, named, place
 from sheetbench.scenes.objects.tables import PiecewiseCurve
@@ -35,12 +35,6 @@ class Driven:
     points: np.ndarray
     edge: DrivenEdge
     part: np.ndarray
-
-    def placed(self, load_factor: float, time: float | None = None) -> Placed:
-        """Where the nodes are at a load factor, of a moved edge at a time [s] or in its last pose."""
-        if isinstance(self.edge, MovedEdge):
-            return self.edge.placed(self.points, load_factor, time)
-        return self.edge.placed(self.points, load_factor)
 
 
 class Moving(NamedTuple):
@@ -78,7 +72,7 @@ class Supports:
         [s]: of motions, their last samples where None."""
         out = np.zeros((2, len(self.director), 3))
         for driven in self.driven:
-            placed = driven.placed(load_factor, time)
+            placed = driven.edge.placed(driven.points, load_factor, time)
             out[0, driven.nodes], out[1, driven.nodes] = placed.displacement, placed.director
         if self.shifts:
             out[0] += (load_factor if time is None else 1.0) * self.shift(time)

@@ -182,8 +182,6 @@ class System:
         force = self.assembly.at(time=time).average_force(start.u, end)
         if self.maxwell is not None and start.memory is not None:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
-        if self.coupling is not None:
-            self.coupling.add_average_force(start.u, end, self.drive(time), force)
         since, drive = self.ends(start, time)
         for item in self.items:
             item.add_force((end, drive), force, since)
@@ -210,8 +208,7 @@ class System:
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
         share, stresses = own / both if both else 0.0, None
         if self.maxwell is not None and both:
-            each = self.maxwell.stresses(u, share, stiffness / both)
-            stresses = self.assembly.all_families.arranged(each)
+            stresses = tuple(self.maxwell.stresses(u, share, stiffness / both))
         inertia = mass * self.lattice_mass + damping * self.damping.rate
         blocks = self.assembly.at(time=time).tangent(u, stresses, share, both, inertia)
         self.problem.loads.add_tangent(u, stiffness, blocks, time)

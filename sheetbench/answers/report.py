@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 from sheetbench.answers.escape import html, markdown, terminal
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Write = Callable[[Path], None]
 ROWS = 6  # of a table at a prompt
-RASTER = ("png", "pdf")
+RASTER, FILM = ("png", "pdf"), ("gif",)
 
 
 class NoPicture(Exception):
@@ -36,7 +36,8 @@ class Picture:
     """A figure of an answer, made when it is drawn.
 
     compose: "module:function", which makes the figure `of` these in a style, or raises NoPicture. name: of
-    its files, without suffixes; description: kept in the files; formats: RASTER where most of it is an image.
+    its files, without suffixes; description: kept in the files; formats: RASTER where most of it is an image,
+    FILM where `compose` writes the files itself, and knows no style.
     """
 
     name: str
@@ -58,45 +59,28 @@ class Picture:
         from sheetbench.answers.style import STYLE
 
         with rc_context(STYLE):
-            figure: Figure = _function(self.compose)(*self.of, self.style)
+            figure: Figure = resolve_name(self.compose)(*self.of, self.style)
         return figure
 
     def write(self, folder: Path) -> str | None:
         """Write the files into a folder; a sentence that says why there are none."""
+        from sheetbench.answers.style import save
+
+        paths = [folder / name for name in self.names]
         try:
-            self._draw([folder / name for name in self.names])
+            if self.formats == FILM:
+                resolve_name(self.compose)(*self.of, paths)
+            else:
+                save(self.figure(), paths, self.description)
         except NoPicture as why:
             return str(why)
         return None
 
-    def _draw(self, paths: list[Path]) -> None:
-        from sheetbench.answers.style import save
-
-        save(self.figure(), paths, self.description)
-
     def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
         """Return the picture in each of the styles, and in its formats where it names some."""
+        if self.formats == FILM:
+            return (self,)
         return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
-
-
-@dataclass(frozen=True)
-class Film(Picture):
-    """A picture that moves: `compose` writes the files of what it is of, and it has no other style."""
-
-    formats: tuple[str, ...] = ("gif",)
-
-    def _draw(self, paths: list[Path]) -> None:
-        _function(self.compose)(*self.of, paths)
-
-    def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
-        """Return the same film."""
-        return (self,)
-
-
-def _function(name: str) -> Callable[..., Any]:
-    module, _, function = name.partition(":")
-    compose: Callable[..., Any] = getattr(import_module(module), function)
-    return compose
 
 
 @dataclass(frozen=True, repr=False)
@@ -191,20 +175,13 @@ class Report:
         return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
 
     def words(self) -> dict[str, Any]:
-        """Return what the files do not say by themselves, ready for JSON: words, headings of tables,
-        pictures.
-
-        Tables without a file of their own come with their rows.
-        """
+        """Return what the files do not say by themselves, ready for JSON: words, headings of tables (with
+        the rows of those that have no file), pictures."""
+        own = ("title", "subtitle", "lead", "result", "notes", "complaints")
         return {
-            "title": self.title,
-            "subtitle": self.subtitle,
-            "lead": self.lead,
-            "result": self.result,
+            **{name: getattr(self, name) for name in own},
             "document": f"{self.name}.json",
             "tables": [table.words() for table in self.tables],
-            "notes": list(self.notes),
-            "complaints": list(self.complaints),
             "pictures": [list(picture.names) for picture in self.pictures],
             "met": self.succeeded,
         }

@@ -28,8 +28,8 @@ def point_masses(scene: Scene, lattice: Lattice) -> np.ndarray:
         if payload.at is not None:
             out += payload.mass * _shares(lattice, np.array(payload.at))
             continue
-        area = areas_of_masses(scene, lattice, payload.where).ravel()
-        out += payload.mass * np.repeat(area / area.sum(), lattice.grid[2]) / lattice.grid[2]
+        area = areas_of_masses(scene, lattice, payload.where)
+        out += payload.mass * area / area.sum()
     return out
 
 
@@ -53,5 +53,4 @@ def pairs_of(blocks: sp.bsr_array) -> tuple[np.ndarray, np.ndarray]:
 
 def _shares(lattice: Lattice, at: np.ndarray) -> np.ndarray:
     """What of a force at a plan point (2,) [m] every mass takes, (n,)."""
-    along_z = MidSurface(lattice, at, order=1).shared(np.array([[0.0, 0.0, 1.0]]), lattice.mass_count)
-    return np.asarray(along_z[:, 2])
+    return MidSurface(lattice, at, order=1).shared(np.ones((1, 1)), lattice.mass_count)[:, 0]

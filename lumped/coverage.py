@@ -8,6 +8,7 @@ import numpy as np
 
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
+from lumped.mid_surface import MidSurface
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
 from sheetbench.scenes.meaning.composition import boxes_of, shares_of
@@ -23,9 +24,7 @@ HELD = 0.4  # of a mass's surroundings, of which a support that takes more holds
 
 def part_of(scene: Scene, shape: Shape | None) -> Geometry:
     """The part of the sheet [m] that lies in a shape, all of it for None."""
-    if shape is None:
-        return scene.region
-    return scene.region.intersection(shape.area)
+    return scene.region if shape is None else scene.region.intersection(shape.area)
 
 
 def cell_shares(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarray:
@@ -37,24 +36,17 @@ def cell_shares(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarr
 
 
 def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarray:
-    """The area [m²] of the sheet in a shape, (ny, nx): each cell's part of it shared bilinearly among the
-    columns of masses around its middle."""
+    """The area [m²] of the sheet in a shape, (n,): each cell's part of it as a force in its middle is shared
+    among the masses."""
     import shapely
 
-    part, (x, y) = part_of(scene, shape), lattice.lines
-    shapely.prepare(part)
-    boxes = boxes_of(x.at, y.at)
-    rows, columns = np.nonzero(shapely.intersects(part, boxes))
-    pieces = shapely.intersection(part, boxes[rows, columns])
-    middle, area = shapely.centroid(pieces), shapely.area(pieces)
-    rows, columns, middle, area = (each[area > 0.0] for each in (rows, columns, middle, area))
-    over = (shapely.get_x(middle) - x.at[columns]) / x.widths[columns]
-    up = (shapely.get_y(middle) - y.at[rows]) / y.widths[rows]
-    out = np.zeros((len(y.at), len(x.at)))
-    for j, by_row in ((0, 1.0 - up), (1, up)):
-        for i, by_column in ((0, 1.0 - over), (1, over)):
-            np.add.at(out, (rows + j, columns + i), area * by_row * by_column)
-    return out
+    part, places = part_of(scene, shape), [lines.at for lines in lattice.lines]
+    share = shares_of(part, *places)
+    pieces = shapely.intersection(part, boxes_of(*places)[share > 0.0])
+    middle = shapely.get_coordinates(shapely.centroid(pieces))
+    return MidSurface(lattice, middle, order=1).shared(shapely.area(pieces)[:, None], lattice.mass_count)[
+        :, 0
+    ]
 
 
 def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
@@ -158,16 +150,15 @@ def held_columns(
         return np.asarray(columns[np.any(near, axis=0)])
     columns = lattice.columns()
     inside = held_crossings(lattice.lines, shape)
+    grid = "x".join(map(str, lattice.grid[:2]))
     if isinstance(support, Point) and not inside.any():
         where = ", ".join(f"{at:g}" for at in support.at)
-        grid = "x".join(map(str, lattice.grid[:2]))
         raise BadInput(
             f"{name}.at = [{where}]: no mass of a grid of {grid} is there; take a grid with lines through it "
             "(lumped.calibrate: grading), or a point that has one"
         )
     inside[np.isin(columns[:, :, 0], lattice.absent_masses)] = False
     if not inside.any():
-        grid = "x".join(map(str, lattice.grid[:2]))
         raise BadInput(
             f"{name}.where: {shape.in_words()}: it holds no mass of a grid of {grid}; take a finer one"
         )

@@ -58,13 +58,10 @@ class Lines:
         count = min(count, len(self.at))
         first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(self.at) - count)
         chosen = first[:, None] + np.arange(count)
-        places = self.at[chosen]
-        weights = np.ones_like(places)
-        for line in range(count):
-            for other in range(count):
-                if other != line:
-                    weights[:, line] *= (x - places[:, other]) / (places[:, line] - places[:, other])
-        return chosen, weights
+        places, own = self.at[chosen], np.eye(count, dtype=bool)
+        apart = np.where(own, 1.0, places[:, :, None] - places[:, None, :])
+        to_point = np.where(own, 1.0, x[:, None, None] - places[:, None, :])
+        return chosen, np.asarray((to_point / apart).prod(axis=2))
 
 
 def grid_lines(sheet: Sheet, grid: Grid, grading: Graded = 0.0) -> tuple[Lines, Lines]:

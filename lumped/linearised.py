@@ -220,22 +220,22 @@ def _inputs(
 
 def _at_last(scene: Scene) -> Scene:
     """The scene with the last values of its chains' commands."""
-    actuators = []
-    for actuator in scene.actuators:
-        if isinstance(actuator, Chain) and hasattr(actuator.curvature, "value"):
-            actuator = actuator.replace(curvature=actuator.curvature.value[-1])
-        actuators.append(actuator)
-    return scene.replace(actuators=tuple(actuators))
+    at_last = [
+        a.replace(curvature=a.curvature.value[-1])
+        if isinstance(a, Chain) and hasattr(a.curvature, "value")
+        else a
+        for a in scene.actuators
+    ]
+    return scene.replace(actuators=tuple(at_last))
 
 
 def _loads(scene: Scene) -> list[tuple[str, Scene]]:
     """Every load alone, by name."""
     bare = scene.replace(gravity=None, loads=())
     found = [(f"load {n}", bare.replace(loads=(load,))) for n, load in enumerate(scene.loads, start=1)]
-    return [
-        *found,
-        *([("gravity", bare.replace(gravity=scene.gravity))] if scene.gravity is not None else []),
-    ]
+    if scene.gravity is not None:
+        found.append(("gravity", bare.replace(gravity=scene.gravity)))
+    return found
 
 
 def _bent(scene: Scene) -> list[str]:

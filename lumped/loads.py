@@ -101,10 +101,8 @@ class Loads:
                     part.columns = np.append(part.columns, np.stack([edge, *around], axis=1), axis=0)
                     part.moments = np.append(part.moments, turn * length * load.moment_per_length)
             elif isinstance(load, AreaLoad):
-                area = areas_of_masses(scene, lattice, load.where).ravel() / lattice.grid[2]
-                part.dead[lattice.columns().reshape(len(area), -1)] += area[:, None, None] * np.array(
-                    load.force_per_area
-                )
+                area = areas_of_masses(scene, lattice, load.where)
+                part.dead[: len(area)] += area[:, None] * np.array(load.force_per_area)
             elif isinstance(load, Pressure):
                 part.pressure += load.value * cell_shares(scene, lattice, load.where)
         last = [(part.factor(None), part) for part in self._parts.values()]

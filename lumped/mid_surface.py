@@ -55,10 +55,10 @@ class MidSurface:
         return sp.csr_array(sp.coo_array(entries, shape=(3 * points, 3 * size)))
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
-        """The transpose: values (n, 3) at the points shared among the masses, (size, 3)."""
-        out = np.zeros((size, 3))
-        parts = (self._share[..., None] * np.asarray(values, float)[:, None, :])[:, :, None, :]
-        np.add.at(out, self._nodes, np.broadcast_to(parts, (*self._nodes.shape, 3)))
+        """The transpose: values (n, k) at the points shared among the masses, (size, k)."""
+        out = np.zeros((size, values.shape[1]))
+        parts = (self._share[..., None] * values[:, None, :])[:, :, None, :]
+        np.add.at(out, self._nodes, np.broadcast_to(parts, (*self._nodes.shape, values.shape[1])))
         return out
 
 
@@ -71,7 +71,9 @@ def _nodes_and_shares(lattice: Lattice, points: np.ndarray, order: int) -> tuple
     if outside.any():
         raise BadInput(f"point {points[outside][0].tolist()} m is off the sheet")
     if lattice.per_area is not None:
-        return _near_rims(lattice, lattice.per_area, points, order)
+        own = _own_cells(lattice, np.pad(lattice.per_area, 1), points)
+        if order > 1:
+            return _near_rims(lattice, lattice.per_area, own, points)
     ends = [lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)]
     (i, x), (j, y) = ends
     columns = lattice.columns()[j[:, :, None], i[:, None, :]].reshape(len(points), -1, lattice.grid[2])
@@ -79,12 +81,11 @@ def _nodes_and_shares(lattice: Lattice, points: np.ndarray, order: int) -> tuple
 
 
 def _near_rims(
-    lattice: Lattice, per_area: np.ndarray, points: np.ndarray, order: int
+    lattice: Lattice, per_area: np.ndarray, own: np.ndarray, points: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Those on a lattice with absent cells: of the lines around each point's cell."""
+    """Those on a lattice with absent cells, of points in the cells `own` (n, 2): of the lines around them."""
     wide, around, (x, y) = np.pad(per_area, 1), _around(per_area), lattice.lines
-    own = np.array([_own_cell(lattice, wide, point) for point in points]).reshape(-1, 2)
-    reach, connected = (0, 0) if order == 1 else (REACH + 1, REACH)
+    reach = REACH + 1
 
     def places(at: np.ndarray, row: int, column: int) -> np.ndarray:
         """Plan points (n, 2) [m] from the middle of a cell in its sides."""
@@ -95,49 +96,50 @@ def _near_rims(
     def nearest(row: int, column: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Rows and columns of the lines that cross at the masses (k,) of a cell and those connected with it,
         and the map from their values to the terms of the polynomial nearest to them, (terms, k)."""
-        rows, over = _corners(per_area, row, column, connected)
+        rows, over = _corners(per_area, row, column)
         at = places(np.stack([x.at[over], y.at[rows]], axis=1), row, column)
         near = np.sqrt(around[rows, over]) / (0.5 + (at**2).sum(axis=1))
-        return rows, over, np.linalg.pinv(_terms(at, order) * near[:, None], rcond=1e-9) * near
+        return rows, over, np.linalg.pinv(_terms(at) * near[:, None], rcond=1e-9) * near
 
     lines = np.arange(-reach, reach + 2)
     share = np.zeros((len(points), len(lines), len(lines)))
     for row, column in set(map(tuple, own.tolist())):
         which = np.flatnonzero((own == (row, column)).all(axis=1))
         at = places(points[which], row, column)
-        beside = 0.0 * at if order == 1 else at
-        blend = np.stack([np.maximum(0.0, -beside), 1.0 - np.abs(beside), np.maximum(0.0, beside)])
+        blend = np.stack([np.maximum(0.0, -at), 1.0 - np.abs(at), np.maximum(0.0, at)])
         weight = blend[:, None, :, 1] * blend[None, :, :, 0]
         weight *= wide[row : row + 3, column : column + 3, None]
         weight /= weight.sum(axis=(0, 1))
         for j, i in np.argwhere(weight.any(axis=2)).tolist():
             rows, over, fit = nearest(row + j - 1, column + i - 1)
-            found = _terms(places(points[which], row + j - 1, column + i - 1), order) @ fit
+            found = _terms(places(points[which], row + j - 1, column + i - 1)) @ fit
             share[which[:, None], rows - row + reach, over - column + reach] += weight[j, i, :, None] * found
     rows, over = (np.clip(own[:, axis, None] + lines, 0, per_area.shape[axis]) for axis in (0, 1))
     nodes = lattice.columns()[rows[:, :, None], over[:, None, :]].reshape(len(points), -1, lattice.grid[2])
     return nodes, share.reshape(len(points), -1) / lattice.grid[2]
 
 
-def _own_cell(lattice: Lattice, wide: np.ndarray, point: np.ndarray) -> tuple[int, int]:
-    """Row and column of the cell present in which, or on whose rim, a plan point [m] lies; wide: what the
-    cells have, and nothing beyond. Raises BadInput where there is none."""
-    (column, x), (row, y) = (lines.index(c) for c, lines in zip(point, lattice.lines, strict=True))
-    over, up = ((0, -1) if at < ON_LINE else (0, 1) if at > 1.0 - ON_LINE else (0,) for at in (x, y))
-    for j, i in product(up, over):
-        if wide[row + j + 1, column + i + 1] > 0.0:
-            return int(row + j), int(column + i)
-    raise BadInput(f"point {point.tolist()} m: there is no sheet, by its outline or a cutout")
+def _own_cells(lattice: Lattice, wide: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Rows and columns (n, 2) of the cells present in which, or on whose rims, plan points (n, 2) [m] lie;
+    wide: what the cells have, and nothing beyond. Raises BadInput where there is none."""
+    (column, x), (row, y) = (lines.index(points[:, axis]) for axis, lines in enumerate(lattice.lines))
+    over, up = (np.where(at < ON_LINE, -1, np.where(at > 1.0 - ON_LINE, 1, 0)) for at in (x, y))
+    beside = [np.stack([row + j * up, column + i * over], axis=1) for j, i in product((0, 1), (0, 1))]
+    there = np.array([wide[tuple(cell.T + 1)] > 0.0 for cell in beside])
+    if not there.any(axis=0).all():
+        off = points[~there.any(axis=0)][0].tolist()
+        raise BadInput(f"point {off} m: there is no sheet, by its outline or a cutout")
+    return np.stack(beside)[there.argmax(axis=0), np.arange(len(points))]
 
 
-def _corners(per_area: np.ndarray, row: int, column: int, reach: int) -> tuple[np.ndarray, np.ndarray]:
+def _corners(per_area: np.ndarray, row: int, column: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows and columns of the lines that cross at the corners of a cell, and of those that can be reached
-    from it over so many sides."""
+    from it over REACH sides."""
     from scipy.ndimage import binary_dilation
 
     cell = np.zeros(per_area.shape, dtype=bool)
     cell[row, column] = True
-    found = binary_dilation(cell, iterations=reach, mask=per_area > 0.0) if reach else cell
+    found = binary_dilation(cell, iterations=REACH, mask=per_area > 0.0)
     rows, over = np.nonzero(_around(found))
     return rows, over
 
@@ -148,8 +150,7 @@ def _around(cells: np.ndarray) -> np.ndarray:
     return np.asarray(0.25 * (wide[1:, 1:] + wide[1:, :-1] + wide[:-1, 1:] + wide[:-1, :-1]))
 
 
-def _terms(at: np.ndarray, order: int) -> np.ndarray:
-    """The terms of a bilinear surface (order 1), or of a quadric, at places (n, 2)."""
+def _terms(at: np.ndarray) -> np.ndarray:
+    """The terms of a quadric at places (n, 2)."""
     x, y = at.T
-    terms = [np.ones_like(x), x, y, x * y] + ([] if order == 1 else [x * x, y * y])
-    return np.stack(terms, axis=1)
+    return np.stack([np.ones_like(x), x, y, x * y, x * x, y * y], axis=1)

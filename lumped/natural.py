@@ -41,7 +41,7 @@ def with_natural(
         if isinstance(family, Links):
             sides, stiffness = np.stack(2 * [family.offset[:, None]]), family.stiffness  # (2, m, p, 3)
             cells, shares = _cells_of(lattice, family)
-        elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and not family.upright:
+        elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and len(family):
             sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
             cells = np.arange(lattice.cell_areas.size)[lattice.kept]
             cells = np.tile(cells, len(family) // len(cells))[:, None]

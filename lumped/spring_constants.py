@@ -3,7 +3,7 @@
 `Springs.read` makes arrays of a table (`scenes.objects.springs`), `table` a table of them. A constant has
 the shape (directions, rows, columns): one direction, or x and y, of Habibi et al.'s per-direction law x, y
 and z; one row and column where all cells are alike, else rows of cells from y0 to y1, each from x0 to x1.
-Those of edges have an array along x0 and one along y0, or one number for both.
+Those of edges are columns along x0 and rows along y0, or one number for both.
 
 By name a constant that every cell has its own of goes by its mean over the cells. Given another mean, all its
 values scale; those that may have either sign shift.
@@ -63,64 +63,58 @@ MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
 SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN, "face_coupling")
 ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
 REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
-NONE = np.zeros((1, 1, 1))
+NO_STIFFNESS = {*LATTICE, "layer_distance"}
+Parts = tuple[np.ndarray, ...]
+NONE: Parts = (np.zeros((1, 1)),)
 
 
 @dataclass(frozen=True, eq=False)
 class Springs:
-    """of: the constants [N/m] that are not all 0, (directions, rows, columns); edges: those of edges, along
-    x0 (rows,) and along y0 (columns,), or one for both (1,); layer_distance [m], 0 of dampers."""
+    """of: the constants [N/m] that are not all 0, one or one a direction, each (rows, columns), and those of
+    edges, one for both or along x0 (rows, 1) and along y0 (1, columns); layer_distance [m], 0 of dampers."""
 
-    of: dict[str, np.ndarray]
-    edges: dict[str, tuple[np.ndarray, ...]]
+    of: dict[str, Parts]
     layer_distance: float = 0.0
 
     @classmethod
     def made(cls, layer_distance: float, **constants: Any) -> Springs:
         """Of numbers, (rows, columns) or (directions, rows, columns)."""
-        arrays = {name: np.asarray(value, dtype=float) for name, value in constants.items()}
-        of = {name: a.reshape((1,) * (3 - a.ndim) + a.shape) for name, a in arrays.items() if a.any()}
-        return cls(of, {}, float(layer_distance))
+        of = {k: tuple(np.array(value, float, ndmin=3)) for k, value in constants.items() if np.any(value)}
+        return cls(of, float(layer_distance))
 
     @classmethod
     def read(cls, table: SpringSet | DamperSet) -> Springs:
         """Of a table."""
-        of: dict[str, np.ndarray] = {}
-        edges: dict[str, tuple[np.ndarray, ...]] = {}
+        of: dict[str, Parts] = {}
         for name, value in table:
-            if value is None or name in LATTICE or (value == 0.0 and not name.startswith("far")):
+            if value is None or name in NO_STIFFNESS or (value == 0.0 and not name.startswith("far")):
                 continue
-            parts = [part for _, part in _parts(value)]
+            parts = {axis: np.array(part, dtype=float, ndmin=2) for axis, part in _parts(value)}
             if name in EDGES_OWN:
-                edges[name] = tuple(np.atleast_1d(np.array(part, dtype=float)) for part in parts)
-            elif name != "layer_distance" and any(map(np.any, parts)):
-                arrays = [np.atleast_2d(np.array(part, dtype=float)) for part in parts]
-                of[name] = np.stack(np.broadcast_arrays(*arrays))
-        return cls(of, edges, float(getattr(table, "layer_distance", 0.0)))
+                of[name] = tuple(part.T if axis == "x" else part for axis, part in parts.items())
+            elif any(map(np.any, parts.values())):
+                of[name] = tuple(np.broadcast_arrays(*parts.values()))
+        return cls(of, float(getattr(table, "layer_distance", 0.0)))
 
     def table(self) -> SpringSet:
         """As the table that is written. Raises SceneError for what it cannot hold."""
-        every = np.concatenate([NONE[0, 0], *(array.ravel() for array in self.of.values())])
-        links = [array.ravel() for name, array in self.of.items() if name not in ANY_SIGN]
-        known = np.abs(every).max() <= LARGEST and np.concatenate([NONE[0, 0], *links]).min() >= 0.0
+        inside = {name: self[name] for name in self.of if name not in EDGES_OWN}
+        every = np.concatenate([[0.0], *(array.ravel() for array in inside.values())])
+        links = [array.ravel() for name, array in inside.items() if name not in ANY_SIGN]
+        known = np.abs(every).max() <= LARGEST and np.concatenate([[0.0], *links]).min() >= 0.0
         pair, whole = (
             (PerDirection.model_construct, SpringSet.model_construct) if known else (PerDirection, SpringSet)
         )
         written: dict[str, Any] = dict.fromkeys(REQUIRED, 0.0)
-        for name, array in self.of.items():
-            parts = [_written(part) for part in array]
-            written[name] = pair(**dict(zip("xyz", parts, strict=False))) if len(parts) > 1 else parts[0]
-        for name, edges in self.edges.items():
-            lists = len(edges) > 1 and self.varies
-            ends = [
-                tuple(part.tolist()) if lists and part.size == cells else float(part[0])
-                for part, cells in zip(edges, self.along_edges, strict=False)
-            ]
-            written[name] = Either.model_construct(x=ends[0], y=ends[1]) if len(ends) > 1 else ends[0]
+        for name, parts in self.of.items():
+            of_edges = name in EDGES_OWN
+            ends = [_written(part.ravel() if of_edges else part) for part in parts]
+            both = Either.model_construct if of_edges else pair
+            written[name] = both(**dict(zip("xyz", ends, strict=False))) if len(ends) > 1 else ends[0]
         return whole(**written, layer_distance=self.layer_distance)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self.of.get(name, NONE)
+        return np.asarray(self.of.get(name, NONE))
 
     def along(self, name: str, axis: int) -> np.ndarray:
         """A constant of the springs along x, y or z (0, 1, 2), (rows, columns)."""
@@ -151,19 +145,14 @@ class Springs:
     @cached_property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of cells that differ, 1 and 1 where they are alike."""
-        rows, columns = np.broadcast_shapes((1, 1), *(array.shape[1:] for array in self.of.values()))
+        parts = (self.of[name][0].shape for name in self.of if name not in EDGES_OWN)
+        rows, columns = np.broadcast_shapes((1, 1), *parts)
         return rows, columns
-
-    @property
-    def along_edges(self) -> tuple[int, ...]:
-        """How many cells there are along x0 and along y0, 1 and 1 where they are alike."""
-        lists = [pair for pair in self.edges.values() if len(pair) > 1]
-        return tuple(max([self.shape[k], *(pair[k].size for pair in lists)]) for k in (0, 1))
 
     @property
     def varies(self) -> bool:
         """Whether any constant is given cell by cell."""
-        return self.shape != (1, 1) or any(along.size > 1 for pair in self.edges.values() for along in pair)
+        return any(part.size > 1 for parts in self.of.values() for part in parts)
 
     @property
     def rubber(self) -> bool:
@@ -172,14 +161,14 @@ class Springs:
 
     def scaled(self, factor: np.ndarray) -> Springs:
         """So many times as stiff, (rows, columns); without those of edges."""
-        times = {name: np.ones_like(factor) if name == "gent_limit" else factor for name in self.of}
-        return replace(self, of={name: array * times[name] for name, array in self.of.items()}, edges={})
+        times = {name: 1.0 if name == "gent_limit" else factor for name in self.of if name not in EDGES_OWN}
+        return replace(self, of={name: tuple(self[name] * by) for name, by in times.items()})
 
     def names(self) -> list[str]:
         """Names of the constants that are not zero, one a direction where directions differ."""
         found: list[str] = []
         for name in CONSTANTS:
-            parts = self.edges.get(name) or [*self.of.get(name, ())]
+            parts = [*self.of.get(name, ())]
             if len(parts) > 1:
                 found += [f"{name}_{axis}" for axis, part in zip("xy", parts, strict=False) if part.any()]
             elif parts and parts[0].any():
@@ -191,28 +180,23 @@ class Springs:
         if name == "layer_distance":
             return self.layer_distance
         family, which = self._named(name)
-        return float(np.mean([part.mean() for part in (self.edges.get(family) or self[family])[which]]))
+        return float(np.mean([part.mean() for part in self.of.get(family, NONE)[which]]))
 
     def changed(self, name: str, value: float) -> Springs:
         """The springs with one constant (or layer_distance) changed. Raises BadInput for an unknown name."""
         if name == "layer_distance":
             return replace(self, layer_distance=value)
         (family, which), was = self._named(name), self.value(name)
-        if family in EDGES_OWN:
-            pair = [*self.edges.get(family, (np.zeros(1),))]
-            pair[which] = [part + (value - was) for part in pair[which]]
-            return replace(self, edges={**self.edges, family: tuple(pair)})
-        array = self[family].copy()
-        shift = family in SIGNED or was == 0.0
-        array[which] = array[which] + (value - was) if shift else array[which] * (value / was)
-        return replace(self, of={**self.of, family: array})
+        parts, shift = [*self.of.get(family, NONE)], family in SIGNED or was == 0.0
+        parts[which] = [part + (value - was) if shift else part * (value / was) for part in parts[which]]
+        return replace(self, of={**self.of, family: tuple(parts)})
 
     def _named(self, name: str) -> tuple[str, slice]:
         """The constant, and which of its directions are meant."""
         if name in CONSTANTS:
             return name, slice(None)
         family, _, direction = name.rpartition("_")
-        if len(self.edges.get(family) or self[family]) == 1 or direction not in ("x", "y"):
+        if len(self.of.get(family, NONE)) == 1 or direction not in ("x", "y"):
             raise BadInput(f"parameter {name!r}: unknown, or without a value of its own in these springs")
         return family, slice(0, 1) if direction == "x" else slice(1, 2)
 
@@ -226,10 +210,10 @@ def _parts(value: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _written(cells: np.ndarray) -> Any:
-    """A number, or rows of them."""
+    """A number, or a row or rows of them."""
     if cells.size == 1 or not cells.any():
-        return float(cells[0, 0])
-    return tuple(map(tuple, cells.tolist()))
+        return float(cells.flat[0])
+    return tuple(map(tuple, cells.tolist())) if cells.ndim > 1 else tuple(cells.tolist())
 
 
 def by_direction(x: Any, y: Any, alike: float = 1e-12) -> np.ndarray:
@@ -240,12 +224,12 @@ def by_direction(x: Any, y: Any, alike: float = 1e-12) -> np.ndarray:
     return x[None] if (x == y).all() else np.stack([x, y])
 
 
-def either(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+def either(x: np.ndarray, y: np.ndarray) -> Parts:
     """Constants of edges along x0 and y0, of either sign: one number where all are alike."""
     if not (x.any() or y.any()):
-        return (np.zeros(1),)
+        return NONE
     alike = x.size == y.size == 1 and abs(x[0] - y[0]) <= 1e-12 * max(abs(x[0]), abs(y[0]))
-    return (x,) if alike else (x, y)
+    return (x[:, None],) if alike else (x[:, None], y[None])
 
 
 def of_rubber(
@@ -302,8 +286,9 @@ def of_edge_cells(springs: Springs, grid: Grid, twisting: frozenset[str]) -> np.
     cells += springs.strains("rims")
 
     def of(name: str, axis: int, far: bool) -> np.ndarray:
-        pair = (far and springs.edges.get(f"far_{name}")) or springs.edges.get(name) or (np.zeros(1),)
-        return pair[min(axis, len(pair) - 1)]
+        pair = springs.of.get(name, NONE)
+        pair = springs.of.get(f"far_{name}", pair) if far else pair
+        return pair[min(axis, len(pair) - 1)].ravel()
 
     for edge in twisting:
         axis, far = EDGES[edge].normal_axis, EDGES[edge].far_end

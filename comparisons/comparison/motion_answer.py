@@ -14,7 +14,7 @@ from comparisons.sweep.limits import in_all
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.history import COMPONENTS, History
-from sheetbench.answers.report import Film, Picture, Write
+from sheetbench.answers.report import FILM, Picture, Write
 from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
@@ -127,7 +127,8 @@ class MotionComparison(Answer):
     def figures(self) -> tuple[Picture, ...]:
         drawn = Picture("motion", "comparisons.comparison.motion_figure:compose", (self,))
         moving = [*self._with_frames.values()]
-        film = Film("both", "comparisons.comparison.animation:animate", (self.scene, moving))
+        compose = "comparisons.comparison.animation:animate"
+        film = Picture("both", compose, (self.scene, moving), formats=FILM)
         return (drawn, film) if self.animate else (drawn,)
 
     def result(self) -> str:

@@ -8,7 +8,7 @@ from functools import partial
 from comparisons.comparison.frames import write_frames
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.history import History
-from sheetbench.answers.report import Film, Picture, Write
+from sheetbench.answers.report import FILM, Picture, Write
 from sheetbench.answers.table import quantity
 from sheetbench.scenes import Scene
 
@@ -29,7 +29,7 @@ class Simulation(History):
         pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
         if self.animate:
             film = "comparisons.comparison.animation:animate"
-            pictures.append(Film("animation", film, (self.scene, [self])))
+            pictures.append(Picture("animation", film, (self.scene, [self]), formats=FILM))
         return tuple(pictures)
 
     def files(self) -> dict[str, Write]:

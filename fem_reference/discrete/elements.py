@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from copy import copy
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -21,7 +21,11 @@ from fem_reference.discrete.sheet import Discrete
 from fem_reference.shell.element import weighed
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
+from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern, add_blocks
+
+if TYPE_CHECKING:
+    from fem_reference.surface.rod import BoundRods
 
 
 class DiscreteElements(Discrete):
@@ -57,6 +61,15 @@ class DiscreteElements(Discrete):
     @abstractmethod
     def onto_rods(self, shape: SheetShape) -> np.ndarray:
         """∂Q/∂(unknowns) of the rods' sides (k, 3 a, b)."""
+
+    def places(self, bound: BoundRods) -> np.ndarray:
+        """Places in the plane (M, 2) of the plan's elements and then of the rods' sides."""
+        sites = [self.plan.elements, *(rod.nodes for rod in bound.rods)]
+        return np.concatenate([self.plan.nodes[nodes].mean(axis=1) for nodes in sites])
+
+    def solver(self) -> DirectSolver:
+        """What factorises tangents."""
+        return DirectSolver(self.symmetric, lambda: self.pattern.fronts)
 
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         """Zᵀ f (unknowns,) of forces (N,)."""

@@ -58,7 +58,7 @@ class Rods:
         self.bound, self._linear, self._size = bound, linear, size
         self._commands = commands if bound.rods else ()
         places = np.arange(9) if places is None else places
-        self._directors = places[3:6]
+        self._line, self._directors = places[:3], places[3:6]
         k, a = bound.sites.shape
         self.rows = (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
         self.elements: RodElements = bound.elements
@@ -71,7 +71,7 @@ class Rods:
     def weight(self, scene: Scene) -> np.ndarray:
         """Dead forces (k, a, 3) on the sides' vectors of the chains under a scene's gravity."""
         acceleration = np.zeros(3) if scene.gravity is None else scene.gravity.last_acceleration
-        return np.multiply.outer(self.elements.weight, acceleration)
+        return np.multiply.outer(self._mass[:, :, self._line].sum(axis=2), acceleration)
 
     def mass(self) -> csr_matrix:
         """The rods' mass (N, N)."""

@@ -36,7 +36,6 @@ from fem_reference.surface.mesh import Elements, Plan, divisions
 from fem_reference.surface.rod import BoundRods
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
-from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.natural_state import NaturalState
 from sheetbench.scenes.objects.relaxation import Branches, BranchStep
@@ -131,10 +130,6 @@ class Discrete(ABC):
         """Whether the tangent is: loads that follow the sheet make it unsymmetric, unless they have a
         potential."""
         return all(item.conservative for item in self.items)
-
-    def solver(self) -> DirectSolver:
-        """What factorises tangents."""
-        return DirectSolver(self.symmetric)
 
     @property
     @abstractmethod

@@ -23,7 +23,7 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csr_matrix
 from skfem import MeshQuad
 
 from fem_reference.discrete.shape import SheetShape
@@ -87,20 +87,6 @@ class DiscretePlate(DiscreteShell):
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright
 
-    def frame(self, q: np.ndarray, at: float) -> np.ndarray:
-        return self._frame
-
-    @cached_property
-    def _frame(self) -> np.ndarray:
-        return super().frame(np.zeros(self.size), 0.0)
-
-    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
-        return self._constant_basis
-
-    @cached_property
-    def _constant_basis(self) -> csc_matrix:
-        return super().basis(np.zeros(self.size))
-
     def change(self, at: float) -> np.ndarray:
         share, time = self.instant(at)
         out = np.zeros((2, self.nodes, 3))
@@ -133,9 +119,8 @@ class DiscretePlate(DiscreteShell):
 
     def folded(self, blocks: np.ndarray) -> csr_matrix:
         """The sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""
-        return self.pattern.matrix(
-            projected(blocks.reshape(-1, 18, 3, 18, 3), self._frame[self.plan.elements])
-        )
+        frame = self.frame(np.zeros(self.size), 0.0)[self.plan.elements]
+        return self.pattern.matrix(projected(blocks.reshape(-1, 18, 3, 18, 3), frame))
 
     # when a state means nothing
 

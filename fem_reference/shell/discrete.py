@@ -30,6 +30,7 @@ from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import Element, add_tangents
 from fem_reference.shell.hyperelastic import elements_of
+from fem_reference.shell.laws import LAWS
 from fem_reference.shell.natural import natural_strains
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
@@ -43,7 +44,6 @@ from fem_reference.surface.rod import block_diagonal
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState
@@ -69,7 +69,7 @@ class DiscreteShell(DiscreteElements):
         super().__init__(scene, moving)
         self.plan = plan = plan_of(mesh)
         self.element, self.natural = self.elements_of(section, law)
-        self.any_strain = self.element.stands_any_strain
+        self.any_strain = LAWS[law].stands_any_strain
         n = self.nodes
 
         bound = self.bound_rods()
@@ -88,10 +88,8 @@ class DiscreteShell(DiscreteElements):
             self.number[bound.sites[:, :3], :3].reshape(k, 9),
             self.turns[bound.sites[:, 3:] - n].reshape(k, 12),
         ]
-        sheet, on_sides = self.element.reference[:, :9, :2], bound.elements.reference[:, :3, :2]
-        places = np.concatenate([sheet.mean(axis=1), on_sides.mean(axis=1)])
         unknowns = (np.concatenate(each, axis=1) for each in (of_sheet, on_rod))
-        self.pattern = pattern_of(places, *unknowns, size=int(every.sum()))
+        self.pattern = pattern_of(self.places(bound), *unknowns, size=int(every.sum()))
         self.unknowns, self.size = self.pattern.size, 6 * n + bound.own.size
         self.scale = np.full(self.size, self.lever)
         self.scale[: 3 * n] = 1.0
@@ -109,9 +107,6 @@ class DiscreteShell(DiscreteElements):
     def supports_of(self, mesh: MeshQuad) -> Supports:
         """What supports and motions hold."""
         return surface_supports.of_scene(self.scene, mesh)
-
-    def solver(self) -> DirectSolver:
-        return DirectSolver(self.symmetric, lambda: self.pattern.fronts)
 
     @cached_property
     def _inertia(self) -> np.ndarray:

@@ -99,8 +99,7 @@ _OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their
 class Element:
     """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²].
 
-    parts: which strains are whose. coupled: whether D mixes these; stands_any_strain: whether the law is for
-    large strains.
+    parts: which strains are whose. coupled: whether D mixes these.
     """
 
     reference: np.ndarray
@@ -109,14 +108,10 @@ class Element:
     parts: ClassVar[dict[str, slice]] = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
     coupled: ClassVar[bool] = False
 
-    @property
-    def stands_any_strain(self) -> bool:
-        return False
-
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
-        return cls(*_built(nodes, *section))
+        return cls(*built(nodes, *section))
 
     @cached_property
     def flat_jacobian(self) -> np.ndarray:
@@ -199,7 +194,7 @@ def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @kept(last=4, most=1 << 16)
-def _built(
+def built(
     nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""

@@ -18,7 +18,7 @@ from typing import Self
 
 import numpy as np
 
-from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, cartesian, weighed
+from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, built, cartesian, weighed
 from fem_reference.shell.laws import LAWS, Law, Response, outer
 from fem_reference.shell.natural import grown
 from fem_reference.shell.slant import linear, slant
@@ -51,18 +51,8 @@ class HyperelasticElement(Element):
     @classmethod
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
-        linear = Element.build(nodes, section_of(material, thickness))
-        half = 0.5 * thickness
-        return cls(
-            linear.reference,
-            linear.stiffness,
-            linear.areas,
-            law,
-            material,
-            *cartesian(nodes),
-            half * _LEVELS,
-            half * _SHARES,
-        )
+        linear, half = built(nodes, *section_of(material, thickness)), 0.5 * thickness
+        return cls(*linear, law, material, *cartesian(nodes), half * _LEVELS, half * _SHARES)
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s (m, 54), conjugate to the sampled strains."""
@@ -77,10 +67,6 @@ class HyperelasticElement(Element):
         forms = (self.membrane, force), (self.bending, moment), (self.slanted, shearing)
         parts = [np.einsum("egak,ega->ek", form, found, optimize=True) for form, found in forms]
         return np.concatenate(parts, axis=1)
-
-    @property
-    def stands_any_strain(self) -> bool:
-        return self.law.stands_any_strain
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D (m, 54, 54)."""

@@ -49,7 +49,7 @@ from fem_reference.surface.carried import add_carried
 from fem_reference.surface.rod import BoundRods, block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.numerics.sparsity import Pattern
+from sheetbench.numerics.sparsity import Pattern, pattern_of
 from sheetbench.scenes import Scene
 
 
@@ -91,8 +91,8 @@ class DiscreteSolid(DiscreteElements):
         every = np.concatenate([self.free.ravel(), ~self._held_aside])
         self._free = np.flatnonzero(every)
         number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
-        kinds = (number[sites] for sites in (columns.stacks, bound.sites))
-        self.pattern = Pattern(*(n.reshape(len(n), 3 * n.shape[1]) for n in kinds), size=len(self._free))
+        kinds = (number[s].reshape(len(s), 3 * s.shape[1]) for s in (columns.stacks, bound.sites))
+        self.pattern = pattern_of(self.places(bound), *kinds, size=len(self._free))
         self.unknowns, self.size, self._cut = len(self._free), every.size, columns.positions.size
         self.scale = np.ones(self.size)
         self.scale[self._cut :] = self.lever

@@ -58,7 +58,6 @@ def _elements(rod: Rod, columns: Columns) -> RodElements:
         forms=np.concatenate(forms, axis=1),
         stiffness=total,
         intrinsic=np.pad(one.intrinsic, ((0, 0), (0, total.shape[1] - one.intrinsic.shape[1]), (0, 0))),
-        weight=one.weight @ onto,
     )
 
 

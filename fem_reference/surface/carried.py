@@ -13,8 +13,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fem_reference.surface.biquadratic import AT_GAUSS, areas, shape
-from fem_reference.surface.location import locate
+from fem_reference.surface.biquadratic import AT_GAUSS, areas
+from fem_reference.surface.location import shares
 from fem_reference.surface.mesh import Plan, elements_in
 from sheetbench.scenes import Scene
 
@@ -25,23 +25,14 @@ def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, 
     for payload in scene.masses:
         if payload.at is None:
             on = elements_in(payload.where, plan.nodes, plan.elements)
-            shares = areas(plan.corners[on])
-            shares *= payload.mass / shares.sum()
-            by_place = np.einsum("eg,gi,gj->eij", shares, AT_GAUSS[0], AT_GAUSS[0])
+            sizes = areas(plan.corners[on])
+            sizes *= payload.mass / sizes.sum()
+            by_place = np.einsum("eg,gi,gj->eij", sizes, AT_GAUSS[0], AT_GAUSS[0])
             yield on, by_place, np.zeros((3, *by_place.shape))
         else:
-            element, place = locate(plan.mesh, np.array([payload.at]))
-            value = shape(*place)[0]
+            element, value = shares(plan.mesh, np.array([payload.at]))
             pairs = value[:, :, None] * value[:, None, :]
             yield element, payload.mass * pairs, payload.of_director[:, None, None, None] * pairs
-
-
-def weighing(scene: Scene, plan: Plan) -> np.ndarray:
-    """Return what of them weighs at every node of a plan, (n,) [kg]."""
-    out = np.zeros(len(plan.nodes))
-    for on, by_place, _ in carried(scene, plan):
-        np.add.at(out, plan.elements[on], by_place.sum(axis=2))
-    return out
 
 
 def add_carried(scene: Scene, plan: Plan, masses: np.ndarray) -> None:

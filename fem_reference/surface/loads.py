@@ -24,11 +24,10 @@ from fem_reference.surface.biquadratic import (
     THREE,
     THREE_WEIGHTS,
     areas,
-    shape,
     side_shape,
 )
-from fem_reference.surface.carried import weighing
-from fem_reference.surface.location import locate
+from fem_reference.surface.carried import carried
+from fem_reference.surface.location import shares
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, elements_in, facets_on
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
@@ -37,11 +36,7 @@ from sheetbench.scenes.objects.loads import AreaLoad
 # Local nodes of the four sides, in scikit-fem's order of facets: corner, mid-side, corner.
 _SIDES = np.array([[0, 4, 1], [1, 5, 2], [2, 6, 3], [0, 7, 3]])
 _LINE, _LINE_SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
-
-
-def _cross_matrix(a: np.ndarray) -> np.ndarray:
-    """[a]× with [a]× b = a × b, for vectors (…, 3)."""
-    return np.cross(a[..., None, :], np.eye(3), axisa=-1, axisb=-1, axisc=-1).swapaxes(-1, -2)
+_CROSS = np.cross(np.eye(3)[:, None], np.eye(3)).swapaxes(1, 2)  # (a × b)_c = a_a _CROSS_acd b_d
 
 
 @dataclass(frozen=True)
@@ -66,11 +61,9 @@ class FollowerPressure:
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
         value, slope = AT_GAUSS
         along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
-        weighted = GAUSS_WEIGHTS[:, None] * value
+        weighed, sides = GAUSS_WEIGHTS[:, None] * value, self._strength[:, None, None] * [-across, along]
         out = np.zeros((len(vectors), 18, 3, 18, 3))
-        by_along = -np.einsum("gi,egcd,gj->eicjd", weighted, _cross_matrix(across), slope[0], optimize=True)
-        by_across = np.einsum("gi,egcd,gj->eicjd", weighted, _cross_matrix(along), slope[1], optimize=True)
-        out[:, :9, :, :9] = self._strength[:, None, None, None, None] * (by_along + by_across)
+        out[:, :9, :, :9] = np.einsum("gi,agj,aegb,bcd->eicjd", weighed, slope, sides, _CROSS, optimize=True)
         return out
 
     def work(self, vectors: np.ndarray) -> float:
@@ -109,7 +102,6 @@ class Line:
         nodes = plan.elements[elements[:, None], sides]
         return cls(elements, sides, nodes, np.linalg.norm(_LINE_SLOPE @ plan.nodes[nodes], axis=-1))
 
-    @property
     def shares(self) -> np.ndarray:
         """∫ N dL (k, 3) [m] of the three nodes."""
         return np.einsum("g,eg,gi->ei", THREE_WEIGHTS, self.speed, _LINE)
@@ -139,8 +131,8 @@ class FollowerMoment:
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
         tangent, stretch, director = self._frame(vectors)
         normal_part = np.eye(3) - np.einsum("egc,egd->egcd", tangent, tangent)
-        by_slope = -np.einsum("egcb,egbd->egcd", _cross_matrix(director), normal_part) / stretch[..., None]
-        by_director = _cross_matrix(tangent)
+        by_slope = -np.einsum("ega,acb,egbd->egcd", director / stretch, _CROSS, normal_part)
+        by_director = np.einsum("ega,acd->egcd", tangent, _CROSS)
         weighted = np.einsum("eg,gi->egi", self._weight, _LINE)
         out = np.zeros((len(vectors), 18, 3, 18, 3))
         rows = np.arange(len(vectors))[:, None, None]
@@ -172,63 +164,43 @@ class FollowerMoment:
 Follower = FollowerPressure | FollowerMoment
 
 
-def area_force(
-    element_areas: np.ndarray, element_nodes: np.ndarray, count: int, force_per_area: np.ndarray
-) -> np.ndarray:
-    """∫ f N dA (count, 3) [N] of a dead force per area f (3,) [Pa].
-
-    element_areas: w |det J| at the Gauss points (m, 9) [m²]; element_nodes: (m, 9).
-    """
-    shares = np.bincount(element_nodes.ravel(), (element_areas @ AT_GAUSS[0]).ravel(), count)
-    return shares[:, None] * force_per_area
-
-
-def line_force(line: Line, plan: Plan, force_per_length: np.ndarray) -> np.ndarray:
-    """∫ q N dL (count, 3) [N] of a dead force per undeformed length q (3,) [N/m]."""
-    shares = np.bincount(line.nodes.ravel(), line.shares.ravel(), len(plan.nodes))
-    return shares[:, None] * force_per_length
-
-
-def point_force(plan: Plan, at: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """F N(x) (count, 3) [N] of a dead force F (3,) at the plan point (2,) [m]."""
-    element, place = locate(plan.mesh, at.reshape(1, 2))
-    value, _ = shape(*place)
-    out = np.zeros((len(plan.nodes), 3))
-    out[plan.elements[element[0]]] = value[0][:, None] * force
-    return out
+def spread(plan: Plan, nodes: np.ndarray, shares: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Dead nodal forces (n, 3) of one (3,) of which nodes (k, a) have shares (k, a)."""
+    return np.outer(np.bincount(nodes.ravel(), shares.ravel(), len(plan.nodes)), force)
 
 
 def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
     """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
     every load with the last factor of its history."""
-    count, corners = len(plan.nodes), plan.corners
-    dead, followers = np.zeros((count, 3)), list[Follower]()
+    corners, followers = plan.corners, list[Follower]()
+    dead = [np.zeros((len(plan.nodes), 3))]
     if scene.gravity is not None:
-        weighed = areas(corners) * constants_of(scene, corners).per_area
         acceleration = np.array(scene.gravity.last_acceleration)
-        dead += area_force(weighed, plan.elements, count, acceleration)
-        if scene.masses:
-            dead += np.outer(weighing(scene, plan), acceleration)
+        weighed = areas(corners) * constants_of(scene, corners).per_area
+        dead.append(spread(plan, plan.elements, weighed @ AT_GAUSS[0], acceleration))
+        for on, mass, _ in carried(scene, plan):
+            dead.append(spread(plan, plan.elements[on], mass.sum(axis=2), acceleration))
     for load in scene.loads:
         factor = load.last_factor
         match load:
             case PointLoad():
-                force = factor * np.array(load.force)
-                dead += point_force(plan, np.array(load.at), force)
+                element, value = shares(plan.mesh, np.array([load.at]))
+                dead.append(spread(plan, plan.elements[element], value, factor * np.array(load.force)))
             case EdgeLoad():
                 line = Line.along(plan, facets_on(plan.mesh, load))
-                dead += line_force(line, plan, factor * np.array(load.force_per_length))
+                force = factor * np.array(load.force_per_length)
+                dead.append(spread(plan, line.nodes, line.shares(), force))
                 if load.moment_per_length:
                     followers.append(FollowerMoment(factor * load.moment_per_length, line))
             case AreaLoad():
                 on = elements_in(load.where, plan.nodes, plan.elements)
                 force = factor * np.array(load.force_per_area)
-                dead += area_force(areas(corners[on]), plan.elements[on], count, force)
+                dead.append(spread(plan, plan.elements[on], areas(corners[on]) @ AT_GAUSS[0], force))
             case Pressure():
                 on = elements_in(load.where, plan.nodes, plan.elements)
                 closed = encloses_volume(scene.supports) and not (scene.pierced or load.where)
                 followers.append(FollowerPressure(factor * load.value, on, orientation(corners[on]), closed))
-    return dead, followers
+    return np.sum(dead, axis=0), followers
 
 
 def orientation(nodes: np.ndarray) -> np.ndarray:

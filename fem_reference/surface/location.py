@@ -58,15 +58,22 @@ def interpolate(
 
     Raises BadInput off the mesh.
     """
-    element, value = _shares(type(mesh), mesh.doflocs, mesh.t, points)
+    element, value = shares(mesh, points)
     return np.einsum("pi,pik->pk", value, nodal[element_nodes[element]])
+
+
+def shares(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The elements (p,) of plan points (p, 2) [m], and the shape functions of their nodes there (p, 9).
+
+    Raises BadInput off the mesh.
+    """
+    return _shares(type(mesh), mesh.doflocs, mesh.t, points)
 
 
 @kept(last=8, most=1 << 18)
 def _shares(
     kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray, points: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The elements (p,) of points, and what their nodes have to say there (p, 9)."""
     element, place = locate(kind(places, elements), points)
     return element, shape(*place)[0]
 

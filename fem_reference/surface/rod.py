@@ -52,14 +52,13 @@ class RodElements(NamedTuple):
     """k sides with s strains of a vectors each, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀ (see `discrete.rods`).
 
     reference: Q₀ (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s, c) of the
-    curvatures of all actuators; weight: dead force on Q per acceleration (k, a) [kg, kg m].
+    curvatures of all actuators.
     """
 
     reference: np.ndarray
     forms: np.ndarray
     stiffness: np.ndarray
     intrinsic: np.ndarray
-    weight: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -127,7 +126,6 @@ def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray
             forms=np.tile(_forms(offset), (len(sides), 1, 1, 1)),
             stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
             intrinsic=intrinsic,
-            weight=_weight(chains, offsets, half),
         ),
         held_as=chains[0].held_as,
         base=_base(chains[0], nodes[line, edge.along_axis] - start, length),
@@ -188,13 +186,6 @@ def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: n
     return out
 
 
-def _weight(chains: Sequence[Chain], offsets: np.ndarray, half: np.ndarray) -> np.ndarray:
-    """Dead force on Q (k, 9) [kg, kg m] of the chains' weight on their axes, per acceleration."""
-    density = np.array([chain.line_density for chain in chains])
-    nodal = np.multiply.outer(half, _SHARES)
-    return np.concatenate([density.sum() * nodal, (density @ offsets) * nodal, 0.0 * nodal], axis=1)
-
-
 def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
     """Place on the edge of the node that the base holds."""
     if chain.base == "free":
@@ -246,7 +237,7 @@ def bound(
     """The rods on a sheet that has the first vectors; of_sheet: a rod's sides, of so many vectors each, and
     where their first ones (k, …) are among the sheet's. Their last ones are so many directors, each of three
     nodes, of the rods' own: one of all nodes of a rod after the other."""
-    shapes = (vectors, 3), (1, vectors, vectors), (1,), (1, 0), (vectors,)
+    shapes = (vectors, 3), (1, vectors, vectors), (1,), (1, 0)
     none = np.zeros((0, vectors), dtype=int), np.zeros((0, 3)), np.zeros(0, dtype=bool)
     parts = [(*none, *(np.zeros((0, *shape)) for shape in shapes))]
     for rod in rods:

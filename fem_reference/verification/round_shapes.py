@@ -46,8 +46,8 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
-from fem_reference.surface.biquadratic import areas
-from fem_reference.surface.loads import Line, area_force
+from fem_reference.surface.biquadratic import AT_GAUSS, areas
+from fem_reference.surface.loads import Line, spread
 from fem_reference.surface.materials import bending_stiffness
 from fem_reference.surface.mesh import mesh_of, nodes_of, plan_of, quarters
 from fem_reference.verification.rows import THEORY, Row, absolutely, curve, relatively
@@ -240,7 +240,7 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
     mesh = mapped(share, angles, place, x1=(0, 1.0), y0=(1, 0.0), x0=(1, np.pi / 2.0))
     sheet = DiscreteSolid(mesh, specimen(Sheet(3.25, 2.75, 0.6), STEEL, held), layers=layers)
     columns, plan, force = sheet.columns, sheet.plan, np.zeros_like(sheet.columns.positions)
-    force[:, -1, 2:] = area_force(areas(plan.corners), plan.elements, sheet.nodes, np.array([-PRESSURE]))
+    force[:, -1, 2:] = spread(plan, plan.elements, areas(plan.corners) @ AT_GAUSS[0], np.array([-PRESSURE]))
     displacement = sheet.displacement(linear_step(sheet, force.ravel()))
     at_d = int(np.argmin(np.hypot(plan.nodes[:, 0] - 2.0, plan.nodes[:, 1])))
     bricks = columns.stacks[:, columns.places[-1]]

@@ -76,17 +76,13 @@ class Calibration(Answer):
 
     def document(self) -> dict[str, Any]:
         """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
-        springs = self.springs.model_dump(exclude_none=True, exclude=LATTICE)
-        always = ("axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area")
-        for name in set(springs) - {*always, "layer_distance"}:
-            if not springs[name]:
-                del springs[name]
-        springs = {name: _listed(value) for name, value in springs.items()}
+        springs = self.springs.model_dump(mode="json", exclude_none=True, exclude=LATTICE)
         distance = springs.pop("layer_distance")
+        always = ("axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area")
         return {
             "method": self.method,
             "grid": list(self.grid),
-            "springs": springs,
+            "springs": {name: k for name, k in springs.items() if k or name in always},
             "layer_distance": distance,
             "moduli": [dict(row) for row in self.moduli],
             "masses": self.masses,
@@ -109,10 +105,3 @@ class Calibration(Answer):
 
     def choices(self) -> dict[str, Any]:
         return {"method": self.method, "grid": list(self.grid)}
-
-
-def _listed(value: Any) -> Any:
-    """Tables as lists, as JSON and TOML have them."""
-    if isinstance(value, dict):
-        return {key: _listed(entry) for key, entry in value.items()}
-    return [_listed(entry) for entry in value] if isinstance(value, tuple) else value

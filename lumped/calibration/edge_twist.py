@@ -49,9 +49,10 @@ MOST = 3.0  # f is sought up to this, and from where the cell's own twisting sti
 
 
 class Twist(NamedTuple):
-    """Of cells at edges normal to x and to y, (rows, columns, 2): D̃66 [N·m], S along the edge [N/m], the
-    share of it in the furthest diagonals, r, and the width λ that a plate loses there [m]."""
+    """How cells twist at edges normal to x and to y, (rows, columns, 2): width across [m], D̃66 [N·m], S along
+    the edge [N/m], the share of it in the furthest diagonals, r, and the width λ that a plate loses [m]."""
 
+    width: np.ndarray
     twisting: np.ndarray
     shear: np.ndarray
     shares: np.ndarray
@@ -61,24 +62,19 @@ class Twist(NamedTuple):
 
 def twist_of(each: EachCell, springs: Springs, whole: moduli.Moduli) -> Twist:
     """Return how cells twist; whole: the moduli of their springs."""
-    shares = diagonals_share(each, springs)
+    shear, shares = whole.free_shear[..., ::-1], diagonals_share(each, springs)[..., ::-1]
     twisting, stretch = sections.twisting(whole.bending), sections.stretch_by_twist(whole.bending)
-    return Twist(twisting, whole.free_shear[..., ::-1], shares[..., ::-1], stretch, each.section.layer_width)
+    return Twist(each.sides, twisting, shear, shares, stretch, each.section.layer_width)
 
 
 class Strips(NamedTuple):
     """Cells by their place along the edges normal to an axis and by how far across they are, (places, across)
-    each: width [m], the parts of their `Twist`, and whether a free edge beside them crosses this one.
+    each: how they twist there, and whether a free edge beside them crosses this one (`corner`).
 
     lines: across which they lie, of a whole rectangle; its strips are as the grid is graded, others of cells
     like that at their end. alike: whether a strip's cells are the same but for their width."""
 
-    width: np.ndarray
-    twisting: np.ndarray
-    shear: np.ndarray
-    shares: np.ndarray
-    stretch: np.ndarray
-    lost: np.ndarray
+    twist: Twist
     corner: np.ndarray
     lines: Lines | None
     alike: bool
@@ -96,20 +92,20 @@ class Strips(NamedTuple):
         for cells in set(count.tolist()):
             of = count == cells
             at = place[of], cell[of]
-            strips = [part[at][:, None] for part in self[:4]]
+            strips = [part[at][:, None] for part in self.twist[:4]]
             if self.lines is None:
                 strips[0] = np.repeat(strips[0], cells, axis=1)
             else:
                 if not self.alike:
-                    strips = [part[at[0], ::step] for part in self[:4]]
+                    strips = [part[at[0], ::step] for part in self.twist[:4]]
                 strips[0] = self.lines.widths[None, ::step]
                 if both and not symmetric(self.lines):
                     strips = [row if row.shape[1] == 1 else np.hstack([row, row[:, ::-1]]) for row in strips]
-            factor[of] = edge_factors(strips[0], strips[1], strips[2], strips[3], self.lost[at], both)
+            factor[of] = edge_factors(strips[0], strips[1], strips[2], strips[3], self.twist.lost[at], both)
         found = bool(np.all(factor > 0.0))
         factor = np.where(np.isnan(factor), unknown, factor)
         factor = np.where(self.corner[place, cell], np.maximum(factor, AT_CORNERS), factor)
-        return (factor - 1.0) * self.twisting[place, cell], found
+        return (factor - 1.0) * self.twist.twisting[place, cell], found
 
 
 def symmetric(lines: Lines) -> bool:

@@ -58,9 +58,9 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
         # by place along the edges normal to the axis, and across from them
         of_cells = (there, each.share(), near, rims)
         rows, share, oblique_near, on_rims = (part.swapaxes(0, axis) for part in of_cells)
-        parts = (part[..., axis].swapaxes(0, axis) for part in (each.sides, *twist))
+        own = Twist._make(part[..., axis].swapaxes(0, axis) for part in twist)
         corner = ~np.logical_and(*_beside(rows, False))
-        strips = Strips._make((*parts, corner, None if drawn else lines, each.cells is not None))
+        strips = Strips(own, corner, None if drawn else lines, each.cells is not None)
         usable = _aligned(share, oblique_near) & ~(oblique_near & corner) if drawn else rows
         (places, first), (_, last) = (np.nonzero(rows & ~other.T) for other in _beside(rows.T, False))
         for far in (False, True)[: 1 + unlike]:
@@ -74,7 +74,7 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
             if not (known and also):
                 edge = "a rim" if drawn else f"{'xy'[axis]}{int(far)}"
                 notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")
-            inside, stretch = cell != outer, strips.stretch[place, cell]
+            inside, stretch = cell != outer, own.stretch[place, cell]
             if drawn:
                 strain = along_edge(axis, stretch[inside])
                 on_rims[place[inside], cell[inside]] += rank_one(two[inside] / square, *strain)
@@ -84,9 +84,9 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
                 along[place[~inside]] = values[~inside]
                 found[f"{'far_' * far}{name}"].append(along)
     springs_of_rims = dict(zip(RIMS_OWN, np.moveaxis(rims, -1, 0)[:, None], strict=True))
-    of = springs.of | {name: values for name, values in springs_of_rims.items() if values.any()}
+    rims_of = {name: tuple(values) for name, values in springs_of_rims.items() if values.any()}
     edges = {name: either(*pair) for name, pair in found.items()}
-    return replace(springs, of=of, edges=edges), list(dict.fromkeys(notes))
+    return replace(springs, of={**springs.of, **rims_of, **edges}), list(dict.fromkeys(notes))
 
 
 def _beside(rows: np.ndarray, beyond: float) -> tuple[np.ndarray, np.ndarray]:

@@ -210,8 +210,7 @@ class System:
         both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
         share, stresses = own / both if both else 0.0, None
         if self.maxwell is not None and both:
-            each = self.maxwell.stresses(u, share, stiffness / both)
-            stresses = self.assembly.all_families.arranged(each)
+            stresses = tuple(self.maxwell.stresses(u, share, stiffness / both))
         inertia = mass * self.lattice_mass + damping * self.damping.rate
         blocks = self.assembly.at(time=time).tangent(u, stresses, share, both, inertia)
         self.problem.loads.add_tangent(u, stiffness, blocks, time)

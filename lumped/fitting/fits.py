@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Annotated, Any, ClassVar, Protocol
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -39,18 +39,10 @@ from sheetbench.scenes.objects.grading import Graded
 FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN, *RIMS_OWN)
 
 
-class Target(Protocol):
-    """What springs are fitted to, with the pull of `PRIOR` towards where they start."""
-
-    prior: ClassVar[float]
-
-    def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Return relative misses (m,) of these springs, and their derivatives (m,) by each constant."""
-
-
 @dataclass(frozen=True)
 class StaticTarget:
-    """A scene and the mid-surface displacement (n, 3) [m] wanted at plan points (n, 2) [m]."""
+    """A scene and the mid-surface displacement (n, 3) [m] wanted at plan points (n, 2) [m]; prior: the pull
+    towards where a fit starts."""
 
     prior: ClassVar[float] = 1e-3
 
@@ -59,6 +51,7 @@ class StaticTarget:
     displacement: np.ndarray
 
     def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Return relative misses (m,) of these springs, and their derivatives (m,) by each constant."""
         scale = np.abs(self.displacement).max() * np.sqrt(len(self.points))
         found = sensitivity(self.scene, springs, names, self.points)
         slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
@@ -75,9 +68,13 @@ class ModalTarget:
     frequencies: np.ndarray
 
     def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """As of displacements."""
         frequencies, rates = frequency_slopes(self.scene, springs, names, len(self.frequencies))
         slopes = {name: rates[name] / self.frequencies for name in names}
         return frequencies / self.frequencies - 1.0, slopes
+
+
+Target = StaticTarget | ModalTarget
 
 
 @dataclass(frozen=True)

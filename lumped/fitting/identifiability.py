@@ -60,13 +60,11 @@ def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarra
             "as it is; seek fewer, or measure what distinguishes them"
         )
     deviation = np.sqrt(np.diag(covariance))
-    for i in range(n):
-        for j in range(i):
-            if unseen[i] or unseen[j] or not deviation[i] * deviation[j] > 0.0:
-                continue
-            correlation = covariance[i, j] / (deviation[i] * deviation[j])
-            if abs(correlation) > CORRELATED:
-                shown = f"{correlation:+.3f}".replace("-", "−")
-                warnings.append(f"the data cannot tell {names[j]} from {names[i]} (correlation {shown})")
+    known = np.where(unseen, 0.0, deviation)
+    scale = np.outer(known, known)
+    correlation = np.divide(covariance, scale, out=np.zeros_like(scale), where=scale > 0.0)
+    for i, j in np.argwhere(np.tril(np.abs(correlation), -1) > CORRELATED):
+        shown = f"{correlation[i, j]:+.3f}".replace("-", "−")
+        warnings.append(f"the data cannot tell {names[j]} from {names[i]} (correlation {shown})")
     widths = np.where(unseen, np.inf, quantile * deviation)
     return Identifiability(singular, dict(zip(names, widths.tolist(), strict=True)), tuple(warnings))

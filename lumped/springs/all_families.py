@@ -1,4 +1,4 @@
-"""The springs of a lattice: made of a spring set by the table `FAMILIES`, and called all at once.
+"""The springs of a lattice: made of a spring set, and called all at once.
 
 A call from Python costs microseconds, as much as a small lattice's springs do; so those with an energy have
 one compiled call, not one a family. Its arrays always are of the same kinds, empty where a lattice has no
@@ -8,10 +8,10 @@ family's own; here they release the interpreter's lock. Springs without an energ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache, cached_property
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,9 +21,9 @@ from lumped.rest import CellKind, Rest, rest_of
 from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
 from lumped.springs import cells, links
-from lumped.springs.cell_laws import FACE, RUBBER, AreaAndStrains, measures
+from lumped.springs.cell_laws import FACE, RUBBER, measures
 from lumped.springs.cells import CellArrays
-from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
+from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
 from lumped.springs.survey import Survey, survey
 from sheetbench.errors import BadInput
@@ -51,27 +51,28 @@ class SpringArrays(NamedTuple):
     where: Blocks
 
 
-Stresses = tuple[np.ndarray, ...]  # four, as `Springs`
+Stresses = tuple[np.ndarray, ...]  # four, as `SpringArrays`
 NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 4)),))
 NO_INERTIA = np.empty(0)
+CELLS: tuple[tuple[str, CellKind, str], ...] = (  # constants, cells of the lattice, name of the energy
+    ("area", "layer_cells", "cells"),
+    ("mid_area", "mid_cells", "mid_cells"),
+)
 
 
 class AllFamilies:
-    """Families of springs together. Displacements and forces are (n, 3) [m], [N]; stresses as `Springs`."""
+    """Families of springs together: links, cells of the layers and of the mid-surface, upright faces, empty
+    where there are none, then those without an energy. Displacements and forces are (n, 3) [m], [N]; stresses
+    as `SpringArrays`."""
 
     def __init__(self, families: Sequence[Family], pattern: MassPattern):
-        self.families = tuple(families)
-        self._others = [family for family in families if isinstance(family, DirectionalLinks)]
-        found = {_place(family): family for family in families if family not in self._others}
-        links_, *cells_ = [_arrays(found[at]) if at in found else _no_cells() for at in range(4)]
+        self.families = (*families, *[NO_CELLS] * (4 - len(families)))
+        self._central = self.families[:4]
+        self._others = [family for family in self.families if isinstance(family, DirectionalLinks)]
         where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
-        layers, middle, faces = (CellArrays(*parts) for parts in cells_)
-        arrays = SpringArrays(LinkArrays(*links_), layers, middle, faces, where)
-        self.springs, self._found, self._pattern = typed(arrays), found, pattern
-        self._cells = {at: family for at, family in found.items() if isinstance(family, SpringCells)}
-        along = [family for family in families if isinstance(family, Links)]
-        self.conservative = not self._others
-        self.links, self.all_links = along[0], along
+        self.springs = typed(SpringArrays._make([*(family.arrays for family in self._central), where]))
+        self.all_links = [family for family in self.families if isinstance(family, Links)]
+        self.links, self._pattern, self.conservative = self.all_links[0], pattern, not self._others
         self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
 
     @cached_property
@@ -87,19 +88,19 @@ class AllFamilies:
 
     def damped(self, time: float) -> list[Family]:
         """Return the dampers of the families, with `time` [s], of all links together."""
-        links, *others = [family.damped(time) for family in self.families]
-        for more in (family for family in others if isinstance(family, Links)):
+        links, *cells = [family.damped(time) for family in self._central]
+        for more in (family.damped(time) for family in self._others):
             names = ("nodes", "stiffness", "slots", "offset", "rest_length", "kind")
             each = {name: np.append(getattr(links, name), getattr(more, name), axis=0) for name in names}
             links = replace(links, **each)
-        return [links, *(family for family in others if isinstance(family, SpringCells))]
+        return [links, *cells]
 
     def survey(self, u: np.ndarray, layers: int) -> Survey:
         """Return what the springs of a lattice of so many layers store at u, and how far they are
         strained."""
-        names, cells = list(self.links.names), self._cells
-        energies, *rest = survey(np.ascontiguousarray(u), self.springs, self.links.kind, len(names), layers)
-        names += [cells[at].name if at in cells else "" for at in (1, 2, 3)]
+        names = [*self.links.names, *(getattr(cells, "name", "") for cells in self._central[1:])]
+        kinds = len(self.links.names)
+        energies, *rest = survey(np.ascontiguousarray(u), self.springs, self.links.kind, kinds, layers)
         by_name = dict(zip(names, energies.tolist(), strict=True))
         by_name.pop("", None)
         return Survey(by_name, *rest)
@@ -115,20 +116,9 @@ class AllFamilies:
             family.add_force(u, internal)
         return internal
 
-    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
-        """Return the stresses that the linearisation at u predicts after `step`."""
-        stresses: Stresses = advance(np.ascontiguousarray(u), np.ascontiguousarray(step), self.springs)[3]
-        return stresses
-
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
-        parts = self.arranged(family.nonnegative_part(u) for family in self._found.values())
-        return self.tangent(u, parts, 0.0)
-
-    def arranged(self, stresses: Iterable[np.ndarray]) -> Stresses:
-        """Return the stresses of the families, in turn, as `Springs`."""
-        found = dict(zip(self._found, stresses, strict=True))
-        return tuple(found.get(at, none) for at, none in enumerate(NO_STRESSES))
+        return self.tangent(u, tuple(family.nonnegative_part(u) for family in self._central), 0.0)
 
     def tangent(
         self,
@@ -156,23 +146,6 @@ class AllFamilies:
             family.add_tangent(u, apart)
             blocks += scale * apart
         return blocks
-
-
-def _place(family: Family) -> int:
-    """Which of the families in `SpringArrays` it is."""
-    if isinstance(family, SpringCells):
-        return 3 if family.upright else 1 if family.nodes.shape[2] == 1 else 2
-    return 0
-
-
-def _arrays(family: Family) -> tuple[Any, ...]:
-    return tuple([type(p)(*p) if isinstance(p, tuple) else np.ascontiguousarray(p) for p in family.arrays])
-
-
-@cache
-def _no_cells() -> tuple[Any, ...]:
-    nodes, slots = np.empty((0, 4, 1), int), np.empty((0, 4, 4), np.int32)
-    return nodes, np.empty((0, 2, 3)), np.empty(0), AreaAndStrains(np.empty((0, 7))), slots
 
 
 @njit(cache=True, nogil=True)
@@ -270,8 +243,7 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
         spread = np.broadcast_to(values, (*shape, *values.shape[2:]))
         return spread.reshape(-1, *values.shape[2:])[lattice.kept]
 
-    kinds: tuple[tuple[str, CellKind], ...] = (("area", "layer_cells"), ("mid_area", "mid_cells"))
-    for of_cells, kind in kinds:
+    for of_cells, kind, name in CELLS:
         nodes, slots, sides, area = rest.cells(kind)
         every = layers if of_cells == "area" else 1
         if of_cells == "area" and springs.rubber:
@@ -279,44 +251,36 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
             squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
             found = of_rubber(springs, squares, every_area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield SpringCells(nodes, stiffness, slots, sides, area, "rubber", False, RUBBER, others)
+            yield SpringCells(nodes, stiffness, slots, sides, area, "rubber", RUBBER, others)
             continue
         strains = kept_cells(springs.strains(of_cells))
         strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]
         stiffness = np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])
-        if stiffness.any():
-            name = "cells" if of_cells == "area" else "mid_cells"
-            yield SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, name)
+        made = SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, name)
+        yield made if stiffness.any() else NO_CELLS
 
 
-def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
+def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> SpringCells:
     """On the upright faces between the layers, against their shear."""
-    if springs.of.keys() & FACES:
-        faces, (nodes, slots, sides, area) = lattice.faces, rest_of(lattice, pattern).cells("faces")
-        along = [springs.along("face_shear", axis) for axis in (0, 1)]
-        over, one = (springs.along(name, 0) for name in FACES[1:])
-        each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
-        stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis[:, None], faces.cells]
-        stiffness = np.zeros((len(nodes), 4))
-        stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
-        others = stiffness[:, 3:] / area[:, None]
-        yield SpringCells(nodes, stiffness, slots, sides, area, "face_shear", True, FACE, others)
-
-
-FAMILIES: tuple[Callable[[Lattice, MassPattern, Constants], Iterator[Family]], ...] = (
-    link_springs,
-    cell_springs,
-    face_springs,
-)
+    if not springs.of.keys() & FACES:
+        return NO_CELLS
+    faces, (nodes, slots, sides, area) = lattice.faces, rest_of(lattice, pattern).cells("faces")
+    along = [springs.along("face_shear", axis) for axis in (0, 1)]
+    over, one = (springs.along(name, 0) for name in FACES[1:])
+    each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
+    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis[:, None], faces.cells]
+    stiffness = np.zeros((len(nodes), 4))
+    stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
+    others = stiffness[:, 3:] / area[:, None]
+    return SpringCells(nodes, stiffness, slots, sides, area, "face_shear", FACE, others)
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
 def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet) -> AllFamilies:
-    """The springs of a spring set on a lattice, the central links first; of a small one the same every
-    time."""
-    constants = Constants.read(springs)
-    found = [family for make in FAMILIES for family in make(lattice, pattern, constants)]
-    return AllFamilies(found, pattern)
+    """The springs of a spring set on a lattice; of a small one the same every time."""
+    of = lattice, pattern, Constants.read(springs)
+    central, *others = link_springs(*of)
+    return AllFamilies([central, *cell_springs(*of), face_springs(*of), *others], pattern)
 
 
 def table_dampers(lattice: Lattice, pattern: MassPattern, table: DamperSet) -> Links:

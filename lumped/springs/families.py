@@ -142,7 +142,6 @@ class SpringCells(Family):
     sides: np.ndarray
     area: np.ndarray
     name: str
-    upright: bool = False  # faces between the layers
     law: CellLaw = AREA_AND_STRAINS
     others: np.ndarray | None = None
     natural: np.ndarray | None = None
@@ -179,3 +178,7 @@ class SpringCells(Family):
         """Return dampers of coefficient time [s] × stiffness of small strains."""
         springs = replace(self, stiffness=time * self.stiffness, natural=None)
         return replace(springs, law=AREA_AND_STRAINS, others=None)
+
+
+_NO_SLOTS, _NO_SIDES = np.empty((0, 4, 4), np.int32), np.empty((0, 2, 3))
+NO_CELLS = SpringCells(np.empty((0, 4, 1), int), np.empty((0, 4)), _NO_SLOTS, _NO_SIDES, np.empty(0), "")

@@ -7,13 +7,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from sheetbench.answers.report import ROWS, NoPicture, Picture, Report, Write
+from sheetbench.answers.report import ROWS, Picture, Report, Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput
 
 if TYPE_CHECKING:
     import pandas
-    from matplotlib.figure import Figure
 
 
 class Answer(ABC):
@@ -94,23 +93,10 @@ class Answer(ABC):
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
         """Return the first table, or that of a name, as a data frame in SI units. Raises BadInput where there
         is no such table, or pandas is not installed."""
-        return self._named("to_pandas", "tables", self.tables(), table).to_pandas()
-
-    def plot(self, figure: str = "") -> Figure:
-        """Return the first figure, or that of a name, for matplotlib. Raises BadInput where there is none, or
-        it cannot be drawn here."""
-        picture = self._named("plot", "figures", self.figures(), figure)
-        try:
-            return picture.figure()
-        except NoPicture as why:
-            raise BadInput(f"plot('{figure}'): {why}") from None
-
-    def _named(self, by: str, noun: str, every: Sequence[Any], name: str) -> Any:
-        """Return the one of a name, the first without one. Raises BadInput where there is none."""
-        by_name = {one.name or one.caption: one for one in every}
-        if not by_name or (name and name not in by_name):
-            raise BadInput(f"{by}('{name}'): {noun} are {', '.join(by_name) or 'none'}")
-        return by_name[name or next(iter(by_name))]
+        tables = {one.name or one.caption: one for one in self.tables()}
+        if not tables or (table and table not in tables):
+            raise BadInput(f"to_pandas('{table}'): tables are {', '.join(tables) or 'none'}")
+        return tables[table or next(iter(tables))].to_pandas()
 
     def save(self, folder: Path | str, figure: str | None = None) -> tuple[str, ...]:
         """Write every file and picture into a folder, as `Report.save` does."""

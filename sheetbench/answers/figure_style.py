@@ -44,20 +44,17 @@ def parse_figure(text: str | None) -> tuple[FigureStyle, ...]:
     naming the option."""
     if text is None:
         return (PLAIN,)
-    styles, formats, seen = list[FigureStyle](), list[str](), set[str]()
-    for item in filter(str.strip, text.lower().split(",")):
-        name, colon, width = (part.strip() for part in item.partition(":"))
+    found, width = dict[str, str](), "double"
+    for item in reversed([*filter(str.strip, text.lower().split(","))]):
+        name, colon, given = (part.strip() for part in item.partition(":"))
         require_choice("--figure", name, FORMATS)
-        if name in seen:
+        if name in found:
             raise BadInput(f"--figure = '{text}': {name} is there twice, and has one file")
-        seen.add(name)
-        formats.append(name)
         if colon:
-            require_choice("the width in --figure", width, WIDTHS)
-            styles.append(FigureStyle(tuple(formats), narrow=width == "single", titled=False))
-            formats = []
-    if formats:
-        styles.append(FigureStyle(tuple(formats), titled=False))
-    if not styles:
+            require_choice("the width in --figure", given, WIDTHS)
+            width = given
+        found[name] = width
+    if not found:
         raise BadInput(f"--figure = '{text}': name a format: {', '.join(FORMATS)}")
-    return tuple(styles)
+    formats = {wide: tuple(name for name in reversed(found) if found[name] == wide) for wide in WIDTHS}
+    return tuple(FigureStyle(of, wide == "single", False) for wide, of in formats.items() if of)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Write = Callable[[Path], None]
 ROWS = 6  # of a table at a prompt
-RASTER = ("png", "pdf")
+RASTER, FILM = ("png", "pdf"), ("gif",)
 
 
 class NoPicture(Exception):
@@ -36,7 +36,8 @@ class Picture:
     """A figure of an answer, made when it is drawn.
 
     compose: "module:function", which makes the figure `of` these in a style, or raises NoPicture. name: of
-    its files, without suffixes; description: kept in the files; formats: RASTER where most of it is an image.
+    its files, without suffixes; description: kept in the files; formats: RASTER where most of it is an image,
+    FILM where `compose` writes the files itself, and knows no style.
     """
 
     name: str
@@ -63,34 +64,23 @@ class Picture:
 
     def write(self, folder: Path) -> str | None:
         """Write the files into a folder; a sentence that says why there are none."""
+        from sheetbench.answers.style import save
+
+        paths = [folder / name for name in self.names]
         try:
-            self._draw([folder / name for name in self.names])
+            if self.formats == FILM:
+                _function(self.compose)(*self.of, paths)
+            else:
+                save(self.figure(), paths, self.description)
         except NoPicture as why:
             return str(why)
         return None
 
-    def _draw(self, paths: list[Path]) -> None:
-        from sheetbench.answers.style import save
-
-        save(self.figure(), paths, self.description)
-
     def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
         """Return the picture in each of the styles, and in its formats where it names some."""
+        if self.formats == FILM:
+            return (self,)
         return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
-
-
-@dataclass(frozen=True)
-class Film(Picture):
-    """A picture that moves: `compose` writes the files of what it is of, and it has no other style."""
-
-    formats: tuple[str, ...] = ("gif",)
-
-    def _draw(self, paths: list[Path]) -> None:
-        _function(self.compose)(*self.of, paths)
-
-    def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
-        """Return the same film."""
-        return (self,)
 
 
 def _function(name: str) -> Callable[..., Any]:

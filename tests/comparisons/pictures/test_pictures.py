@@ -98,7 +98,7 @@ def test_check_draws_the_plan_of_any_scene():
     """The sheet with its hole, and what is held, loaded and probed; as many patches as the scene has."""
     patched = DRAWN.replace(patches=[{"shape": GRIP, "young": 1e6}])
     for scene, labels in ((BARE, set()), (patched, {"patch 1", "support 2", "load 2"})):
-        axis = check(scene).plot("plan").axes[0]
+        axis = check(scene).figures()[0].figure().axes[0]
         texts = {text.get_text() for text in axis.texts}
         assert texts >= labels | set(scene.probes)
         assert axis.patches[0].get_path().vertices.max() == pytest.approx(188.0)
@@ -130,7 +130,7 @@ def test_what_a_figure_may_be():
     assert parse_figure(None) == (PLAIN,) and not PLAIN.formats
     assert parse_figure("pdf") == (pdf,)
     assert parse_figure("PNG, svg:single") == (replace(png, formats=("png", "svg")),)
-    assert parse_figure("pdf:single,png:single") == (replace(png, formats=("pdf",)), png)
+    assert parse_figure("pdf:single,png:single") == (replace(png, formats=("pdf", "png")),)
     assert parse_figure("png:single, pdf") == parse_figure("png:single,pdf:double") == (png, pdf)
     for wrong in ("", " ,", "eps", "pdf:wide", "pdf;png", "pdf:single,pdf"):
         with pytest.raises(BadInput, match="--figure"):

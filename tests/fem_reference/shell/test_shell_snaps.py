@@ -14,7 +14,8 @@ from comparisons.comparison.comparison import error
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.surface.loads import point_force
+from fem_reference.surface.loads import spread
+from fem_reference.surface.location import shares
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.supports import Driven
 from sheetbench import scenes
@@ -105,7 +106,8 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
     sheet.supports = replace(sheet.supports, turning=(closer,))
     point = np.array([at * SIDE, WIDTH / 2])
-    dead = point_force(sheet.plan, point, np.array([0.0, 0.0, -1.5 * LIMIT]))
+    element, value = shares(sheet.plan.mesh, point[None])
+    dead = spread(sheet.plan, sheet.plan.elements[element], value, np.array([0.0, 0.0, -1.5 * LIMIT]))
     sheet.items.append(Dead(sheet.on_coordinates(dead), float))
     moved, turned = np.zeros((2, len(nodes), 3))
     moved[:, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)

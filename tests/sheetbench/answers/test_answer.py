@@ -95,11 +95,6 @@ def test_pandas_files_a_figure_and_a_prompt_follow_from_it(tmp_path):
     assert Pair().to_pandas().loc[0, "uz [m]"] == -2e-3 and len(Pair().to_pandas("many")) == 18
     with pytest.raises(sb.BadInput, match="tables are rows, many"):
         Pair().to_pandas("none")
-    assert len(Pair().plot().axes) == 1
-    with pytest.raises(sb.BadInput, match="figures are line"):
-        Pair().plot("none")
-    with pytest.raises(sb.BadInput, match="nothing moves"):
-        Pair(drawn=False).plot()
     assert Pair().save(tmp_path) == () and Pair(drawn=False).save(tmp_path) == ("nothing moves",)
     assert {path.name for path in tmp_path.iterdir()} == {
         "pair.json", "pair.md", "rows.csv", "many.csv", "line.svg",
@@ -132,11 +127,9 @@ def test_answers_of_one_model_have_tables_and_figures():
     solution = sb.solve(scene, grid=3)
     assert solution.document()["status"] == "converged" and solution.report().document["model"] == "lumped"
     assert {"solution", "reactions"} <= {table.name for table in solution.tables()}
-    assert [axis.get_title()[-9:] for axis in solution.plot().axes] == ["converged", ""]
-    assert len(HISTORY.plot().axes) == 3
+    assert [axis.get_title()[-9:] for axis in solution.figures()[0].figure().axes] == ["converged", ""]
+    assert len(HISTORY.figures()[0].figure().axes) == 3
     assert list(sb.calibrate(scene, grid=3).to_pandas("moduli").columns[:2]) == ["modulus", "unit"]
-    with pytest.raises(sb.BadInput, match="figures are none"):
-        sb.calibrate(scene, grid=3).plot()
 
 
 def test_the_message_is_fallback_snaps_and_notes_in_a_line():

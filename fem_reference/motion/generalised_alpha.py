@@ -13,7 +13,7 @@ longer lets them double. As Rannacher 1984 (Numer. Math. 43, 309–327) begins C
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from fem_reference.discrete.energies import SheetMotion, spent
 from fem_reference.sheets import start
 from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.numerics.time.controller import Controller
-from sheetbench.numerics.time.method import Advance, StepFailed
+from sheetbench.numerics.time.method import Advance, MotionMethod, StepFailed
 from sheetbench.numerics.time.rule import BACKWARD_EULER, AlphaStep, generalised, shifted, step_of
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.objects.relaxation import BranchStep
@@ -39,8 +39,6 @@ SMALLEST = 1e-9  # step, relative to the run
 EULER = 2  # steps behind a jump whose length does not double
 TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
 
-REMEMBERED = ("_before", "_largest", "_local", "_euler")
-
 
 class Sampled(NamedTuple):
     """Motions at k moments (k,) [s], and the energies (k,) [J] dissipated and put in since a step began."""
@@ -51,21 +49,22 @@ class Sampled(NamedTuple):
     work: np.ndarray
 
 
-class ConstrainedAlpha:
+class ConstrainedAlpha(MotionMethod[SheetMotion]):
     """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
 
     adapts, span, kinks: as `sheetbench.numerics.time.method` has them; with chains, whose firm stiffnesses
     make much energy of the small strains that a cubic within a step leaves, steps end at samples.
     """
 
-    state = SheetMotion
+    state, remembered = SheetMotion, ("_before", "_largest", "_local", "_euler")
+    control: Controller
 
     def __init__(self, model: DiscreteElements, step: float | None, error: float, first: float):
         self._model, self.adapts, self._error = model, step is None, error
         self._usual = self._rule = generalised(RADIUS)
         self._first = first if step is None else step
         band = (0.95, 1.25) if self.adapts else (0.0, np.inf)  # a fixed one always counts
-        self._control = Controller(3, 2.0, band, self._first)
+        self.control = Controller(3, 2.0, band, self._first)
         self.span, self.kinks = 1 if model.rods else None, np.array(kinks(model.scene))
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
@@ -78,24 +77,6 @@ class ConstrainedAlpha:
         """Drop the factors, so that a resumed run goes on exactly as one never stopped."""
         self._factor = None
         self._solver.forget()
-
-    def settings(self) -> dict[str, Any]:
-        """Return nothing: the steps are as requested."""
-        return {}
-
-    def notes(self) -> str:
-        """Return a clause on steps that counted in spite of their error."""
-        return self._control.notes()
-
-    def memory(self) -> dict[str, Any]:
-        """Return what a resumed run needs besides the motion."""
-        return {**self._control.memory(), **{name: getattr(self, name) for name in REMEMBERED}}
-
-    def recall(self, memory: dict[str, Any]) -> None:
-        """Take up what `memory` gave."""
-        self._control.recall(memory)
-        for name in REMEMBERED:
-            setattr(self, name, type(getattr(self, name))(memory[name]))
 
     def start(self) -> Advance[SheetMotion]:
         """Return the motion at t = 0, with the work of what moves at once."""
@@ -166,14 +147,14 @@ class ConstrainedAlpha:
             steps = [self._first, np.sqrt(allowed / max(self._reach(a), 1e-30))]
             if self._euler:  # h² times half of `taken`
                 steps.append(np.sqrt(TAKEN * max(before, after) / max(taken, 1e-30)))
-            self._control.step = min(steps)
+            self.control.step = min(steps)
         memory = self._remembered(q, branches)
         motion = SheetMotion(time, q, rate, a, a, model.mass @ a + forces, memory)
         return Advance(motion, 0.0, 0.5 * (after - before))
 
     def advance(self, motion: SheetMotion, at_most: float) -> SheetMotion:
         """One step of at most so long [s]. Raises StepFailed."""
-        control, largest = self._control, self._largest
+        control, largest = self.control, self._largest
         self._rule = rule = BACKWARD_EULER if self._euler else self._usual
         control.order = rule.order
         allowed, smallest = 1.0, SMALLEST * max(motion.time, at_most)

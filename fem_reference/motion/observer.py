@@ -8,10 +8,9 @@ import numpy as np
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.energies import energies
 from fem_reference.motion.generalised_alpha import Sampled
-from sheetbench.answers.history import ENERGIES
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.runs.run import Part
+from sheetbench.runs.record import columns_of
 from sheetbench.scenes import Scene
 
 
@@ -25,15 +24,8 @@ class ReferenceObserver:
         nothing = np.zeros(model.size)
         self._reactions = list(model.reactions(nothing))
         flat = model.shape(nothing, 0.0)
-        wrenches = model.wrenches(flat, nothing)[1]
-        self.columns: list[Part] = [
-            ("time", "", ()),
-            *(("energy", name, ()) for name in ENERGIES),
-            *(("probe", name, (3,)) for name in scene.probes),
-            *(("reaction", name, (3,)) for name in self._reactions),
-            *(("reaction", name, (3,)) for name in model.held_by_items(flat)),
-            *(("actuator", name, wrench.shape) for name, wrench in wrenches.items()),
-        ]
+        held = [*self._reactions, *model.held_by_items(flat)]
+        self.columns = columns_of(scene, held, model.wrenches(flat, nothing)[1])
 
     def rows(self, samples: Sampled) -> np.ndarray:
         """Return the numbers of samples, (k, width)."""

@@ -22,7 +22,7 @@ from sheetbench.choices import REFERENCE, listed
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.runs.record import Recipe, parted, record
-from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, require_error, sample_count
+from sheetbench.runs.schedule import require_error, schedule_of
 from sheetbench.scenes import AnyScene, EdgeMotion, Scene, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.objects.quantities import require_positive
@@ -65,9 +65,9 @@ def simulate(
         require_no_obstacles(requested, "the plate, which is linear,")
     options = with_defaults(requested, model, options)
     moving = SHEETS[model](requested, **options, moving=True)
-    spacing = every or 1.0 / float(modes(requested, "plate", 4, count=1).frequencies[0]) / SAMPLES_PER_PERIOD
-    count = sample_count(duration, spacing, whole=every is not None)
-    schedule = Schedule(count, duration / count)
+    schedule = schedule_of(
+        duration, every, lambda: 1.0 / float(modes(requested, "plate", 4, count=1).frequencies[0])
+    )
     method = ConstrainedAlpha(moving, step, error, 0.1 * schedule.every)
     settings = {**moving.settings, "step": step or "adaptive", "error": error}
     flat = moving.displacement(np.zeros(moving.mass.shape[0]))

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable
-from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.system import State, System
-from sheetbench.numerics.time.method import Advance, StepFailed
+from sheetbench.numerics.time.method import Advance, MotionMethod, StepFailed
 
 __all__ = ["Advance", "Integrator", "LatticeSamples", "StepFailed"]
 
@@ -41,12 +40,13 @@ class LatticeSamples(NamedTuple):
         return State(float(self.time[i]), self.u[i], self.v[i], self.a[i], self.memory[i])
 
 
-class Integrator(ABC):
+class Integrator(MotionMethod[State]):
     """Takes a system from one state to the next.
 
     step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
     unless it is made `fixed`; explicit: whether its steps have a limit of stability; options: names of
-    what else the user may choose. adapts, span, kinks: as `sheetbench.numerics.time.method` has them.
+    what else the user may choose. Steps of one length end at times that lie farther from each other than
+    that: a table with more samples than there are steps has no corner to step onto.
     """
 
     name: ClassVar[str]
@@ -54,23 +54,13 @@ class Integrator(ABC):
     adaptive: ClassVar[bool] = False
     explicit: ClassVar[bool] = False
     options: ClassVar[tuple[str, ...]] = ()
-    state: ClassVar[type[State]] = State
+    state = State
 
     def __init__(self, system: System, step: float, fixed: bool = True):
         self.system, self.step, self.adapts = system, step, not fixed
-
-    @property
-    def span(self) -> int | None:
-        """One: steps end at samples."""
-        return 1
-
-    @cached_property
-    def kinks(self) -> np.ndarray:
-        """Times [s] at which something changes its course; for steps of one length those farther from each
-        other than that, as a table with more samples than there are steps has no corner to step onto."""
-        kinks = self.system.kinks
-        gaps = np.diff(kinks, prepend=-np.inf, append=np.inf)
-        return kinks if self.adapts else kinks[np.minimum(gaps[:-1], gaps[1:])[: len(kinks)] > self.step]
+        gaps = np.diff(system.kinks, prepend=-np.inf, append=np.inf)
+        apart = np.minimum(gaps[:-1], gaps[1:])[: len(system.kinks)]
+        self.kinks = system.kinks if self.adapts else system.kinks[apart > step]
 
     @classmethod
     def default_step(cls, period: Callable[[], float], limit: StepLimit | None) -> float:
@@ -108,17 +98,3 @@ class Integrator(ABC):
     def settings(self) -> dict[str, Any]:
         """Return the length of its steps."""
         return {"step": "adaptive" if self.adapts else self.step}
-
-    def notes(self) -> str:
-        """Return nothing: no step was taken in spite of its error."""
-        return ""
-
-    def forget(self) -> None:  # noqa: B027  # most integrators keep nothing
-        """Drop what was kept only for speed."""
-
-    def memory(self) -> dict[str, Any]:
-        """Return what a resumed run needs besides the state."""
-        return {}
-
-    def recall(self, memory: dict[str, Any]) -> None:  # noqa: B027
-        """Take up what `memory` gave."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +11,7 @@ from typing import Any, Generic, TypedDict, cast
 
 import numpy as np
 
-from sheetbench.answers.history import History
+from sheetbench.answers.history import ENERGIES, History
 from sheetbench.clock import now
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod
@@ -60,6 +60,17 @@ def parted(options: dict[str, Any]) -> tuple[Keeping, dict[str, Any]]:
     return cast(Keeping, keeping), {name: of for name, of in options.items() if name not in keeping}
 
 
+def columns_of(scene: Scene, reactions: Iterable[str], wrenches: Mapping[str, np.ndarray]) -> list[Part]:
+    """Return what a row holds: time, energies, displacements of probes, reactions, forces of actuators."""
+    return [
+        ("time", "", ()),
+        *(("energy", name, ()) for name in ENERGIES),
+        *(("probe", name, (3,)) for name in scene.probes),
+        *(("reaction", name, (3,)) for name in reactions),
+        *(("actuator", name, wrench.shape) for name, wrench in wrenches.items()),
+    ]
+
+
 def width(columns: Sequence[Part]) -> int:
     """How many numbers a row has."""
     return sum(math.prod(shape) for _, _, shape in columns)
@@ -86,7 +97,8 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
     columns, schedule = recipe.observer.columns, recipe.schedule
     described = [[kind, name, list(shape)] for kind, name, shape in columns]
     with ExitStack() as open_store:
-        kept: FolderStore | MemoryStore = MemoryStore(width(columns), recipe.rows)
+        shapes = {"samples": (width(columns),), "frames": (recipe.rows, 3)}
+        kept: FolderStore | MemoryStore = MemoryStore(shapes)
         if store is not None:
             key = {
                 "scene": recipe.scene.document(),
@@ -95,14 +107,14 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
                 "frames": frames,
                 "columns": described,
             }
-            kept = open_store.enter_context(FolderStore(store, width(columns), recipe.rows, key))
+            kept = open_store.enter_context(FolderStore(store, shapes, key))
         shown = schedule.shown(frames)
         run = Run(method, recipe.observer, schedule, kept, shown, keeping.get("progress"))
         ready = now()
         with one_blas_thread():
             status, message = run.finish(recipe.start)
         done = now()
-        parts, whole = split(columns, kept.samples()), kept.frames()
+        parts, whole = split(columns, kept.rows("samples")), kept.rows("frames")
     creeping = (f"{name}: {CREEPS}" for name, one in recipe.scene.named_obstacles().items() if one.friction)
     return History(
         label=recipe.label,

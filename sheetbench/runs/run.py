@@ -220,10 +220,10 @@ class Run(Generic[AnyState]):
                 fault = grew if np.isfinite(grown) else overflowed
             fault = Fault(fault.status, f"at {rows[count, 0]:.6g} s {fault.message}")
         shown = fault is not None and fault.status is not Status.NON_FINITE
-        self._kept.sample(rows[: count + shown])
+        self._kept.append("samples", rows[: count + shown])
         for i in range(count):
             if self.samples + i in self._shown:
-                self._kept.frame(observer.frame(samples, i))
+                self._kept.append("frames", observer.frame(samples, i)[None])
         self.samples += count
         return fault
 

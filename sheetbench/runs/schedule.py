@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,12 +38,16 @@ def require_error(error: float) -> None:
         )
 
 
-def sample_count(duration: float, spacing: float, whole: bool) -> int:
-    """Samples of a run at about this distance [s], or at least as close; whole: as near to it as can be.
-    Raises BadInput for too many."""
+def schedule_of(
+    duration: float, every: float | None, period: Callable[[], float], step: float | None = None
+) -> Schedule:
+    """Return the samples of a run: about `every` [s], or at least `SAMPLES_PER_PERIOD` in the lowest period
+    [s], or one a step [s]. Raises BadInput for too many."""
+    spacing = every or max(period() / SAMPLES_PER_PERIOD, step or 0.0)
     if duration / spacing > MOST_SAMPLES:
         raise BadInput(
             f"duration = {duration:g} s: would keep {duration / spacing:.1e} samples, {spacing:.3g} s apart; "
             f"{MOST_SAMPLES:.0e} at most: ask for a shorter run, or samples farther apart (--every)"
         )
-    return max(round(duration / spacing) if whole else int(np.ceil(duration / spacing - 1e-9)), 1)
+    samples = max(round(duration / spacing) if every else int(np.ceil(duration / spacing - 1e-9)), 1)
+    return Schedule(samples, duration / samples)

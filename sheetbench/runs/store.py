@@ -26,25 +26,20 @@ from sheetbench.files import NOT_FOLLOWED, only_writer, whole, writing
 from sheetbench.sources import source, version
 
 APPENDED = ("samples", "frames")
+Shapes = dict[str, tuple[int, ...]]  # of a row of each
 CHECKSUM = "{}_crc32"  # in the checkpoint, of what it counts of a file
 CHUNK = 1 << 20  # bytes read at a time
 
 
 class MemoryStore:
-    """Samples in memory; nothing to resume."""
+    """Samples in memory; nothing to resume. shapes: of a row of each of `APPENDED`."""
 
-    def __init__(self, width: int, rows: int):
-        self._width, self._rows = width, rows
-        self._samples: list[np.ndarray] = []
-        self._frames: list[np.ndarray] = []
+    def __init__(self, shapes: Shapes):
+        self._kept = {name: [np.empty((0, *shape))] for name, shape in shapes.items()}
 
-    def sample(self, rows: np.ndarray) -> None:
-        """Keep one sample (width,), or several (k, width)."""
-        self._samples.append(rows)
-
-    def frame(self, displacement: np.ndarray) -> None:
-        """Keep one frame (rows, 3)."""
-        self._frames.append(displacement.copy())
+    def append(self, name: str, rows: np.ndarray) -> None:
+        """Keep samples (k, width), or frames (k, rows, 3)."""
+        self._kept[name].append(rows.copy())
 
     def checkpoint(self, content: dict[str, Any]) -> None:
         """Nothing to keep."""
@@ -53,13 +48,9 @@ class MemoryStore:
         """There is nothing to resume from."""
         return None
 
-    def samples(self) -> np.ndarray:
-        """All samples, (n, width)."""
-        return np.vstack([np.empty((0, self._width)), *self._samples])
-
-    def frames(self) -> np.ndarray:
-        """All frames, (n, rows, 3)."""
-        return np.array(self._frames).reshape(-1, self._rows, 3)
+    def rows(self, name: str) -> np.ndarray:
+        """All samples, (n, width), or frames, (n, rows, 3)."""
+        return np.concatenate(self._kept[name])
 
 
 class FolderStore:
@@ -70,8 +61,8 @@ class FolderStore:
     written, and for damaged files.
     """
 
-    def __init__(self, folder: Path, width: int, rows: int, description: dict[str, Any]):
-        self.folder, self._width, self._rows = folder, width, rows
+    def __init__(self, folder: Path, shapes: Shapes, description: dict[str, Any]):
+        self.folder, self._shapes = folder, shapes
         code = {"version": version(), "source": source()}
         self._description = json.loads(json.dumps({**description, **code}))
         self._checksums = dict.fromkeys(APPENDED, 0)
@@ -88,13 +79,12 @@ class FolderStore:
     def __exit__(self, *ended: object) -> None:
         self._held.close()
 
-    def sample(self, rows: np.ndarray) -> None:
-        """Append one sample (width,), or several (k, width)."""
-        self._append("samples", rows)
-
-    def frame(self, displacement: np.ndarray) -> None:
-        """Append one frame (rows, 3)."""
-        self._append("frames", displacement)
+    def append(self, name: str, rows: np.ndarray) -> None:
+        """Append samples (k, width), or frames (k, rows, 3)."""
+        written = np.ascontiguousarray(rows, dtype=float).tobytes()
+        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
+            file.write(written)
+        self._checksums[name] = zlib.crc32(written, self._checksums[name])
 
     def checkpoint(self, content: dict[str, Any]) -> None:
         """Replace the checkpoint; what was appended so far is on disk before it is."""
@@ -131,13 +121,12 @@ class FolderStore:
         self._cut(sizes)
         return content
 
-    def samples(self) -> np.ndarray:
-        """All samples, (n, width), mapped from the file."""
-        return self._mapped("samples", (self._width,))
-
-    def frames(self) -> np.ndarray:
-        """All frames, (n, rows, 3), mapped from the file."""
-        return self._mapped("frames", (self._rows, 3))
+    def rows(self, name: str) -> np.ndarray:
+        """All samples, (n, width), or frames, (n, rows, 3), mapped from the file."""
+        path, shape = self._file(name), self._shapes[name]
+        if path.stat().st_size == 0:
+            return np.empty((0, *shape))
+        return np.memmap(path, dtype=float, mode="r").reshape(-1, *shape)
 
     def _note(self) -> None:
         """Note the run's settings, or see that those of the run that is kept here are the same."""
@@ -184,22 +173,10 @@ class FolderStore:
         with writing(path), os.fdopen(os.open(path, flags | NOT_FOLLOWED, 0o666), "wb") as file:
             yield file
 
-    def _append(self, name: str, values: np.ndarray) -> None:
-        written = np.ascontiguousarray(values, dtype=float).tobytes()
-        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
-            file.write(written)
-        self._checksums[name] = zlib.crc32(written, self._checksums[name])
-
     def _synced(self, name: str) -> int:
         with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
             os.fsync(file.fileno())
             return os.fstat(file.fileno()).st_size
-
-    def _mapped(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
-        path = self._file(name)
-        if path.stat().st_size == 0:
-            return np.empty((0, *shape))
-        return np.memmap(path, dtype=float, mode="r").reshape(-1, *shape)
 
 
 def _checksum(path: Path, size: int) -> int:

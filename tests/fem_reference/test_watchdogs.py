@@ -113,7 +113,8 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
     monkeypatch.setattr(observer, "rows", lambda samples: row.copy())
 
     def checked(balance):
-        run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), MemoryStore(6, 1), (), None)
+        kept = MemoryStore({"samples": (6,), "frames": (1, 3)})
+        run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), kept, (), None)
         run.watch = Watch(balance, lowest=balance, largest=3.0)
         fault = run._take(moving)
         return run.samples, fault

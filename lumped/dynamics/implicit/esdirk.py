@@ -17,7 +17,6 @@ the order.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -55,13 +54,16 @@ class Esdirk(Integrator):
     displacement."""
 
     name, order, adaptive, options = "esdirk", 5, True, ("error",)
+    remembered = ("_first", "_largest", "_energy")
+    control: Controller
 
     def __init__(self, system: System, step: float, error: float = ERROR, fixed: bool = True):
         if system.coupling is not None:
             raise BadInput("integrator = 'esdirk': does not take chains; choose another integrator")
         require_error(error)
         super().__init__(system, step, fixed)
-        self._control = Controller(5, 4.0, (1.0, 1.2), step)
+        self.span = 1 if fixed else SAMPLES_PER_CHECKPOINT  # adaptive steps end at checkpoints
+        self.control = Controller(5, 4.0, (1.0, 1.2), step)
         self._first, self._error = step, error
         self._newton = Newton(system, STEP_TOLERANCE, STALE)
         self._largest, self._energy = 0.0, 0.0  # displacement, and part of the energy
@@ -72,34 +74,10 @@ class Esdirk(Integrator):
         """Infinite: an adaptive run finds its first step where it begins."""
         return np.inf
 
-    @property
-    def span(self) -> int:
-        """Adaptive steps end at checkpoints."""
-        return SAMPLES_PER_CHECKPOINT if self.adapts else 1
-
     def forget(self) -> None:
         """Drop the factors, and the power of the last state."""
         self._newton.forget()
         self._end = None, np.zeros(2)
-
-    def memory(self) -> dict[str, Any]:
-        """Return the step's control."""
-        return {
-            **self._control.memory(),
-            "first": self._first,
-            "largest": self._largest,
-            "energy": self._energy,
-        }
-
-    def recall(self, memory: dict[str, Any]) -> None:
-        """Take up what `memory` gave."""
-        self._control.recall(memory)
-        self._first, self._largest = float(memory["first"]), float(memory["largest"])
-        self._energy = float(memory["energy"])
-
-    def notes(self) -> str:
-        """Return a clause on steps that counted in spite of their error."""
-        return self._control.notes()
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """Return one step; an adaptive one divides `at_most` evenly and is repeated until its error is small.
@@ -125,10 +103,10 @@ class Esdirk(Integrator):
                 error = max(error, largest * ENERGY * gained / (self._energy or 1.0))
             return step, error, self._error * largest
 
-        shortest = 1e-6 * min(self._control.step, at_most)
-        step, h = self._control.take(attempt, at_most, shortest)
+        shortest = 1e-6 * min(self.control.step, at_most)
+        step, h = self.control.take(attempt, at_most, shortest)
         if self._newton.made > LENGTHEN_UP_TO:
-            self._control.step = min(self._control.step, h)
+            self.control.step = min(self.control.step, h)
         self._largest = largest
         return self._advance(state, step)
 
@@ -159,7 +137,7 @@ class Esdirk(Integrator):
         goal = min(goal, problem.size)
         fastest = float(np.abs(system.accelerate(force)).max())
         if goal > 0.0:
-            self._control.step = self._first = min(self._control.step, FIRST * np.sqrt(goal / fastest))
+            self.control.step = self._first = min(self.control.step, FIRST * np.sqrt(goal / fastest))
         self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
@@ -170,7 +148,7 @@ class Esdirk(Integrator):
         near = 1e-9 * at_most
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.prescribed.jumps(now):  # and so do dampers: the steps begin as at the start
-                self._control.step = min(self._control.step, self._first)
+                self.control.step = min(self.control.step, self._first)
             force = system.within(state).unbalanced(state.u, state.v, now)
             state = replace(state, time=now, a=system.accelerate(force))
         ahead = system.kinks[system.kinks > now + near]

@@ -5,8 +5,6 @@ What supports prescribe is taken as it is prescribed: accelerations are those be
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from lumped.dynamics.implicit.newton import Newton, StepEquation
@@ -25,10 +23,12 @@ class GeneralisedAlpha(Integrator):
     """Generalised-α with radius ρ∞; adaptive unless the step is `fixed`."""
 
     name, order, adaptive, options = "generalised-alpha", 2, True, ("radius",)
+    remembered = ("_algorithm", "_before", "_largest")
+    control: Controller
 
     def __init__(self, system: System, step: float, radius: float = 0.9, fixed: bool = True):
         super().__init__(system, step, fixed)
-        self._control = Controller(3, 2.0, (1.0, 1.3), step)
+        self.control = Controller(3, 2.0, (1.0, 1.3), step)
         self._rule = generalised(radius)
         self._newton = Newton(system, STEP_TOLERANCE)
         self._algorithm: np.ndarray | None = None
@@ -38,21 +38,6 @@ class GeneralisedAlpha(Integrator):
     def forget(self) -> None:
         """Drop the factors."""
         self._newton.forget()
-
-    def memory(self) -> dict[str, Any]:
-        """Return the algorithm's acceleration and the step's control."""
-        own = {"a": self._algorithm, "before": self._before, "largest": self._largest}
-        return self._control.memory() | own
-
-    def recall(self, memory: dict[str, Any]) -> None:
-        """Take up what `memory` gave."""
-        self._control.recall(memory)
-        self._algorithm, self._before = memory["a"], float(memory["before"])
-        self._largest = float(memory["largest"])
-
-    def notes(self) -> str:
-        """Return a clause on steps that counted in spite of their error."""
-        return self._control.notes()
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """Return one step; an adaptive one divides `at_most` evenly and is repeated until its error is small.
@@ -69,7 +54,7 @@ class GeneralisedAlpha(Integrator):
             allowed = ERROR * max(largest, 1e-6 * self.system.problem.size)
             return (after, algorithm), h * h * self._rule.error * jump, allowed
 
-        found, h = self._control.take(attempt, at_most, 1e-6 * self._control.step)
+        found, h = self.control.take(attempt, at_most, 1e-6 * self.control.step)
         self._largest = largest
         return self._advance(state, *found, h)
 

@@ -18,12 +18,10 @@ from lumped.mid_surface import MidSurface
 from lumped.springs.tiles import NUMBA_TRUE
 from lumped.statics.faults import fastest, inspect
 from lumped.statics.problem import STRETCH
-from sheetbench.answers.history import ENERGIES
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, csr_arrays, product
 from sheetbench.numerics.typed import njit, typed
-from sheetbench.runs.record import width
-from sheetbench.runs.run import Part
+from sheetbench.runs.record import columns_of, width
 from sheetbench.scenes import outside_model
 
 ROUNDED = 1e-9  # of the energy of the flat sheet, of a natural state, below which all is rounding
@@ -53,16 +51,8 @@ class LatticeObserver:
         nothing = np.zeros((system.assembly.pattern.size, 3))
         actuators = system.coupling.wrenches(nothing, nothing) if system.coupling is not None else {}
         holders = system.coupling.reactions(nothing) if system.coupling is not None else {}
-        self.columns: list[Part] = [
-            ("time", "", ()),
-            *(("energy", name, ()) for name in ENERGIES),
-            *(("probe", name, (3,)) for name in scene.probes),
-            *(
-                ("reaction", edge, (3,))
-                for edge in [*self._supports, *(item.name for item in system.items), *holders]
-            ),
-            *(("actuator", name, wrench.shape) for name, wrench in actuators.items()),
-        ]
+        exerting = [*self._supports, *(item.name for item in system.items), *holders]
+        self.columns = columns_of(scene, exerting, actuators)
         self._width = width(self.columns)
         self._observed: Observed | None = None
         if system.packed and system.coupling is None and not system.items:

@@ -14,7 +14,7 @@ from lumped.dynamics.system import System
 from lumped.statics.solver import build_problem
 from lumped.vibration import modes
 from sheetbench.errors import BadInput, NoEquilibrium
-from sheetbench.runs.schedule import SAMPLES_PER_PERIOD, Schedule, sample_count
+from sheetbench.runs.schedule import Schedule, schedule_of
 from sheetbench.scenes import Scene, SceneError
 
 MOST_DEFAULT_STEPS = 10_000_000  # that an explicit run takes unasked: an hour or more
@@ -41,11 +41,7 @@ def plan_run(
     def period() -> float:
         return 1.0 / float(modes(system.scene, calibration, 1, calibration.masses).frequencies[0])
 
-    spacing = every if every is not None else period() / SAMPLES_PER_PERIOD
-    if step is not None and every is None:
-        spacing = max(spacing, step)
-    samples = sample_count(duration, spacing, whole=every is not None)
-    spacing = duration / samples
+    schedule = schedule_of(duration, every, period, step)
     wanted = step if step is not None else kind.default_step(period, limit)
     if limit is not None:
         if wanted > limit.step:
@@ -61,8 +57,8 @@ def plan_run(
         raise BadInput(
             f"step = {wanted:g} s: {duration / wanted:.1e} steps to {duration:g} s; {MOST_STEPS:.0e} at most"
         )
-    steps = max(int(np.ceil(spacing / wanted - 1e-9)), 1)
-    return Schedule(samples, spacing), spacing / steps
+    steps = max(int(np.ceil(schedule.every / wanted - 1e-9)), 1)
+    return schedule, schedule.every / steps
 
 
 def shortest_period(scene: Scene, springs: Calibration) -> float:

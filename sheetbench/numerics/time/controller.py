@@ -13,12 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
 from sheetbench.numerics.reduced import SingularMatrixError
-from sheetbench.numerics.time.method import StepFailed
 
 SAFETY = 0.9
 
@@ -26,11 +25,32 @@ T = TypeVar("T")
 Tried = tuple[T, float, float]  # a step, its error and what is allowed
 
 
+class StepFailed(ArithmeticError):
+    """A time step found no solution; the text says why."""
+
+
+class Remembering:
+    """Something with attributes that a resumed run needs. remembered: their names."""
+
+    remembered: ClassVar[tuple[str, ...]] = ()
+
+    def memory(self) -> dict[str, Any]:
+        """Return what a resumed run needs besides the state."""
+        return {name: getattr(self, name) for name in self.remembered}
+
+    def recall(self, memory: dict[str, Any]) -> None:
+        """Take up what `memory` gave."""
+        for name in self.remembered:
+            value = np.asarray(memory[name])
+            setattr(self, name, value if value.ndim else value.item())
+
+
 @dataclass
-class Controller:
+class Controller(Remembering):
     """order: p; growth: the longest step after one, over that; band: of r, in which lengths stay; step: the
     next to be tried [s]; floored: steps that counted in spite of their error; rejected: those repeated."""
 
+    remembered = ("step", "floored", "rejected")
     order: int
     growth: float
     band: tuple[float, float]
@@ -72,15 +92,6 @@ class Controller:
             if not self.band[0] <= ratio <= self.band[1]:
                 self.step = h * min(max(ratio, 0.5), self.growth)
             return found, h
-
-    def memory(self) -> dict[str, Any]:
-        """Return what a resumed run needs."""
-        return {"step": self.step, "floored": self.floored, "rejected": self.rejected}
-
-    def recall(self, memory: dict[str, Any]) -> None:
-        """Take up what `memory` gave."""
-        self.step = float(memory["step"])
-        self.floored, self.rejected = int(memory["floored"]), int(memory["rejected"])
 
     def notes(self) -> str:
         """Return a clause on steps that counted in spite of their error."""

@@ -170,11 +170,11 @@ def test_a_checkpoint_is_on_the_disk_after_what_it_counts_and_before_it_has_its_
         synced.append((about.st_ino, about.st_size, (tmp_path / "checkpoint.npz").exists()))
 
     monkeypatch.setattr(os, "fsync", fsync)
-    with FolderStore(tmp_path, 2, 3, {}) as store:
+    with FolderStore(tmp_path, {"samples": (2,), "frames": (3, 3)}, {}) as store:
         store.resume()
-        assert store.samples().shape == (0, 2) and store.frames().shape == (0, 3, 3)
-        store.sample(np.ones(2))
-        store.frame(np.ones((3, 3)))
+        assert store.rows("samples").shape == (0, 2) and store.rows("frames").shape == (0, 3, 3)
+        store.append("samples", np.ones((1, 2)))
+        store.append("frames", np.ones((1, 3, 3)))
         store.checkpoint({"step": np.array(1)})
     files = [(tmp_path / name).stat() for name in ("samples.bin", "frames.bin", "checkpoint.npz")]
     assert synced == [(about.st_ino, about.st_size, False) for about in files]

@@ -47,7 +47,7 @@ class Motion(OverTime):
     @property
     def course(self) -> PiecewiseCurve:
         """The displacement (3,) [m] over time."""
-        return PiecewiseCurve(self.time, self.displacement, self.interpolation)
+        return self.over_time("displacement")
 
 
 class _EdgeSupport(Frozen):

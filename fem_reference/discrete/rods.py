@@ -63,7 +63,7 @@ class Rods:
         self.rows = (3 * bound.sites[:, :, None] + np.arange(3)).reshape(k, 3 * a)
         self.elements: RodElements = bound.elements
         self._mass = self._side_masses(scene, places)
-        self._viscous = self._dampers(scene)
+        self._viscous = self._dampers()
 
     def __bool__(self) -> bool:
         return bool(self.bound.rods)
@@ -165,15 +165,15 @@ class Rods:
     def _intrinsic(self, at: float) -> np.ndarray:
         return self.elements.intrinsic @ [factor_at(factor, at) for factor in self._commands]
 
-    def _dampers(self, scene: Scene) -> np.ndarray:
+    def _dampers(self) -> np.ndarray:
         """τ S of what bends freely, (k, s); chains on one edge by their stiffness."""
         out = [np.zeros((0, self.elements.stiffness.shape[1]))]
         for rod, stiffness in zip(self.bound.rods, self.bound.by_rod(self.elements.stiffness), strict=True):
-            chains = scene.chains()[rod.edge].values()
+            chains = rod.chains.values()
             rigidity = np.array([chain.bending_stiffness for chain in chains])
             tau = np.array([chain.damping_time for chain in chains]) @ rigidity / rigidity.sum()
             out.append(np.zeros_like(stiffness))
-            for bent in BENT[next(iter(chains)).plane]:
+            for bent in BENT[rod.chain.plane]:
                 out[-1][:, bent] = tau * stiffness[:, bent]
         return np.concatenate(out)
 
@@ -185,7 +185,7 @@ class Rods:
             ends = rod.elements.reference[:, [0, 2]]
             half = 0.5 * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
             mass = np.zeros((len(rod.nodes), a, a))
-            for chain in scene.chains()[rod.edge].values():
+            for chain in rod.chains.values():
                 height, rotary = chain.axis_height(scene.sheet.thickness), chain.radius**2 / 4.0
                 kinds = np.diag([1.0, height**2 + rotary, rotary])
                 kinds[0, 1] = kinds[1, 0] = height

@@ -19,7 +19,7 @@ import numpy as np
 from skfem import ElementHex2, ElementQuad2, MeshQuad
 
 from fem_reference.solid.materials import LAWS
-from fem_reference.surface.mesh import Plan, on_boundary, plan_of, quarters, require_upright
+from fem_reference.surface.mesh import Plan, plan_of, quarters, require_upright
 from fem_reference.surface.rubber import require_law
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
@@ -83,7 +83,7 @@ class Columns:
 
     def edge(self, name: str) -> np.ndarray:
         """Plan nodes on an edge."""
-        return on_boundary(self.plan.mesh, name)
+        return self.plan.on_boundary(name)
 
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""

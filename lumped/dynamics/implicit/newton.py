@@ -57,9 +57,8 @@ class Newton:
         self.made = 0  # corrections of the last step's stages
 
     def forget(self) -> None:
-        """Drop the factors, and what those made anew would take over from them."""
+        """Drop the factors."""
         self._factor = self._factored = None
-        self._system.problem.system.forget()
 
     def solve(
         self,

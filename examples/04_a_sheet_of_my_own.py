@@ -24,7 +24,7 @@ print(sb.check(scene))
 # The shell's deformed surface, coloured by its own displacement:
 
 shell = sb.solve(scene, "shell", elements=8)
-surface = shell.mesh.to_pyvista().extract_surface(algorithm="dataset_surface").warp_by_vector("displacement")
+surface = shell.to_pyvista().extract_surface(algorithm="dataset_surface").warp_by_vector("displacement")
 surface["uz [mm]"] = 1e3 * surface["displacement"][:, 2]
 plotter = pyvista.Plotter(off_screen=True, window_size=(800, 450))
 plotter.add_mesh(surface, scalars="uz [mm]", cmap="cividis", smooth_shading=True)

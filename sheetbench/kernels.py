@@ -38,7 +38,7 @@ try:
 except ImportError:  # not on Windows
     fcntl = None  # type: ignore[assignment]
 
-from llvmlite.binding import get_host_cpu_features, parse_bitcode
+from llvmlite.binding import ffi, get_host_cpu_features, parse_bitcode
 from platformdirs import user_cache_path
 
 from sheetbench import clock
@@ -320,4 +320,5 @@ setattr(caching.FunctionCache, "load_overload", _load)  # noqa: B010  # methods 
 setattr(caching.FunctionCache, "save_overload", _save)  # noqa: B010
 caching.CacheImpl._locator_classes.insert(0, Locator)
 codegen.JITCPUCodegen._library_class = Library
+ffi.lib._lock._cblist.clear()  # numba's clock of LLVM's lock, at every call of LLVM: a twentieth of compiling
 event.register("numba:compile", _Announcement())

@@ -27,7 +27,6 @@ UNDAMPED = (
     "damping_time or damping_rate, or [air] its drag"
 )
 COMPONENTS = ("ux", "uy", "uz")
-WRENCH = (*((f"F{axis}", "N") for axis in "xyz"), *((f"M{axis}", "N·m") for axis in "xyz"))
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 
 
@@ -66,15 +65,13 @@ class History(Answer):
         """kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run; nan where
         energies are not known."""
         e = self.energies or dict.fromkeys(ENERGIES, np.full(len(self.time), np.nan))
-        total: np.ndarray = e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"]
-        return total
+        return np.asarray(e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"])
 
     @property
     def numerical(self) -> np.ndarray:
         """Energy (n,) [J] that the rule of integration has taken since the start, < 0 where it gave some: by
         how much the balance has fallen."""
-        total: np.ndarray = (self.balance[0] - self.balance) if len(self.time) else self.balance
-        return total
+        return self.balance[:1].sum() - self.balance
 
     @property
     def accounts(self) -> dict[str, np.ndarray]:
@@ -90,9 +87,7 @@ class History(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """A row per probe: the displacement at the end and its largest excursion."""
-        rows = []
-        for name, u in self.probes.items() if len(self.time) else ():
-            rows.append((name, *u[-1], np.abs(u).max()))
+        rows = [(name, *u[-1], np.abs(u).max()) for name, u in self.probes.items() if len(u)]
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and its largest component during the motion"
         moved = (MILLIMETRES("z.3f", name) for name in (*COMPONENTS, "largest"))
@@ -127,15 +122,10 @@ class History(Answer):
             return notes
         if self.energies["kinetic"].any() and not self.energies["dissipated"].any():
             notes.append(UNDAMPED)
-        return [*notes, self.balance_note]
-
-    @property
-    def balance_note(self) -> str:
-        """How well the run kept its energy, in a sentence."""
-        spread = float(abs(self.balance - self.balance[0]).max())
+        spread = float(abs(self.numerical).max())
         scale = max(float(abs(energy).max()) for energy in self.energies.values())
         held = number(spread / scale if scale else spread, ".1e")
-        return f"energy balance held to {held} of the largest energy"
+        return [*notes, f"energy balance held to {held} of the largest energy"]
 
     def choices(self) -> dict[str, Any]:
         return {"integrator": self.integrator, **self.settings}
@@ -149,18 +139,18 @@ class History(Answer):
         return self.status is Status.CONVERGED
 
     def series(self) -> Table:
-        """A row per sample: time, probes, energies, reactions and the actuators' total force."""
-        found: list[tuple[str, str, np.ndarray]] = [("time", "s", self.time)]
-        for name, u in self.probes.items():
-            found += [(f"{name}.{component}", "m", of) for component, of in zip(COMPONENTS, u.T, strict=True)]
+        """A row per sample: time, probes, energies, reactions and what every segment of actuators exerts."""
         known = {**self.accounts, "balance": self.balance} if self.energies else {}
+        found = [("time", "s", self.time)]
+        for name, u in self.probes.items():
+            found += _parts(name, "u", "m", u)
         found += [(name, "J", energy) for name, energy in known.items()]
         for name, force in self.reactions.items():
-            found += [(f"{name}.F{axis}", "N", of) for axis, of in zip("xyz", force.T, strict=True)]
+            found += _parts(name, "F", "N", force)
         for name, wrench in self.actuators.items():
-            for segment in range(wrench.shape[1]):
-                parts = zip(WRENCH, wrench[:, segment].T, strict=True)
-                found += [(f"{name}.{segment}.{part}", unit, of) for (part, unit), of in parts]
+            for segment, of in enumerate(wrench.swapaxes(0, 1)):
+                one = f"{name}.{segment}"
+                found += [*_parts(one, "F", "N", of[:, :3]), *_parts(one, "M", "N·m", of[:, 3:])]
         columns = tuple(Column(name, unit) for name, unit, _ in found)
         rows = zip(*(values.tolist() for *_, values in found), strict=True)
         return Table("History", columns, tuple(rows))
@@ -187,3 +177,8 @@ class History(Answer):
             {"time": ("time", self.time, {"units": "s"}), "probe": [*self.probes], "axis": [*"xyz"]},
             {"label": self.label, "integrator": self.integrator, "status": str(self.status)},
         )
+
+
+def _parts(name: str, letter: str, unit: str, values: np.ndarray) -> list[tuple[str, str, np.ndarray]]:
+    """Return name, unit and samples (n,) of each component of vectors (n, 3)."""
+    return [(f"{name}.{letter}{axis}", unit, of) for axis, of in zip("xyz", values.T, strict=True)]

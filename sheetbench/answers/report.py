@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 from sheetbench.answers.escape import html, markdown, terminal
@@ -59,7 +59,7 @@ class Picture:
         from sheetbench.answers.style import STYLE
 
         with rc_context(STYLE):
-            figure: Figure = _function(self.compose)(*self.of, self.style)
+            figure: Figure = resolve_name(self.compose)(*self.of, self.style)
         return figure
 
     def write(self, folder: Path) -> str | None:
@@ -69,7 +69,7 @@ class Picture:
         paths = [folder / name for name in self.names]
         try:
             if self.formats == FILM:
-                _function(self.compose)(*self.of, paths)
+                resolve_name(self.compose)(*self.of, paths)
             else:
                 save(self.figure(), paths, self.description)
         except NoPicture as why:
@@ -81,12 +81,6 @@ class Picture:
         if self.formats == FILM:
             return (self,)
         return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
-
-
-def _function(name: str) -> Callable[..., Any]:
-    module, _, function = name.partition(":")
-    compose: Callable[..., Any] = getattr(import_module(module), function)
-    return compose
 
 
 @dataclass(frozen=True, repr=False)
@@ -181,20 +175,13 @@ class Report:
         return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
 
     def words(self) -> dict[str, Any]:
-        """Return what the files do not say by themselves, ready for JSON: words, headings of tables,
-        pictures.
-
-        Tables without a file of their own come with their rows.
-        """
+        """Return what the files do not say by themselves, ready for JSON: words, headings of tables (with
+        the rows of those that have no file), pictures."""
+        own = ("title", "subtitle", "lead", "result", "notes", "complaints")
         return {
-            "title": self.title,
-            "subtitle": self.subtitle,
-            "lead": self.lead,
-            "result": self.result,
+            **{name: getattr(self, name) for name in own},
             "document": f"{self.name}.json",
             "tables": [table.words() for table in self.tables],
-            "notes": list(self.notes),
-            "complaints": list(self.complaints),
             "pictures": [list(picture.names) for picture in self.pictures],
             "met": self.succeeded,
         }

@@ -106,14 +106,6 @@ class FieldMesh:
 
         return meshio.Mesh(self.points, self.cells, self.point_data, self.cell_data)
 
-    def to_pyvista(self) -> pyvista.UnstructuredGrid:
-        """Convert to pyvista's grid, undeformed, with `displacement` as the active vectors."""
-        import pyvista
-
-        grid = pyvista.from_meshio(self.to_meshio())
-        grid.set_active_vectors("displacement")
-        return grid
-
     def save(self, path: str | Path) -> None:
         """Write the mesh in the format of the path's suffix: .vtu, .vtk, .xdmf, …"""
         self.to_meshio().write(path)
@@ -237,8 +229,13 @@ class Solution(Answer):
         return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
-        """The model's mesh with its fields, for pyvista: `solution.to_pyvista().warp_by_vector().plot()`."""
-        return self.mesh.to_pyvista()
+        """The undeformed mesh with its fields, `displacement` as the active vectors, for pyvista:
+        `solution.to_pyvista().warp_by_vector().plot()`."""
+        import pyvista
+
+        grid = pyvista.from_meshio(self.mesh.to_meshio())
+        grid.set_active_vectors("displacement")
+        return grid
 
     def heading(self) -> tuple[str, str, str]:
         return f"Solution of {self.label}", self.status_text, ""

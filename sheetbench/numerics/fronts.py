@@ -76,12 +76,17 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
     above[halves[halves >= 0]] = np.nonzero(halves >= 0)[0]
     leaves = np.flatnonzero(halves[:, 0] < 0)
     of_cells = np.repeat(leaves, np.diff(parts[leaves])[:, 0])[at]
-    having = csr_array((np.ones(len(at), bool), (place[unknown], of_cells)), shape=(size, len(parts)))
-    width = np.zeros(len(parts), np.int64)
-    _climb(having.indices, having.indptr, above, owner[order], width, np.empty(0, np.int64))
-    begin = np.append(0, np.cumsum(width))
-    rows = np.empty(begin[-1], np.int64)
-    _climb(having.indices, having.indptr, above, owner[order], begin[:-1].copy(), rows)
+    shape = (size, len(parts))
+    step = csr_array((np.ones(len(at), bool), (place[unknown], of_cells)), shape=shape)
+    having = step  # the parts that have an unknown: from its cells' to the one that eliminates it
+    while step.nnz:
+        unknown, part = step.nonzero()
+        on = part != owner[order[unknown]]
+        step = csr_array((np.ones(on.sum(), bool), (unknown[on], above[part[on]])), shape=shape)
+        having = having + step
+    by_part = having.tocsc()
+    rows, begin = by_part.indices.astype(np.int64), by_part.indptr.astype(np.int64)
+    width = np.diff(begin)
     left = np.append((width - own) ** 2, 0)
     waiting = np.cumsum(left[:-1] - left[halves].sum(axis=1))
     kept = np.append(0, np.cumsum(own * width))
@@ -155,29 +160,6 @@ def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tupl
         parts[count + 1, 0], parts[count + 1, 1] = cut, end
         count += 2
     return parts[:count], halves[:count]
-
-
-@njit(cache=True)
-def _climb(
-    leaf: np.ndarray, ends: np.ndarray, above: np.ndarray, owner: np.ndarray, at: np.ndarray, rows: np.ndarray
-) -> None:
-    """Count the unknowns of every part `at` (F,), and put their places into rows from there on if it has any.
-
-    A part has those of its cells' unknowns that it or one above it eliminates. leaf: parts of the cells that
-    have the unknown at each place, from `ends` (n + 1,) on; above: what each part is a half of; owner: the
-    part that eliminates the unknown at each place."""
-    seen = np.full(len(above), -1)
-    for p in range(len(owner)):
-        for t in range(ends[p], ends[p + 1]):
-            f = leaf[t]
-            while seen[f] != p:
-                seen[f] = p
-                if len(rows):
-                    rows[at[f]] = p
-                at[f] += 1
-                if f == owner[p]:
-                    break
-                f = above[f]
 
 
 @njit(cache=True)

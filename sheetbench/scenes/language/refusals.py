@@ -27,10 +27,8 @@ MANY_DIGITS = 30
 def in_one_line(error: ValidationError, model: type[BaseModel]) -> str:
     """The faults of data for `model`, separated by semicolons."""
     faults = [fault for fault in error.errors(include_url=False) if not _follows(fault)]
-    faults_in_words = [_sentence(fault, json_schema(model)) for fault in faults[:SHOWN]]
-    if len(faults) > SHOWN:
-        faults_in_words.append(f"and {len(faults) - SHOWN} more")
-    return "; ".join(faults_in_words)
+    more = [f"and {len(faults) - SHOWN} more"] if len(faults) > SHOWN else []
+    return "; ".join([*(_sentence(fault, json_schema(model)) for fault in faults[:SHOWN]), *more])
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:
@@ -65,9 +63,8 @@ def _follows(fault: Any) -> bool:
 
 def _sentence(fault: Any, schema: dict[str, Any]) -> str:
     where, nodes = _place(fault["loc"], schema)
-    key = in_keys(where)
-    value = fault["input"]
-    facts = fault.get("ctx", {})
+    key, value, facts = in_keys(where), fault["input"], fault.get("ctx", {})
+    given = f"{key} = {shown(value)}"
     match fault["type"]:
         case "extra_forbidden":
             if not_modelled := wish(str(where[-1])):
@@ -75,56 +72,43 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
             keys = _keys(_place(fault["loc"][:-1], schema)[1])
             near = did_you_mean(str(where[-1]), keys)
             hint = f"did you mean {near}?" if near else f"known here are {', '.join(keys)}"
-            return f"{key} = {shown(value)}: unknown key; {hint}"
+            return f"{given}: unknown key; {hint}"
         case "missing":
             return f"{key}: missing"
         case "value_error":
-            text = str(facts["error"])
-            return f"{key}: {text}" if key else text
+            return f"{key}: {facts['error']}" if key else str(facts["error"])
         case "union_tag_not_found":
-            return f"{key}: kind is missing; {_one_of(_kinds(nodes))}"
+            return f"{key}: kind is missing; {_choose('', nodes)}"
+        case "union_tag_invalid" if facts["tag"] in _FORMS:
+            return f"{given}: must be {facts['expected_tags'].replace(chr(39), '').replace(', ', ' or ')}"
         case "union_tag_invalid":
-            if not_modelled := wish(str(facts["tag"])):
-                return f"{key}: kind = {shown(facts['tag'])}: {not_modelled}"
-            return f"{key}: kind = {shown(facts['tag'])}: {_choose(str(facts['tag']), _kinds(nodes))}"
+            tag = facts["tag"]
+            return f"{key}: kind = {shown(tag)}: {wish(str(tag)) or _choose(tag, nodes)}"
         case "literal_error":
-            enums = ([node["const"]] if "const" in node else node.get("enum", ()) for node in nodes)
-            choices = [str(choice) for enum in enums for choice in enum]
-            return f"{key} = {shown(value)}: {_choose(str(value), choices)}"
+            return f"{given}: {_choose(value, nodes)}"
         case "float_type" if isinstance(value, str) and (unit := _unit(fault["loc"], schema)) is not None:
-            return f"{key}: {_no_quantity(value, unit)}"
+            try:
+                quantity(value, unit)
+            except BadInput as error:
+                return f"{key}: {error}"
+            return f"{key}: '{value}' is text: write the number [{unit}] without quotes, or with a unit"
         case "tuple_type":
-            entries = [entry for node in nodes for entry in _inside(node, 0, schema)]
-            if _keys(entries):
-                return f"{key} = {shown(value)}: must be a list of tables, each headed [[{key}]]"
-            sizes = {len(node["prefixItems"]) for node in nodes if "prefixItems" in node}
-            of = f" of {min(sizes)}" if sizes else ""
-            return f"{key} = {shown(value)}: must be a list{of}"
+            if _keys([entry for node in nodes for entry in _inside(node, 0, schema)]):
+                return f"{given}: must be a list of tables, each headed [[{key}]]"
+            sizes = [f" of {len(node['prefixItems'])}" for node in nodes if "prefixItems" in node]
+            return f"{given}: must be a list{min(sizes, default='')}"
         case "model_type" | "model_attributes_type" | "dict_type":
             keys = _keys(nodes)
-            table = f"a table with the keys {', '.join(keys)}" if keys else "a table"
-            return f"{key} = {shown(value)}: must be {table}"
+            return f"{given}: must be a table" + f" with the keys {', '.join(keys)}" * bool(keys)
     unnamed = f"is not allowed ({fault['type'].replace('_', ' ')})"
     allowed = f"must {ALLOWED[fault['type']].format(**facts)}" if fault["type"] in ALLOWED else unnamed
-    return f"{key} = {shown(value)}: {allowed}"
-
-
-def _no_quantity(text: str, unit: str) -> str:
-    """Why a text stands for no number in this unit."""
-    try:
-        quantity(text, unit)
-    except BadInput as error:
-        return str(error)
-    return f"'{text}' is text: write the number [{unit}] without quotes, or with a unit"
+    return f"{given}: {allowed}"
 
 
 def _unit(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
     """The SI unit of the number at a location, or None where it has none."""
-    for end in range(len(location), 0, -1):
-        for node in _place(location[:end], schema)[1]:
-            if "unit" in node:
-                return str(node["unit"])
-    return None
+    places = (_place(location[:end], schema)[1] for end in range(len(location), 0, -1))
+    return next((str(node["unit"]) for nodes in places for node in nodes if "unit" in node), None)
 
 
 ALLOWED = {  # by pydantic's types of fault
@@ -144,13 +128,12 @@ ALLOWED = {  # by pydantic's types of fault
 }
 
 
-def _choose(word: str, choices: list[str]) -> str:
-    near = did_you_mean(word, choices)
-    return f"did you mean {near}? {_one_of(choices)}" if near else _one_of(choices)
-
-
-def _one_of(choices: Iterable[str]) -> str:
-    return f"choose one of {', '.join(choices)}"
+def _choose(word: object, nodes: list[dict[str, Any]]) -> str:
+    """What may stand in place of a word: the kinds of tables, or the texts that a key takes."""
+    tables = [node["properties"]["kind"] for node in nodes if kind(node)]
+    choices = [str(each) for one in tables or nodes for each in one.get("enum", [one.get("const")])]
+    near = did_you_mean(str(word), choices)
+    return f"did you mean {near}? " * bool(near) + f"choose one of {', '.join(choices)}"
 
 
 def _place(
@@ -189,20 +172,11 @@ def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> li
 
 def in_keys(where: Iterable[int | str]) -> str:
     """The keys and list numbers of a place, as 'load 2.pressure'."""
-    text = ""
-    for part in where:
-        if isinstance(part, int):
-            text += f" {part + 1}"
-        else:
-            name = part if len(part) <= LONGEST else part[:LONGEST] + "…"
-            text += f".{name}" if text else name
-    return text
+    texts = (f" {p + 1}" if isinstance(p, int) else f".{p}" for p in where)
+    parts = (text if len(text) <= LONGEST + 1 else f"{text[: LONGEST + 1]}…" for text in texts)
+    return "".join(parts).removeprefix(".")
 
 
 def _keys(nodes: list[dict[str, Any]]) -> list[str]:
     """The keys of the tables that may stand here, sorted."""
     return sorted({key for node in nodes for key in node.get("properties", {})})
-
-
-def _kinds(nodes: list[dict[str, Any]]) -> list[str]:
-    return [str(kind(node)) for node in nodes if kind(node)]

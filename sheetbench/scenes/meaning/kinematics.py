@@ -18,12 +18,11 @@ has, how they are held there and what that takes is each solver's own.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from sheetbench.scenes.objects.actuators import EdgeMotion
-from sheetbench.scenes.objects.quantities import Vector3
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
 from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, Symmetric, held_axes, named
 from sheetbench.scenes.objects.tables import PiecewiseCurve
@@ -32,8 +31,7 @@ UP = np.array([0.0, 0.0, 1.0])
 _CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2).reshape(3, 9)  # [e]× of the axes
 
 
-@dataclass(frozen=True)
-class Placed:
+class Placed(NamedTuple):
     """Where k points of an edge are: displacement u (k, 3) [m], turn R − I (k, 3, 3) or of all (3, 3)."""
 
     displacement: np.ndarray
@@ -60,8 +58,8 @@ class TurnedEdge:
         self._middle = _middle(support, supports, sheet)
         self._curvature, self._tilt = getattr(support, "curvature", 0.0), getattr(support, "tilt", 0.0)
 
-    def placed(self, points: np.ndarray, load_factor: float = 1.0) -> Placed:
-        """Where plan points (k, 2) [m] are."""
+    def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
+        """Where plan points (k, 2) [m] are, whatever the time."""
         s = points[:, self._axis] - self._middle
         half = 0.5 * load_factor * self._curvature * s
         # sin κs/κ − s and (1 − cos κs)/κ by sinc, which has no trouble at κ = 0
@@ -95,12 +93,6 @@ class MovedEdge:
         turned = (points - self._middle) @ turn[:, :2].T
         return Placed(load_factor * self._displacement.at(time) + turned, turn)
 
-    def pose(self, time: float) -> tuple[Vector3, Vector3]:
-        """Displacement [m] of the edge's middle and rotation vector [rad] at a time [s]."""
-        x, y, z = self._displacement.at(time).tolist()
-        a, b, c = self._rotation.at(time).tolist()
-        return (x, y, z), (a, b, c)
-
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""
         cross = _cross(self._rotation.at())
@@ -125,8 +117,7 @@ def bent_or_tilted(supports: tuple[AnySupport, ...], sheet: Sheet) -> list[Turne
     return [TurnedEdge(support, supports, sheet) for support in turning]
 
 
-@dataclass(frozen=True)
-class Shift:
+class Shift(NamedTuple):
     """Where a support that moves ends, by its name in answers: the axes that it holds and its displacement
     along them [m]."""
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from sheetbench.scenes.meaning.kinematics import MovedEdge, bent_or_tilted
+from sheetbench.scenes.meaning.kinematics import bent_or_tilted
 from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
 from sheetbench.scenes.objects.fields import AScene, SceneFields
 from sheetbench.scenes.objects.obstacles import AnyObstacle
-from sheetbench.scenes.objects.supports import AnySupport, Motion
-from sheetbench.scenes.objects.tables import FactorTable, Loading, OverTime
+from sheetbench.scenes.objects.supports import AnySupport
+from sheetbench.scenes.objects.tables import Loading, OverTime
 
 Loaded = TypeVar("Loaded", bound=Loading)
 Held = TypeVar("Held", bound=AnySupport | AnyObstacle)
@@ -57,17 +57,12 @@ def at_start(scene: AScene) -> AScene:
         loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
         supports=tuple(_placed(support) for support in scene.supports),
         obstacles=tuple(_placed(one).replace(friction=0.0) for one in scene.obstacles),
-        actuators=tuple(
-            _moved(one, scene) if isinstance(one, EdgeMotion) else _bent(one, static)
-            for one in scene.actuators
-        ),
+        actuators=tuple(_commanded(one, static) for one in scene.actuators),
     )
 
 
 def _now(load: Loaded) -> Loaded:
-    if load.history is None:
-        return load
-    return load.replace(history=FactorTable(time=(0.0,), factor=(float(load.course.at(0.0)),)))
+    return load.replace(history=load.history.still()) if load.history else load
 
 
 def _state_now(state: Loaded | None, static: bool) -> Loaded | None:
@@ -75,21 +70,12 @@ def _state_now(state: Loaded | None, static: bool) -> Loaded | None:
 
 
 def _placed(held: Held) -> Held:
-    if held.motion is None:
-        return held
-    place = tuple(held.motion.course.at(0.0).tolist())
-    moved: Held = held.replace(motion=Motion(time=(0.0,), displacement=(place,)))  # type: ignore[assignment]
+    moved: Held = held.replace(motion=held.motion.still()) if held.motion else held  # type: ignore[assignment]
     return moved
 
 
-def _bent(chain: Chain, static: bool) -> Chain:
-    if not static:
-        return chain.replace(curvature=0.0)
-    if not isinstance(chain.curvature, OverTime):
-        return chain
-    return chain.replace(curvature=float(chain.curvatures().at(0.0)[0]))
-
-
-def _moved(motion: EdgeMotion, scene: SceneFields) -> EdgeMotion:
-    displacement, rotation = MovedEdge(motion, scene.sheet).pose(0.0)
-    return motion.replace(time=(0.0,), displacement=(displacement,), rotation=(rotation,))
+def _commanded(actuator: Chain | EdgeMotion, static: bool) -> Chain | EdgeMotion:
+    if isinstance(actuator, EdgeMotion):
+        return actuator.still()
+    bent = actuator.curvature if static else 0.0
+    return actuator.replace(curvature=bent.still() if isinstance(bent, OverTime) else bent)

@@ -18,10 +18,9 @@ patchN.natural.exx, …                                 of the scene's Nth [[pat
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import reduce
 from math import inf, pi
-from typing import Any
+from typing import Any, NamedTuple
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.language.refusals import in_keys
@@ -33,13 +32,23 @@ from sheetbench.scenes.objects.supports import LARGEST_TILT, Clamped, Curved
 
 MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss_factor")
 FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
-BRANCH = ("share", "time")
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
 NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY"]
-NUMBERED = {  # keys of the tables of a list, "" that of their own name
-    "patch": (CONSTANTS, "patches"), "mass": (("",), "masses"),
-    "obstacle": (("x", "y", "z", "radius", "friction"), "obstacles"),
-}  # fmt: skip
+PLACES = {  # by patterns of names, but for those of an edge; a number counts from 1
+    "|".join((*MATERIAL, *FIBRES)): r"material.\g<0>",
+    "thickness": "sheet.thickness",
+    "drag": "air.drag",
+    r"(share|time)_(\d+)": r"material.relaxation.\2.\1",
+    r"mass(\d+)": r"masses.\1.mass",
+    rf"patch(\d+)\.({'|'.join(CONSTANTS)})": r"patches.\1.\2",
+    r"obstacle(\d+)\.([xyz])": r"obstacles.\1.position.\2",
+    r"obstacle(\d+)\.(radius|friction)": r"obstacles.\1.\2",
+    r"natural\.e(xx|yy|xy)": r"natural.strain.\1",
+    r"natural\.k(xx|yy|xy)": r"natural.curvature.\1",
+    r"patch(\d+)\.natural\.e(xx|yy|xy)": r"patches.\1.natural.strain.\2",
+    r"patch(\d+)\.natural\.k(xx|yy|xy)": r"patches.\1.natural.curvature.\2",
+}
+COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "yy": 1, "xy": 2}
 UNITS = {  # none of other keys
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
     **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
@@ -58,8 +67,7 @@ BOUNDS = {  # others are above 0
 Path = tuple[str | int, ...]  # keys, and numbers in lists
 
 
-@dataclass(frozen=True)
-class Parameter:
+class Parameter(NamedTuple):
     """A number of a scene: its name, unit and value (SI), and the bounds within which it makes sense."""
 
     name: str
@@ -112,38 +120,28 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
 
 def _places(scene: SceneFields, name: str) -> list[Path]:
     """Return the places that a name may stand for. Raises BadInput where it stands for none."""
-    for table, names in (("material", (*MATERIAL, *FIBRES)), ("sheet", ("thickness",)), ("air", ("drag",))):
-        if name in names:
-            return [(table, name)]
-    if (at := re.fullmatch(r"([a-z]+)(\d+)\.?(\w*)", name)) and at[3] in NUMBERED.get(at[1], ((), ""))[0]:
-        key = at[3] or at[1]
-        place: Path = ("position", "xyz".index(key)) if key in "xyz" else (key,)
-        return [(NUMBERED[at[1]][1], int(at[2]) - 1, *place)]
-    if natural := re.fullmatch(r"(?:patch(\d+)\.)?natural\.([ek])(xx|yy|xy)", name):
-        own: Path = ("patches", int(natural[1]) - 1) if natural[1] else ()
-        part = "strain" if natural[2] == "e" else "curvature"
-        return [(*own, "natural", part, ("xx", "yy", "xy").index(natural[3]))]
-    key, _, of = name.partition("_")
-    if key in BRANCH and of.isdecimal():
-        return [("material", "relaxation", int(of) - 1, key)]
-    if key == "tilt":
-        if clamps := _holders(scene, Clamped, of):
-            return [(*clamp, key) for clamp in clamps]
-        raise BadInput(f"'{name}': edge '{of}' has no clamp")
-    if key == "curvature":
-        paths = [(*holder, key) for holder in _holders(scene, Curved | Chain, of)]
-        values = {_value(scene, path) for path in paths}
-        if len(values) == 1 and isinstance(values.pop(), int | float):
-            return paths
-        raise BadInput(f"'{name}': edge '{of}' has no support or actuator of one curvature")
-    raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
-
-
-def _holders(scene: SceneFields, kind: Any, edge: str) -> list[Path]:
-    """Return the places of an edge's supports and actuators of a kind."""
-    lists = {"supports": scene.supports, "actuators": scene.actuators}
-    every = ((key, i, one) for key, ones in lists.items() for i, one in enumerate(ones))
-    return [(key, i) for key, i, one in every if isinstance(one, kind) and one.edge == edge]
+    for pattern, place in PLACES.items():
+        if at := re.fullmatch(pattern, name):
+            parts = at.expand(place).split(".")
+            return [tuple(int(p) - 1 if p.isdecimal() else COMPONENTS.get(p, p) for p in parts)]
+    key, _, edge = name.partition("_")
+    holders = {"tilt": Clamped, "curvature": Curved | Chain}
+    if key not in holders:
+        raise BadInput(f"'{name}': not a parameter of a scene; choose from {', '.join(NAMES)}")
+    paths: list[Path] = [
+        (of, i, key)
+        for of in ("supports", "actuators")
+        for i, one in enumerate(getattr(scene, of))
+        if isinstance(one, holders[key]) and one.edge == edge
+    ]
+    values = [_value(scene, path) for path in paths]
+    if key == "tilt" and not paths:
+        raise BadInput(f"'{name}': edge '{edge}' has no clamp")
+    if key == "curvature" and not (
+        paths and isinstance(values[0], int | float) and all(value == values[0] for value in values)
+    ):
+        raise BadInput(f"'{name}': edge '{edge}' has no support or actuator of one curvature")
+    return paths
 
 
 def _value(scene: SceneFields, path: Path) -> Any:
@@ -157,18 +155,16 @@ def _replaced(of: Any, path: Path, value: Any) -> Any:
     """Return a scene object, or a list of some, with another value at a place within."""
     if not path:
         return value
-    part, *rest = path
+    part, inner = path[0], path[1:]
     if isinstance(part, int):
-        new = _replaced(of[part], tuple(rest), value) if rest else value
-        return tuple(new if i == part else one for i, one in enumerate(of))
-    inside = _replaced(getattr(of, part), tuple(rest), value) if rest else value
-    return of.replace(**{part: inside})
+        return (*of[:part], _replaced(of[part], inner, value), *of[part + 1 :])
+    return of.replace(**{part: _replaced(getattr(of, part), inner, value)})
 
 
 def _with_thickness(scene: AScene, factor: float) -> AScene:
     """Return the scene with its sheet so many times as thick, tapers and layers too."""
     sheet = scene.sheet
-    given = {key: getattr(sheet, key) for key in ("taper_x", "taper_y")}
-    tapers = {key: tuple(factor * h for h in ends) for key, ends in given.items() if ends is not None}
+    given = sheet.given(("taper_x", "taper_y"))
+    tapers = {key: tuple(factor * h for h in ends) for key, ends in given.items()}
     layers = tuple(layer.replace(thickness=factor * layer.thickness) for layer in scene.layers)
     return scene.replace(sheet=sheet.replace(thickness=factor * sheet.thickness, **tapers), layers=layers)

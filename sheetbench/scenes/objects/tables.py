@@ -8,7 +8,7 @@ Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import Field
@@ -78,13 +78,26 @@ class OverTime(Frozen):
     time: Annotated[tuple[Number, ...], Unit("s")] = Field(min_length=1)
     """Increasing times; the first sample holds before and the last one after."""
 
+    @property
+    def samples(self) -> dict[str, tuple[Any, ...]]:
+        """Return the samples by their keys, without those that may be left out and are."""
+        fields = type(self).model_fields
+        return {k: v for k, v in self if isinstance(v, tuple) and (v or fields[k].is_required())}
+
     def _faults(self) -> Iterator[object]:
-        for name, field in type(self).model_fields.items():
-            samples = getattr(self, name)
-            if isinstance(samples, tuple) and (samples or field.is_required()):
-                unlike = f"{len(self.time)} times but {len(samples)} in {name}"
-                yield len(samples) != len(self.time) and unlike
+        for name, samples in self.samples.items():
+            unlike = f"{len(self.time)} times but {len(samples)} in {name}"
+            yield len(samples) != len(self.time) and unlike
         yield any(b <= a for a, b in pairwise(self.time)) and "times must increase"
+
+    def over_time(self, name: str) -> PiecewiseCurve:
+        """Return the samples of a key over time."""
+        return PiecewiseCurve(self.time, self.samples[name], getattr(self, "interpolation", "linear"))
+
+    def still(self) -> Self:
+        """Return the table that stays where it is at t = 0."""
+        now = {name: (self.over_time(name).at(0.0).tolist(),) for name in self.samples}
+        return self.replace(**{**now, "time": (0.0,)})
 
 
 class FactorTable(OverTime):
@@ -111,8 +124,7 @@ class Loading(Frozen):
     @property
     def course(self) -> PiecewiseCurve:
         """The factor over time."""
-        table = self.history or STEADY
-        return PiecewiseCurve(table.time, table.factor)
+        return (self.history or STEADY).over_time("factor")
 
     def times(self, factor: float) -> Self:
         """Return the load times a factor."""

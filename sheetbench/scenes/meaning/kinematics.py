@@ -58,8 +58,8 @@ class TurnedEdge:
         self._middle = _middle(support, supports, sheet)
         self._curvature, self._tilt = getattr(support, "curvature", 0.0), getattr(support, "tilt", 0.0)
 
-    def placed(self, points: np.ndarray, load_factor: float = 1.0) -> Placed:
-        """Where plan points (k, 2) [m] are."""
+    def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
+        """Where plan points (k, 2) [m] are, whatever the time."""
         s = points[:, self._axis] - self._middle
         half = 0.5 * load_factor * self._curvature * s
         # sin κs/κ − s and (1 − cos κs)/κ by sinc, which has no trouble at κ = 0

@@ -28,10 +28,11 @@ from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
-from fem_reference.shell.element import Element, add_tangents
+from fem_reference.shell.element import OF_POSITIONS, TABLES, Element
 from fem_reference.shell.hyperelastic import elements_of
 from fem_reference.shell.laws import LAWS
 from fem_reference.shell.natural import natural_strains
+from fem_reference.shell.tangent import add_tangents
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
@@ -147,10 +148,6 @@ class DiscreteShell(DiscreteElements):
         """Prescribed change (2, n, 3) of positions [m] and directors."""
         return self.supports.change(*self.instant(at))
 
-    def _target(self, at: float) -> np.ndarray:
-        """The same of all vectors (2 n + p, 3), those of rods standing still."""
-        return np.concatenate([self.change(at).reshape(-1, 3), np.zeros((self.rods.bound.held.size, 3))])
-
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         prescribed = np.zeros(self._held.shape)
         prescribed[: 2 * self.nodes] = self.supports.rate(time).reshape(-1, 3)
@@ -161,7 +158,9 @@ class DiscreteShell(DiscreteElements):
 
     def short(self, shape: SheetShape) -> np.ndarray:
         free = np.concatenate([np.zeros((self.nodes, 3)), to_unit(self.directors(shape.q))])
-        return np.where(self._held, self._target(shape.at) - shape.q.reshape(-1, 3), free).ravel()
+        target = np.zeros(self._held.shape)  # rods stand still
+        target[: 2 * self.nodes] = self.change(shape.at).reshape(-1, 3)
+        return np.where(self._held, target - shape.q.reshape(-1, 3), free).ravel()
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         return self.of_unit_directors((q + step).reshape(-1, 3))
@@ -251,7 +250,8 @@ class DiscreteShell(DiscreteElements):
         along = multiplier(self.directors(shape.q), residual[3 * self.nodes :].reshape(-1, 3))
         on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
         data, slots, on = self.pattern.zeros(on_turns), self.pattern.slots[0], self.plan.elements
-        add_tangents(data, slots, self.element, shape.operator, moduli, stress, on, shape.frame)
+        forms, coupled = (stress @ OF_POSITIONS).reshape(-1, 9, 18), self.element.coupled
+        add_tangents(shape.operator, moduli, coupled, forms, shape.frame, on, TABLES, slots, data)
         if by_a:
             blocks = self.fold(shape, np.arange(len(self.plan.elements)), self._inertia)
             add_blocks(data, self.pattern.slots[0], by_a * blocks)

@@ -29,24 +29,26 @@ from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
 from fem_reference.shell.element import OF_POSITIONS, TABLES, Element
-from fem_reference.shell.hyperelastic import elements_of
+from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import natural_strains
+from fem_reference.shell.natural import grown, natural_strains
 from fem_reference.shell.tangent import add_tangents
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
-from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.carried import add_carried
-from fem_reference.surface.materials import Section, constants_of
+from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import plan_of, quarters
 from fem_reference.surface.rod import block_diagonal
+from fem_reference.surface.rubber import require_law
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
+from sheetbench.errors import BadInput
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, require_uniform
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
@@ -101,9 +103,17 @@ class DiscreteShell(DiscreteElements):
         self.bind(bound)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[Any, NaturalState | None]:
-        """All elements, and the strains that they have without stress."""
-        natural = natural_strains(self.scene, self.plan.corners)
-        return elements_of(self.plan, self.scene, section, law), natural
+        """All elements, and the strains that they have without stress. Raises BadInput for a law that the
+        scene's material or a section of the caller's own does not have."""
+        scene, nodes = self.scene, self.plan.corners
+        require_law(law, LAWS, scene)
+        if law == STRAIN_LAW:
+            own = grown(section or section_at(scene, nodes), scene, nodes)
+            return Element.build(nodes, own), natural_strains(scene, nodes)
+        require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
+        if section is not None:
+            raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
+        return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
 
     def supports_of(self) -> Supports:
         """What supports and motions hold."""
@@ -301,7 +311,7 @@ class DiscreteShell(DiscreteElements):
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)
         return HoldingForces(
-            np.concatenate([force, cross(surface.director, turning)], axis=1), surface.position
+            np.concatenate([force, np.cross(surface.director, turning)], axis=1), surface.position
         )
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:

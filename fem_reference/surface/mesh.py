@@ -75,8 +75,12 @@ def _tensor(x: np.ndarray, y: np.ndarray, *lengths: float) -> MeshQuad:
 
 def _with_edges(mesh: MeshQuad, lengths: Sequence[float]) -> MeshQuad:
     """The mesh with boundaries where it reaches the edges of a sheet with these sides [m]."""
-    ends = {name: lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
-    return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
+
+    def on(name: str) -> Callable[[np.ndarray], np.ndarray]:
+        axis, far = EDGES[name].normal_axis, EDGES[name].far_end
+        return lambda x: np.isclose(x[axis], lengths[axis] * far, rtol=1e-9, atol=1e-12)
+
+    return mesh.with_boundaries({name: on(name) for name in EDGES})
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,10 +239,6 @@ def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
         return spacing(count, layer)
     half = 2.0 * spacing(2 * count, layer)[: count + 1]
     return half if all(EDGES[name].far_end for name in cuts) else 1.0 - half[::-1]
-
-
-def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda x: np.isclose(x[axis], position, rtol=1e-9, atol=1e-12)
 
 
 def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:

@@ -88,54 +88,44 @@ def rates(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The derivative of the unbalanced force by a parameter at free unknowns that stay as at u (n, 3),
     supports' movement included, and dg/dθ (n, 3)."""
-    value, low, high = _value(scene, calibration, name)
+    if of_scene := name in (*CALIBRATED_FROM, "density") or name.startswith((*STEP_OF, PATCH, PAYLOAD)):
+        found = parameter(scene, name)
+        value, low, high = found.value, found.low, found.high
+    else:
+        value, low, high = calibration.constants.value(name), -np.inf, np.inf
     own = name.partition(".")[2] if name.startswith(PATCH) else name
     step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides = []
     placed, ends = problem.prescribed(1.0), np.clip([value + step, value - step], low, high)
-    for end in ends:
-        changed_scene, recalibrated = _changed(scene, calibration, name, float(end), calibrate)
-        changed = build_problem(changed_scene, recalibrated, same=problem if changed_scene is scene else None)
+    for end in ends.tolist():
+        if of_scene:
+            changed = build_problem(*_changed(scene, calibration, name, end, calibrate))
+        else:
+            changed = build_problem(scene, calibration.with_constant(name, end), same=problem)
         moved = changed.prescribed(1.0) - placed
-        sides.append((changed.residual(u + moved, 1.0).force, moved))
-    interval = float(ends[0] - ends[1])
-    rate = (sides[0][0] - sides[1][0]) / interval
-    return rate, (sides[0][1] - sides[1][1]) / interval
-
-
-def _value(scene: Scene, calibration: Calibration, name: str) -> tuple[float, float, float]:
-    """The value of a parameter and its bounds."""
-    if _of_scene(name):
-        found = parameter(scene, name)
-        return found.value, found.low, found.high
-    return calibration.constants.value(name), -np.inf, np.inf
+        sides.append(np.stack([changed.residual(u + moved, 1.0).force, moved]))
+    rate, moved = (sides[0] - sides[1]) / (ends[0] - ends[1])
+    return rate, moved
 
 
 def _changed(
     scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
 ) -> tuple[Scene, Calibration]:
-    if not _of_scene(name):
-        return scene, calibration.with_constant(name, value)
+    """The scene with another value, and its springs: by the same method where what they are found from has
+    changed, unless `calibrate` finds them."""
     changed = put(scene, name, value)
     if name not in CALIBRATED_FROM and not name.startswith(PATCH):
         return changed, calibration
-    return (changed, calibrate(changed)) if calibrate is not None else _recalibrated(changed, calibration)
-
-
-def _of_scene(name: str) -> bool:
-    return name in (*CALIBRATED_FROM, "density") or name.startswith((*STEP_OF, PATCH, PAYLOAD))
-
-
-def _recalibrated(scene: Scene, calibration: Calibration) -> tuple[Scene, Calibration]:
-    """The scene with springs for its changed sheet, by the same method."""
+    if calibrate is not None:
+        return changed, calibrate(changed)
     if calibration.method not in MAKERS:
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
     own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
-    if (cells := sections_of(scene, calibration.grid, calibration.grading)) is not None:
+    if (cells := sections_of(changed, calibration.grid, calibration.grading)) is not None:
         own["cells"] = cells
     make = MAKERS[calibration.method]
-    return scene, make(sheet_at_rest(scene), scene.material, calibration.grid, **own)
+    return changed, make(sheet_at_rest(changed), changed.material, calibration.grid, **own)

@@ -158,7 +158,7 @@ def _constrain(
         dependent[tie.rows] = True
     if coupling is not None:
         fixed[lattice.mass_count :] = held[lattice.mass_count :] = ~coupling.free
-    transform = _selection(~(fixed | dependent))
+    transform = sp.csr_array(sp.eye_array(3 * n, format="csc")[:, np.flatnonzero(~(fixed | dependent))])
     maps = [_last_layers(n, mean_held)] if mean_held else []
     maps += [_link(n, tie.rows, tie.others, tie.weights) for tie in ties]
     maps += [_link(n, b.masses, b.place.start + np.arange(b.rows), b.binding) for b in bodies]
@@ -184,15 +184,6 @@ def _constrain(
             shift[masses, axis] = distance
     frozen(fixed)
     return Constraints(transform, turned, shift, holders, held, fixed, coupling)
-
-
-def _selection(free: np.ndarray) -> sp.csr_array:
-    """The transform of displacements (n, 3) that are unknowns where they are free, and nothing elsewhere."""
-    count = int(free.sum())
-    pointers = np.concatenate([[0], np.cumsum(free)]).astype(np.int32)
-    return sp.csr_array(
-        (np.ones(count), np.arange(count, dtype=np.int32), pointers), shape=(free.size, count)
-    )
 
 
 def _last_layers(n: int, mean_held: dict[tuple[int, int], np.ndarray]) -> sp.csr_array:

@@ -28,12 +28,10 @@ from fem_reference.surface.loads import orientation
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import (
     divisions,
-    elements_in,
     facets_on,
     has_lines,
     mesh_of,
-    nodes_of,
-    on_boundary,
+    plan_of,
 )
 from sheetbench.scenes import (
     AreaLoad,
@@ -73,9 +71,9 @@ class Bricks:
         """elements: as those of the shell; grading "edges": finest there, where the mesh is one of lines."""
         counts = divisions(scene.sheet, elements)
         plan = mesh_of(scene, counts, grading == "edges" and has_lines(borders_of(scene)))
-        nodes, _ = nodes_of(plan)
         heights = np.linspace(-0.5, 0.5, 2 * layers + 1) * scene.sheet.thickness
-        return cls(plan, counts, heights, scene.sheet.thickness_at(*nodes.T) / scene.sheet.thickness)
+        taper = scene.sheet.thickness_at(*plan_of(plan).nodes.T) / scene.sheet.thickness
+        return cls(plan, counts, heights, taper)
 
     @property
     def layers(self) -> int:
@@ -92,14 +90,14 @@ class Bricks:
     @cached_property
     def faces(self) -> np.ndarray:
         """Plan nodes of the elements (m, 8), corners and then mid-edges, counter-clockwise."""
-        nodes, elements = nodes_of(self.plan)
-        upright = orientation(nodes[elements])[:, None] > 0
-        return np.where(upright, elements[:, :8], elements[:, OTHER_WAY])
+        plan = plan_of(self.plan)
+        upright = orientation(plan.corners)[:, None] > 0
+        return np.where(upright, plan.elements[:, :8], plan.elements[:, OTHER_WAY])
 
     @cached_property
     def number(self) -> np.ndarray:
         """Of the node on every level of the columns (p, 2 layers + 1), −1 where there is none."""
-        there = np.zeros((len(nodes_of(self.plan)[0]), len(self.z)), dtype=bool)
+        there = np.zeros((len(plan_of(self.plan).nodes), len(self.z)), dtype=bool)
         there[self.faces[:, :4]] = True
         there[self.faces[:, 4:], ::2] = True
         out = np.full(there.shape, -1)
@@ -115,7 +113,7 @@ class Bricks:
     def positions(self) -> np.ndarray:
         """(n, 3) [m]."""
         column, level = self.sites.T
-        return np.column_stack([nodes_of(self.plan)[0][column], self.z[level] * self.taper[column]])
+        return np.column_stack([plan_of(self.plan).nodes[column], self.z[level] * self.taper[column]])
 
     @cached_property
     def elements(self) -> np.ndarray:
@@ -132,11 +130,11 @@ class Bricks:
 
     def inside(self, shape: Shape | None) -> np.ndarray:
         """Elements of the plan (k,) in a shape, or all."""
-        return elements_in(shape, *nodes_of(self.plan))
+        return plan_of(self.plan).within(shape)
 
     def edge(self, name: str) -> np.ndarray:
         """Nodes of all columns on an edge."""
-        return self._over(on_boundary(self.plan, name))
+        return self._over(plan_of(self.plan).on_boundary(name))
 
     def supported(self, support: AnySupport) -> np.ndarray:
         """Nodes of all columns on a support's edge, or in its shape."""
@@ -176,7 +174,7 @@ class Bricks:
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Nodes of the mid-surface's faces at plan points (p, 2) [m], and their shape functions, (p, 8)."""
         element, place = locate(self.plan, points)
-        return self.number[nodes_of(self.plan)[1][element, :8], self.layers], serendipity(*place)
+        return self.number[plan_of(self.plan).elements[element, :8], self.layers], serendipity(*place)
 
 
 @dataclass(frozen=True)
@@ -235,11 +233,11 @@ def held(scene: Scene, bricks: Bricks) -> Held:
 
 def materials(scene: Scene, bricks: Bricks) -> list[tuple[Material, np.ndarray]]:
     """The materials of a sheet, and the elements of the plan (k,) that are of each."""
-    nodes, elements = nodes_of(bricks.plan)
-    middles = nodes[elements[:, 8]]
+    plan = plan_of(bricks.plan)
+    middles = plan.nodes[plan.elements[:, 8]]
     patched = [patch.shape.contains(middles) for patch in scene.patches]
     parts: dict[tuple[bool, ...], list[int]] = {}
-    for element in range(len(elements)):
+    for element in range(len(middles)):
         parts.setdefault(tuple(bool(inside[element]) for inside in patched), []).append(element)
     return [(_material(scene, inside), np.array(on)) for inside, on in parts.items()]
 
@@ -259,15 +257,16 @@ def forces(scene: Scene, bricks: Bricks) -> np.ndarray:
     """Point, edge and area loads and the payloads' weight on the nodes (n, 3) [N]; of the sheet's weight and
     of pressure nothing."""
     out = point_loads(scene, bricks)
-    nodes, elements = nodes_of(bricks.plan)
+    plan = plan_of(bricks.plan)
     for load in (*scene.loads, *weights(scene)):
         if isinstance(load, EdgeLoad):
             faces, share = bricks.sides(load)
             shares = share[:, None] * np.repeat([-1.0 / 12.0, 1.0 / 3.0], 4)
             pull = load.force_per_length
         elif isinstance(load, AreaLoad):
-            on = elements[bricks.inside(load.where)]
-            faces, shares = bricks.number[on[:, :8], bricks.layers], areas(nodes[on]) @ serendipity(*GAUSS)
+            on = plan.elements[bricks.inside(load.where)]
+            faces = bricks.number[on[:, :8], bricks.layers]
+            shares = areas(plan.nodes[on]) @ serendipity(*GAUSS)
             pull = load.force_per_area
         else:
             continue

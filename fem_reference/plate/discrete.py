@@ -19,24 +19,20 @@ Source: Hughes, The Finite Element Method (2000), ch. 5.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from scipy.sparse import csr_matrix
 from skfem import MeshQuad
 
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import PlateElements
 from fem_reference.plate.validity import buckling_load, strained
-from fem_reference.shell.directors import projected
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.natural import natural_strains
-from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import on_boundary, require_upright
+from fem_reference.surface.mesh import require_upright
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
@@ -74,10 +70,10 @@ class DiscretePlate(DiscreteShell):
         self.section = section or section_at(self.scene, nodes)
         return PlateElements.build(nodes, self.section), natural_strains(self.scene, nodes, linear=True)
 
-    def supports_of(self, mesh: MeshQuad) -> Supports:
-        found = surface_supports.of_scene(self.scene, mesh)
+    def supports_of(self) -> Supports:
+        found = super().supports_of()
         for name in self._hard_edges:
-            found.tilt[on_boundary(mesh, name), EDGES[name].along_axis] = True
+            found.tilt[self.plan.on_boundary(name), EDGES[name].along_axis] = True
         return replace(found, director=found.director | found.tilt.all(axis=1))
 
     @property
@@ -104,23 +100,7 @@ class DiscretePlate(DiscreteShell):
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
-        stiffness = moduli[0, 0, 0] / self.element.stiffness[0, 0, 0] * self._stiffness
-        return stiffness + by_a * self._mass if by_a else stiffness
-
-    @cached_property
-    def _stiffness(self) -> np.ndarray:
-        """Data of K, which moduli are a multiple of everywhere."""
-        rest = self.shape(np.zeros(self.size), 0.0)
-        return super().stiffness(rest, self.element.stiffness, np.zeros_like(rest.strain), rest.q, 0.0)
-
-    @cached_property
-    def _mass(self) -> np.ndarray:
-        return self.folded(self._inertia).data
-
-    def folded(self, blocks: np.ndarray) -> csr_matrix:
-        """The sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""
-        frame = self.frame(np.zeros(self.size), 0.0)[self.plan.elements]
-        return self.pattern.matrix(projected(blocks.reshape(-1, 18, 3, 18, 3), frame))
+        return super().stiffness(shape, moduli, 0.0 * stress, 0.0 * residual, by_a)
 
     # when a state means nothing
 

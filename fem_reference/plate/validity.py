@@ -58,7 +58,7 @@ def buckling_load(shape: SheetShape) -> float | None:
     on_w = np.einsum("mqai,mqab,mqbj->mij", elements.gradient, tensor, elements.gradient)
     blocks = np.zeros((len(on_w), 18, 3, 18, 3))
     blocks[:, :9, 2, :9, 2] = on_w
-    geometric = sheet.folded(blocks)
+    geometric = sheet.pattern.matrix(sheet.fold(shape, np.arange(len(blocks)), blocks))
     matrix = sheet.tangent(shape, np.zeros(sheet.size), 0.0, 0.0)
     inverse = LinearOperator(matrix.shape, matvec=sheet.solver().factor(matrix).solve, dtype=float)
     start = np.random.default_rng(0).uniform(-1.0, 1.0, sheet.unknowns)

@@ -73,7 +73,7 @@ class DiscreteShell(DiscreteElements):
         n = self.nodes
 
         bound = self.bound_rods()
-        self.supports = supports = rod.hold_bases(self.supports_of(plan.mesh), bound.rods)
+        self.supports = supports = rod.hold_bases(self.supports_of(), bound.rods)
         free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
         free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
         free_aside = np.repeat(~bound.held[:, None], 2, axis=1)
@@ -104,9 +104,9 @@ class DiscreteShell(DiscreteElements):
         natural = natural_strains(self.scene, self.plan.corners)
         return elements_of(self.plan, self.scene, section, law), natural
 
-    def supports_of(self, mesh: MeshQuad) -> Supports:
+    def supports_of(self) -> Supports:
         """What supports and motions hold."""
-        return surface_supports.of_scene(self.scene, mesh)
+        return surface_supports.of_scene(self.scene, self.plan)
 
     @cached_property
     def _inertia(self) -> np.ndarray:

@@ -19,7 +19,7 @@ import numpy as np
 from skfem import ElementHex2, ElementQuad2, MeshQuad
 
 from fem_reference.solid.materials import LAWS
-from fem_reference.surface.mesh import Plan, on_boundary, plan_of, quarters, require_upright
+from fem_reference.surface.mesh import Plan, plan_of, quarters, require_upright
 from fem_reference.surface.rubber import require_law
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
@@ -80,10 +80,6 @@ class Columns:
         column = np.array([flat[tuple(site[:2])] for site in ElementHex2.doflocs])
         level = np.rint(2.0 * ElementHex2.doflocs[:, 2]).astype(int)
         return np.array([self.levels * column + level + 2 * layer for layer in range(self.layers)])
-
-    def edge(self, name: str) -> np.ndarray:
-        """Plan nodes on an edge."""
-        return on_boundary(self.plan.mesh, name)
 
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fem_reference.solid.mesh import Columns
-from fem_reference.surface.rod import SQUARE, BoundRods, Rod, RodElements, bound
+from fem_reference.surface.rod import SQUARE, BoundRods, Rod, RodElements, bound, products
 
 DIRECTORS = 9  # of a side: d, m and t of its three nodes
 
@@ -43,12 +43,12 @@ def _elements(rod: Rod, columns: Columns) -> RodElements:
     forms, stiffness = [np.einsum("ia,esij,jb->esab", onto, one.forms, onto)], [one.stiffness]
     pairs = [(t, d, 1.0), (t, m, 1.0), (d, d, 0.5), (m, m, 0.5), (t, t, 0.5)]
     for a, b, share in pairs:
-        forms.append(np.tile(share * _products(a, b), (k, 1, 1, 1)))
+        forms.append(np.tile(share * products(a, b), (k, 1, 1, 1)))
         stiffness.append(firm)
     for level in (level for level in range(levels) if level != middle):
         off = every[level : 3 * levels : levels] - middles
         for director in (m, t):
-            forms.append(np.tile(_products(off, director), (k, 1, 1, 1)))
+            forms.append(np.tile(products(off, director), (k, 1, 1, 1)))
             stiffness.append(firm / columns.thickness**2)
     flat = columns.positions[rod.nodes].reshape(k, -1, 3)
     along = np.cross(one.reference[:, 3:6], one.reference[:, 6:])
@@ -59,8 +59,3 @@ def _elements(rod: Rod, columns: Columns) -> RodElements:
         stiffness=total,
         intrinsic=np.pad(one.intrinsic, ((0, 0), (0, total.shape[1] - one.intrinsic.shape[1]), (0, 0))),
     )
-
-
-def _products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """H with ½ Qᵀ H Q = (a Q) · (b Q), of the rows of a and b."""
-    return np.einsum("ni,nj->nij", a, b) + np.einsum("ni,nj->nij", b, a)

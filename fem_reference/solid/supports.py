@@ -62,7 +62,7 @@ class ColumnSupports:
         levels, middle = self.columns.levels, self.columns.layers
         axes = np.tile(np.eye(3), (len(self.held), 1, 1))
         for driven in self.line.driven:
-            axes[driven.nodes] = np.eye(3) + driven.placed(load_factor).turn
+            axes[driven.nodes] = np.eye(3) + driven.edge.placed(driven.points, load_factor).turn
         with_mean = np.eye(levels)
         with_mean[middle] = self.columns.averages[0]
         spread = np.where(self.by_mean[:, None, None], np.linalg.inv(with_mean), np.eye(levels))
@@ -99,12 +99,10 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
     if clamp not in CLAMPS:
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
-    line = hold_bases(supports.of_scene(scene, columns.plan.mesh), rods)
+    line = hold_bases(supports.of_scene(scene, columns.plan), rods)
     kinds, edges = named(scene.supports), {}
-    none, by_mean = (
-        np.zeros(columns.positions.shape, dtype=bool),
-        np.zeros(len(columns.plan.nodes), dtype=bool),
-    )
+    none = np.zeros(columns.positions.shape, dtype=bool)
+    by_mean = np.zeros(len(none), dtype=bool)
     for name, (nodes, axes) in line.edges.items():
         edges[name] = held = none.copy()
         held[nodes[:, None], columns.layers, axes] = True

@@ -46,8 +46,8 @@ def exerted(
     for rod, nodal, position, director in edges:
         if rod.base is not None:  # what holds the base reaches the sheet through the rod
             nodal[rod.base] += held.nodal[rod.line[rod.base]]
-        share = by_segment(rod, nodal, position, director) / len(rod.names)
-        found.update({name: share for name in rod.names})
+        share = by_segment(rod, nodal, position, director) / len(rod.chains)
+        found.update(dict.fromkeys(rod.chains, share))
         line[rod.line] += line_force(rod, nodal)[0]
     found |= {name: _of_motion(motion, held) for name, motion in moved.items()}
     return {name: found[name] for name in scene.named_actuators()}, line
@@ -77,32 +77,27 @@ def by_segment(rod: Rod, nodal: np.ndarray, position: np.ndarray, director: np.n
     position, director: φ [m] and d (p, 3) at the nodes of the edge.
     """
     force, couple = line_force(rod, nodal)
-    ends = rod.elements.reference[:, [0, 2]]
-    low, high = ends.min(axis=(0, 1)), ends.max(axis=(0, 1))
-    along = int(np.argmax(high[:2] - low[:2]))
-    bounds = np.linspace(low[along], high[along], rod.segments + 1)
-    cuts = np.unique(np.concatenate([bounds, ends[:, :, along].ravel()]))  # smooth between
+    at, segments = np.empty((len(rod.line), 2)), rod.chain.segments
+    at[rod.places] = rod.elements.reference[:, :3, :2]
+    along = at[:, np.argmax(np.ptp(at, axis=0))]
+    bounds = np.linspace(along[0], along[-1], segments + 1)
+    cuts = np.unique(np.concatenate([bounds, along[::2]]))  # smooth between
     half = 0.5 * np.diff(cuts)[:, None]
     places = (0.5 * (cuts[1:] + cuts[:-1])[:, None] + half * THREE).ravel()
     weights = (half * THREE_WEIGHTS).ravel()
-    segment = np.clip(np.searchsorted(bounds, places) - 1, 0, rod.segments - 1)
-    values = _shapes(rod, along, places)
-    middle = _shapes(rod, along, 0.5 * (bounds[1:] + bounds[:-1])) @ (position + rod.offset * director)
+    segment = np.clip(np.searchsorted(bounds, places) - 1, 0, segments - 1)
+    values = _shapes(along, places)
+    middle = _shapes(along, 0.5 * (bounds[1:] + bounds[:-1])) @ (position + rod.offset * director)
     moment = np.cross(values @ position - middle[segment], values @ force) + values @ couple
-    out = np.zeros((rod.segments, 6))
+    out = np.zeros((segments, 6))
     np.add.at(out, segment, weights[:, None] * np.concatenate([values @ force, moment], axis=1))
     return out
 
 
-def _shapes(rod: Rod, along: int, places: np.ndarray) -> np.ndarray:
-    """Values (n, p) of the shape functions at places (n,) [m] along the edge."""
-    nodes = rod.elements.reference[:, :3, along]
-    ends = np.sort(nodes[:, [0, 2]], axis=1)
-    side = np.argmax(
-        (places[:, None] >= ends[:, 0] - 1e-12) & (places[:, None] <= ends[:, 1] + 1e-12), axis=1
-    )
-    first, last = nodes[side, 0], nodes[side, 2]
-    xi = 2.0 * (places - first) / (last - first) - 1.0
-    out = np.zeros((len(places), len(rod.line)))
-    np.put_along_axis(out, rod.places[side], side_shape(xi)[0], axis=1)
+def _shapes(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Values (n, p) at places (n,) [m] of the shape functions of sides whose nodes (p,) [m] rise."""
+    first = 2 * np.clip(np.searchsorted(nodes[::2], places) - 1, 0, len(nodes) // 2 - 1)
+    xi = 2.0 * (places - nodes[first]) / (nodes[first + 2] - nodes[first]) - 1.0
+    out = np.zeros((len(places), len(nodes)))
+    np.put_along_axis(out, first[:, None] + np.arange(3), side_shape(xi)[0], axis=1)
     return out

@@ -26,7 +26,7 @@ from fem_reference.surface.biquadratic import AT_GAUSS, THREE, THREE_WEIGHTS, ar
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
-from fem_reference.surface.mesh import Plan, elements_in, facets_on
+from fem_reference.surface.mesh import Plan, facets_on
 from sheetbench.answers.balance import Balance, dead_force
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene
 from sheetbench.scenes.objects.loads import AreaLoad
@@ -58,10 +58,6 @@ class Surface:
         """w |det J| ρh (m, 9) [kg] at the Gauss points, of a scene's sheet."""
         return areas(self.plan.corners) * constants_of(scene, self.plan.corners).per_area
 
-    def sides(self, facets: np.ndarray) -> np.ndarray:
-        """Nodes (k, 3) of the sides that are facets of the mesh, the sheet to their right."""
-        return Line.along(self.plan, facets).nodes
-
     def lengths(self, sides: np.ndarray) -> np.ndarray:
         """w |X,ξ| (k, 3) [m] at the points of sides (k, 3)."""
         return THREE_WEIGHTS * np.linalg.norm(_SLOPE @ self.plan.nodes[sides], axis=-1)
@@ -69,13 +65,12 @@ class Surface:
 
 def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np.ndarray, np.ndarray]:
     """Force [N] and moment [N·m] (3,) of the whole load, and of the chains on edges."""
-    force = _dead_force(scene, surface)
-    moment = sum((_weight_moment(scene, surface, edge) for edge in edges), np.zeros(3))
+    force, moment = _dead_force(scene, surface), np.zeros(3)
     if scene.gravity is not None:
-        at = AT_GAUSS[0] @ surface.position[surface.plan.elements]
-        centre = np.einsum("eg,egc->c", surface.masses(scene), at)
-        centre = centre + sum((_first_moment(payload, surface) for payload in scene.masses), np.zeros(3))
-        moment = moment + np.cross(centre, scene.gravity.last_acceleration)
+        parts = [np.einsum("eg,egc->c", surface.masses(scene), _area(None, surface)[1])]
+        parts += [_first_moment(payload, surface) for payload in scene.masses]
+        parts += [_of_chains(edge, surface, scene.sheet.thickness) for edge in edges]
+        moment = np.cross(np.sum(parts, axis=0), scene.gravity.last_acceleration)
     for load in scene.loads:
         factor = load.last_factor
         match load:
@@ -126,29 +121,21 @@ def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
     mass = float(surface.masses(scene).sum())
     if not surface.own:
         return dead_force(scene, mass)
-    sides = {name: surface.sides(facets) for name, facets in (surface.plan.mesh.boundaries or {}).items()}
-    lengths = {name: float(surface.lengths(on).sum()) for name, on in sides.items()}
+    sides = {name: Line.along(surface.plan, on) for name, on in (surface.plan.mesh.boundaries or {}).items()}
+    lengths = {name: float(surface.lengths(line.nodes).sum()) for name, line in sides.items()}
     return dead_force(scene, mass, lengths)
 
 
-def _weight_moment(scene: Scene, surface: Surface, edge: OnEdge) -> np.ndarray:
-    """Of the chains of a rod, each at its own height; the rod has positions and directors of its own."""
-    if scene.gravity is None:
-        return np.zeros(3)
-    weights = surface.lengths(edge.rod.nodes)
-    line, director = (
-        np.einsum("kg,gi,kic->c", weights, _VALUE, values[edge.rod.places])
-        for values in (edge.position, edge.director)
-    )
-    axes = [
-        chain.line_density * (line + chain.axis_height(scene.sheet.thickness) * director)
-        for chain in scene.chains()[edge.rod.edge].values()
-    ]
-    return np.cross(np.sum(axes, axis=0), scene.gravity.last_acceleration)
+def _of_chains(edge: OnEdge, surface: Surface, thickness: float) -> np.ndarray:
+    """∫ ρ_l (φ + c d) dL [kg m] of the chains of a rod, which has positions and directors of its own."""
+    values = np.concatenate([edge.position, edge.director], axis=1)[edge.rod.places]
+    line = np.einsum("kg,gi,kic->c", surface.lengths(edge.rod.nodes), _VALUE, values)
+    chains = edge.rod.chains.values()
+    return sum(c.line_density * (line[:3] + c.axis_height(thickness) * line[3:]) for c in chains)
 
 
 def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
-    sides = surface.sides(facets_on(surface.plan.mesh, load))
+    sides = Line.along(surface.plan, facets_on(surface.plan.mesh, load)).nodes
     weights = surface.lengths(sides)
     position, director = (_VALUE @ values[sides] for values in (surface.position, surface.director))
     slope = _SLOPE @ surface.position[sides]
@@ -170,7 +157,7 @@ def _first_moment(payload: Mass, surface: Surface) -> np.ndarray:
 def _area(where: Shape | None, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
     """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements in a shape, or of all."""
     plan = surface.plan
-    on = plan.elements[elements_in(where, plan.nodes, plan.elements)]
+    on = plan.elements[plan.within(where)]
     return areas(plan.nodes[on]), AT_GAUSS[0] @ surface.position[on]
 
 
@@ -178,7 +165,7 @@ def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.nda
     """Force [m²] and moment [m³] of a unit pressure; with the sheet to its right, the rim of what is pressed
     runs clockwise."""
     plan, mesh = surface.plan, surface.plan.mesh
-    inside = np.isin(mesh.f2t, elements_in(where, plan.nodes, plan.elements))
+    inside = np.isin(mesh.f2t, plan.within(where))
     facets = np.flatnonzero(inside.sum(axis=0) == 1)
     rim = surface.position[Line.along(plan, facets, np.where(inside[0], *mesh.f2t)[facets]).nodes]
     at, slope = _VALUE @ rim, _SLOPE @ rim

@@ -15,7 +15,7 @@ import numpy as np
 
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.location import shares
-from fem_reference.surface.mesh import Plan, elements_in
+from fem_reference.surface.mesh import Plan
 from sheetbench.scenes import Scene
 
 
@@ -24,7 +24,7 @@ def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, 
     mid-surface (k, 9, 9) [kg], and to the directors' x, y and z (3, k, 9, 9) [kg m²]."""
     for payload in scene.masses:
         if payload.at is None:
-            on = elements_in(payload.where, plan.nodes, plan.elements)
+            on = plan.within(payload.where)
             sizes = areas(plan.corners[on])
             sizes *= payload.mass / sizes.sum()
             by_place = np.einsum("eg,gi,gj->eij", sizes, AT_GAUSS[0], AT_GAUSS[0])

@@ -29,7 +29,7 @@ from fem_reference.surface.biquadratic import (
 from fem_reference.surface.carried import carried
 from fem_reference.surface.location import shares
 from fem_reference.surface.materials import constants_of
-from fem_reference.surface.mesh import Plan, elements_in, facets_on
+from fem_reference.surface.mesh import Plan, facets_on
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
 from sheetbench.scenes.objects.loads import AreaLoad
 
@@ -193,11 +193,11 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
                 if load.moment_per_length:
                     followers.append(FollowerMoment(factor * load.moment_per_length, line))
             case AreaLoad():
-                on = elements_in(load.where, plan.nodes, plan.elements)
+                on = plan.within(load.where)
                 force = factor * np.array(load.force_per_area)
                 dead.append(spread(plan, plan.elements[on], areas(corners[on]) @ AT_GAUSS[0], force))
             case Pressure():
-                on = elements_in(load.where, plan.nodes, plan.elements)
+                on = plan.within(load.where)
                 closed = encloses_volume(scene.supports) and not (scene.pierced or load.where)
                 followers.append(FollowerPressure(factor * load.value, on, orientation(corners[on]), closed))
     return np.sum(dead, axis=0), followers

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from skfem import Dofs, ElementQuad2, MeshQuad
+from skfem import MeshQuad, MeshQuad2
 
+from fem_reference.surface.alike import mesh_of_cells
 from fem_reference.surface.borders import Borders, borders_of, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
@@ -26,7 +27,7 @@ from sheetbench.scenes.objects.plan_mesh import divided
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
 
 if TYPE_CHECKING:
-    from shapely.geometry.base import BaseGeometry
+    pass
 
 Elements = int | tuple[int, int]
 
@@ -91,33 +92,28 @@ class Plan:
         """Plan positions of the elements' nodes (m, 9, 2) [m]."""
         return self.nodes[self.elements]
 
+    def within(self, shape: Shape | None) -> np.ndarray:
+        """The elements (k,) in a shape, whose borders lie on their sides, or all."""
+        middles = self.nodes[self.elements[:, 8]]
+        return np.arange(len(middles)) if shape is None else np.flatnonzero(shape.contains(middles))
 
-def nodes_of(mesh: MeshQuad) -> tuple[np.ndarray, np.ndarray]:
-    """Plan positions (n, 2) [m] of a mesh's biquadratic nodes, corners first, then mid-sides and centres, and
-    the nodes of every element (m, 9). Neither may be changed."""
-    return _nodes(type(mesh), mesh.doflocs, mesh.t)
+    def on_boundary(self, name: str) -> np.ndarray:
+        """The nodes (k,) of a boundary, in order."""
+        facets = self.mesh.boundaries[name]
+        return np.unique(np.concatenate([self.mesh.facets[:, facets].ravel(), self.mesh.nvertices + facets]))
 
 
 def plan_of(mesh: MeshQuad) -> Plan:
-    """A mesh with its biquadratic nodes."""
-    nodes, elements = nodes_of(mesh)
-    return Plan(mesh, elements, nodes)
+    """A mesh with its biquadratic nodes, corners first, then mid-sides and centres; not to be changed."""
+    return Plan(mesh, *_nodes(type(mesh), mesh.doflocs, mesh.t))
 
 
 @kept(last=8, most=1 << 18)
 def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    mesh, element = kind(places, elements), ElementQuad2()
-    numbers = Dofs(mesh, element)
-    nodes = np.empty((numbers.N, 2))
-    for of_elements, at in zip(numbers.element_dofs, mesh.mapping().F(element.doflocs.T).T, strict=True):
-        nodes[of_elements] = at
-    return nodes, np.ascontiguousarray(numbers.element_dofs.T)  # of one layout: kernels are compiled for it
-
-
-def on_boundary(mesh: MeshQuad, name: str) -> np.ndarray:
-    """The biquadratic nodes (k,) of a boundary, in order."""
-    facets = mesh.boundaries[name]
-    return np.unique(np.concatenate([mesh.facets[:, facets].ravel(), mesh.nvertices + facets]))
+    mesh = kind(places, elements)
+    curved = mesh if kind is MeshQuad2 else MeshQuad2.from_mesh(mesh)
+    # of one layout: kernels are compiled for it
+    return np.ascontiguousarray(curved.dofs.element_dofs.T), np.ascontiguousarray(curved.doflocs.T)
 
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
@@ -137,7 +133,12 @@ def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float
     borders = borders_of(scene)
     if borders is None or borders.along_axes:
         mesh = _tensor(*lines_of(scene, counts, graded, reach), *lengths)
-        return _with_edges(_within(mesh, borders.region), lengths) if borders and scene.pierced else mesh
+        if borders is None or not scene.pierced:
+            return mesh
+        import shapely
+
+        inside = shapely.contains_xy(borders.region, *mesh.p[:, mesh.t].mean(axis=1))
+        return _with_edges(mesh.restrict(np.flatnonzero(inside)), lengths)
     spacing = lengths[0] / counts[0], lengths[1] / counts[1]
     return _with_edges(quadrilaterals(*borders, spacing, graded), lengths)
 
@@ -152,7 +153,7 @@ def _own(sheet: Sheet, counts: tuple[int, int]) -> MeshQuad | None:
     points, quads = sheet.mesh.arrays
     for _ in range(cuts):
         points, quads = divided(points, [quads])
-    return MeshQuad(np.ascontiguousarray(points.T), np.ascontiguousarray(quads.T))
+    return mesh_of_cells(points, quads)
 
 
 def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
@@ -206,13 +207,6 @@ def _with_rows(lines: np.ndarray) -> np.ndarray:
     )
 
 
-def _within(mesh: MeshQuad, region: BaseGeometry) -> MeshQuad:
-    """The elements of a mesh whose middles lie in a region."""
-    import shapely
-
-    return mesh.restrict(np.flatnonzero(shapely.contains_xy(region, *mesh.p[:, mesh.t].mean(axis=1))))
-
-
 def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
     """The lines with some moved to the sides, and those between in proportion; at least one for each. Sides
     that are the same from either end, one in the middle, have an even number of elements."""
@@ -250,14 +244,6 @@ def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
 
 def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda x: np.isclose(x[axis], position, rtol=1e-9, atol=1e-12)
-
-
-def elements_in(shape: Shape | None, nodes: np.ndarray, elements: np.ndarray) -> np.ndarray:
-    """The elements (k,) in a shape, whose borders lie on their sides, or all; nodes (n, 2) [m], elements
-    (m, 9)."""
-    return (
-        np.arange(len(elements)) if shape is None else np.flatnonzero(shape.contains(nodes[elements[:, 8]]))
-    )
 
 
 def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:

@@ -25,7 +25,7 @@ Source: Antman, Nonlinear Problems of Elasticity (2005), ch. 8 (the special Coss
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -63,37 +63,35 @@ class RodElements(NamedTuple):
 
 @dataclass(frozen=True)
 class Rod:
-    """The rod along an edge of p nodes: what it is called, where it runs, and its k sides as elements.
+    """The rod along an edge of p nodes: the chains that it stands for, by name, and its k sides as elements.
 
     nodes: (k, 3) of the sheet; places: (k, 3) in `line` (p,), the sheet's nodes along the edge; elements: of
-    Q = (φ, d, m); base: place of the node that is held, or None; held_as: its name among the reactions;
-    offset: of the axis along the director [m].
+    Q = (φ, d, m); base: place of the node that is held, or None; offset: of the axis along the director [m].
     """
 
-    names: tuple[str, ...]
-    edge: str
+    chains: Mapping[str, Chain]
     nodes: np.ndarray
     places: np.ndarray
     line: np.ndarray
     elements: RodElements
     base: int | None
-    held_as: str
-    segments: int
     offset: float
+
+    @property
+    def chain(self) -> Chain:
+        """The first of the chains, which agree on their base, segments and plane."""
+        return next(iter(self.chains.values()))
 
 
 def of_scene(scene: Scene, plan: Plan) -> list[Rod]:
     """The rods of a scene's chains, one an edge. Raises BadInput for an edge that is not straight or has no
     node where a base is held."""
-    found = []
-    for edge, here in scene.chains().items():
-        sides = Line.along(plan, plan.mesh.boundaries[edge]).nodes
-        found.append(_rod(scene, edge, here, plan.nodes, sides))
-    return found
+    return [_rod(scene, edge, here, plan) for edge, here in scene.chains().items()]
 
 
-def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray, sides: np.ndarray) -> Rod:
-    edge, chains = EDGES[edge_name], list(here.values())
+def _rod(scene: Scene, edge_name: str, here: Mapping[str, Chain], plan: Plan) -> Rod:
+    edge, chains, nodes = EDGES[edge_name], list(here.values()), plan.nodes
+    sides = Line.along(plan, plan.mesh.boundaries[edge_name]).nodes
     along = nodes[sides, edge.along_axis]
     if np.ptp(nodes[sides, edge.normal_axis]) > 1e-9 * np.ptp(along):
         raise BadInput(f"actuator: edge {edge_name} of the mesh is not straight")
@@ -116,8 +114,7 @@ def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray
         mean = _mean_curvature(chain, length, along - start)
         intrinsic[:, where, scene.actuators.index(chain)] += share * mean * half[:, None] ** 2
     return Rod(
-        names=tuple(here),
-        edge=edge_name,
+        chains=here,
         nodes=sides,
         places=places,
         line=line,
@@ -127,9 +124,7 @@ def _rod(scene: Scene, edge_name: str, here: dict[str, Chain], nodes: np.ndarray
             stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
             intrinsic=intrinsic,
         ),
-        held_as=chains[0].held_as,
         base=_base(chains[0], nodes[line, edge.along_axis] - start, length),
-        segments=chains[0].segments,
         offset=offset,
     )
 
@@ -148,25 +143,25 @@ def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarra
 
 def _forms(offset: float) -> np.ndarray:
     """H (15, 9, 9) with ½ Qᵀ H Q the covariant strains."""
-    forms = np.zeros((STRAINS, 9, 9))
-    for point in range(2):
-        value, slope = _VALUE[point], _SLOPE[point]
-        none = np.zeros(3)
-        axis_slope = np.concatenate([slope, offset * slope, none])
-        director, director_slope = np.concatenate([none, value, none]), np.concatenate([none, slope, none])
-        aside, aside_slope = np.concatenate([none, none, value]), np.concatenate([none, none, slope])
-        forms[AXIAL.start + point] = np.outer(axis_slope, axis_slope)
-        for part, a, b in (
-            (SHEAR, axis_slope, director),
-            (ASIDE, axis_slope, aside),
-            (NORMAL, -axis_slope, director_slope),
-            (INPLANE, -axis_slope, aside_slope),
-            (TWIST, director_slope, aside),
-        ):
-            forms[part.start + point] = np.outer(a, b) + np.outer(b, a)
-    for node in range(3):
-        forms[SQUARE.start + node, 3 + node, 6 + node] = forms[SQUARE.start + node, 6 + node, 3 + node] = 1.0
-    return forms
+    none, node = np.zeros((2, 3)), np.eye(9)
+    axis, director, bent, aside, bent_aside = (
+        np.concatenate(parts, axis=1)
+        for parts in (
+            (_SLOPE, offset * _SLOPE, none),  # r'
+            (none, _VALUE, none),
+            (none, _SLOPE, none),
+            (none, none, _VALUE),
+            (none, none, _SLOPE),
+        )
+    )
+    pairs = [(0.5 * axis, axis), (axis, director), (axis, aside), (-axis, bent), (-axis, bent_aside)]
+    pairs += [(bent, aside), (node[3:6], node[6:])]
+    return np.concatenate([products(a, b) for a, b in pairs])
+
+
+def products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return H (n, k, k) with ½ Qᵀ H Q = (a Q) · (b Q), of the rows of a and b (n, k)."""
+    return np.einsum("ni,nj->nij", a, b) + np.einsum("ni,nj->nij", b, a)
 
 
 def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: np.ndarray) -> np.ndarray:
@@ -204,7 +199,7 @@ def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
         if rod.base is not None:
             node = rod.line[rod.base]
             position[node] = director[node] = True
-            edges[rod.held_as] = (np.array([node]), np.arange(3))
+            edges[rod.chain.held_as] = (np.array([node]), np.arange(3))
     return replace(supports, position=position, director=director, edges=edges)
 
 

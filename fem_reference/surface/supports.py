@@ -14,12 +14,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from skfem import MeshQuad
 
-from fem_reference.surface.mesh import elements_in, nodes_of, on_boundary
+from fem_reference.surface.mesh import Plan
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
-from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, Placed, bent_or_tilted
+from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
 from sheetbench.scenes.objects.shapes import COINCIDENT
 from sheetbench.scenes.objects.supports import Point, named, place
 from sheetbench.scenes.objects.tables import PiecewiseCurve
@@ -36,12 +35,6 @@ class Driven:
     points: np.ndarray
     edge: DrivenEdge
     part: np.ndarray
-
-    def placed(self, load_factor: float, time: float | None = None) -> Placed:
-        """Where the nodes are at a load factor, of a moved edge at a time [s] or in its last pose."""
-        if isinstance(self.edge, MovedEdge):
-            return self.edge.placed(self.points, load_factor, time)
-        return self.edge.placed(self.points, load_factor)
 
 
 class Moving(NamedTuple):
@@ -79,7 +72,7 @@ class Supports:
         [s]: of motions, their last samples where None."""
         out = np.zeros((2, len(self.director), 3))
         for driven in self.driven:
-            placed = driven.placed(load_factor, time)
+            placed = driven.edge.placed(driven.points, load_factor, time)
             out[0, driven.nodes], out[1, driven.nodes] = placed.displacement, placed.director
         if self.shifts:
             out[0] += (load_factor if time is None else 1.0) * self.shift(time)
@@ -133,18 +126,18 @@ def _node_at(nodes: np.ndarray, support: Point, name: str) -> np.ndarray:
     return np.array([int(np.argmin(far))])
 
 
-def of_scene(scene: Scene, mesh: MeshQuad) -> Supports:
-    """The supports and moved edges of a scene on the biquadratic nodes of a mesh."""
-    nodes, elements = nodes_of(mesh)
+def of_scene(scene: Scene, plan: Plan) -> Supports:
+    """The supports and moved edges of a scene on the nodes of a plan."""
+    nodes = plan.nodes
     named_supports = named(scene.supports)
-    on_edge = {str(on.edge): on_boundary(mesh, on.edge) for on in scene.actuators}
+    on_edge = {str(on.edge): plan.on_boundary(on.edge) for on in scene.actuators}
     for name, support in named_supports.items():
         if isinstance(support, Point):
             on_edge[name] = _node_at(nodes, support, name)
-            continue
-        shape = place(support)
-        inside = np.unique(elements[elements_in(shape, nodes, elements)]) if shape else None
-        on_edge[name] = on_boundary(mesh, support.edge) if inside is None else inside
+        elif (shape := place(support)) is not None:
+            on_edge[name] = np.unique(plan.elements[plan.within(shape)])
+        else:
+            on_edge[name] = plan.on_boundary(support.edge)
     position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
     tilt = np.zeros((len(nodes), 2), dtype=bool)
     edges: dict[str, tuple[np.ndarray, np.ndarray]] = {}

@@ -46,10 +46,11 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
+from fem_reference.surface.alike import mesh_of_cells
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.loads import Line, spread
 from fem_reference.surface.materials import bending_stiffness
-from fem_reference.surface.mesh import mesh_of, nodes_of, plan_of, quarters
+from fem_reference.surface.mesh import mesh_of, plan_of, quarters
 from fem_reference.verification.rows import THEORY, Row, absolutely, curve, relatively
 from fem_reference.verification.specimens import linear_step, moved, specimen, valid
 from fem_reference.vibration import modes
@@ -108,8 +109,8 @@ def bending() -> Iterator[Row]:
 
 def cut(mesh: MeshQuad) -> MeshQuad2:
     """The disc's mesh with each element cut in four, and with the nodes of rim and hub on circles."""
-    nodes, elements = (np.ascontiguousarray(each.T) for each in nodes_of(mesh))
-    fine = MeshQuad2.from_mesh(MeshQuad(nodes, np.ascontiguousarray(quarters(elements).T)))
+    plan = plan_of(mesh)
+    fine = MeshQuad2.from_mesh(mesh_of_cells(plan.nodes, quarters(plan.elements.T)))
     at = fine.doflocs - RADIUS
     part = np.append(np.hypot(*at[:, fine.t].mean(axis=1)) > HUB, 2)  # 2: beyond the rim
     border = np.flatnonzero(part[fine.f2t[0]] != part[fine.f2t[1]])

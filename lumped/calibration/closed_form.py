@@ -51,7 +51,7 @@ which is 3ν − 1 + 2 S*/κGh for a third and vanishes (`waves`) for a d from 0
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -68,27 +68,18 @@ class NoClosedForm(Exception):
     """Of a cell of these sides [m]."""
 
 
-class Closed(NamedTuple):
-    """of: constants [N/m] by name, (m,), (2, m) of those along x and y; distance: of the layers, (m,) [m];
-    found: whether the cell has them, (m,)."""
-
-    of: dict[str, np.ndarray]
-    distance: np.ndarray
-    found: np.ndarray
-
-
 def springs_of_cells(each: EachCell, layer_distance: float | None = None, **special: bool) -> Springs:
     """Return the springs of all cells, in layers as far apart as the cell asks that asks for most. Raise
     NoClosedForm for a cell that has none."""
     (sides, _), target, layers = each.present, each.target, each.grid[2]
-    found = closed_form(target, sides, layers, layer_distance, **special)
-    if layer_distance is None and len(sides) > 1 and found.found.all():
-        found = closed_form(target, sides, layers, float(found.distance.max()), **special)
-    if not found.found.all():
-        raise NoClosedForm(*sides[np.argmin(found.found)])
-    of = {name: each.placed(values) for name, values in found.of.items()}
+    found, distance, has_one = closed_form(target, sides, layers, layer_distance, **special)
+    if layer_distance is None and len(sides) > 1 and has_one.all():
+        found, distance, has_one = closed_form(target, sides, layers, float(distance.max()), **special)
+    if not has_one.all():
+        raise NoClosedForm(*sides[np.argmin(has_one)])
+    of = {name: each.placed(values) for name, values in found.items()}
     return Springs.made(
-        float(found.distance.max()),
+        float(distance.max()),
         **{name: by_direction(*values) if name in PAIRS else values for name, values in of.items()},
     )
 
@@ -100,13 +91,14 @@ def closed_form(
     layer_distance: float | None = None,
     gradients: bool = False,
     waves: bool = False,
-) -> Closed:
-    """The springs that have the requested moduli (m, …), of cells of these sides (m, 2) [m]. There are none
-    where a link would be negative (many layers on coarse grids: there the cross-layer links alone bend too
-    stiffly), and where a layer distance [m] that is given is less than the cell needs. gradients: whether
-    layers are so far apart that strains in the plane that vary across a cell cost what they cost the sheet;
-    waves: whether oblique waves of bending are right in l², of oblong cells as if they were squares of the
-    same area."""
+) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
+    """Return springs that have the requested moduli (m, …), of cells of these sides (m, 2) [m]: constants
+    [N/m] by name, (m,), or (2, m) of those along x and y, the distances of the layers (m,) [m], and whether a
+    cell has them, (m,). None has where a link would be negative (many layers on coarse grids: there the
+    cross-layer links alone bend too stiffly), and where a layer distance [m] that is given is less than the
+    cell needs. gradients: whether layers are so far apart that strains in the plane that vary across a cell
+    cost what they cost the sheet; waves: whether oblique waves of bending are right in l², of oblong cells as
+    if they were squares of the same area."""
     lx, ly = sides.T
     sigma, sigma_gap = second_moment(layers), second_moment(layers - 1)
     squares, membrane, bending = sides**2, target.membrane, target.bending
@@ -191,7 +183,7 @@ def closed_form(
         "mid_shear": rest[:, 2, 2],
         "mid_stretch": _own(rest).T,
     }
-    return Closed({name: values / lz2 for name, values in of.items()}, np.sqrt(lz2), found)
+    return {name: values / lz2 for name, values in of.items()}, np.sqrt(lz2), found
 
 
 def _own(form: np.ndarray) -> np.ndarray:

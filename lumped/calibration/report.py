@@ -44,30 +44,33 @@ def report(
     misses = (found - targets) / np.where(targets == 0.0, np.abs(likes), targets)
     off_most = np.abs(misses) >= np.abs(misses).max(axis=1, keepdims=True) - ALIKE
     rows: dict[str, dict[str, Any]] = {}
-    for row, (name, at) in enumerate(
-        zip(names, np.where(off_most, rigidity, 0.0).argmax(axis=1), strict=True)
-    ):
-        asked_got_miss = (float(values[row, at]) for values in (targets, found, misses))
+    worst = np.where(off_most, rigidity, 0.0).argmax(axis=1)
+    for name, at, *values in zip(names, worst, targets, found, misses, strict=True):
+        asked_got_miss = (float(of_cells[at]) for of_cells in values)
         rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
         if name.startswith("S"):
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
-    areas = [springs["area"], springs["mid_area"]]
-    if min(map(np.min, areas)) < 0.0 or springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}:
-        _require_positive(springs, got)
+    areas = springs["area"], springs["mid_area"]
+    told = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
+    negative = min(map(np.min, areas)) < 0.0
+    forms = (
+        (got.membrane, got.bending) if negative or springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS} else ()
+    )
+    if any(np.linalg.eigvalsh(form).min() <= 0.0 for form in forms):
+        raise BadInput(f"{told}: the cell's energy is not positive")
     off = [
         f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %"
         for row in rows.values()
         if abs(row["got"] - row["asked"]) > 0.01 * abs(rows[_like(row["name"])]["asked"])
     ]
-    missed = [f"these springs miss {', '.join(off)}"] if off else []
+    notes = [f"these springs miss {', '.join(off)}"] if off else []
     if off and not springs.of.keys() & {"area", "shear"}:
-        missed.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
-    notes = (*missed, *_admissible(springs), *more)
-    table = springs.table()
-    return Calibration(
-        method, each.grid, table, tuple(rows.values()), notes, grading=each.grading, cells=each.cells
-    )
+        notes.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
+    if negative:  # ν < 1/3
+        notes.append(f"{told}: negative area springs are admissible here, the cell's energy is positive")
+    settings: dict[str, Any] = {"grading": each.grading, "cells": each.cells}
+    return Calibration(method, each.grid, springs.table(), tuple(rows.values()), (*notes, *more), **settings)
 
 
 def _like(name: str) -> str:
@@ -75,23 +78,7 @@ def _like(name: str) -> str:
     return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name.replace("Sxy", "Sx")
 
 
-def _areas(springs: Springs) -> str:
-    return f"area = {_shown(springs['area'])}, mid_area = {_shown(springs['mid_area'])} N/m"
-
-
 def _shown(values: np.ndarray) -> str:
     """A number, or the least and the largest of the cells' own."""
     least, most = values.min(), values.max()
     return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"
-
-
-def _require_positive(springs: Springs, whole: moduli.Moduli) -> None:
-    if min(np.linalg.eigvalsh(form)[:, 0].min() for form in (whole.membrane, whole.bending)) <= 0.0:
-        raise BadInput(f"{_areas(springs)}: the cell's energy is not positive")
-
-
-def _admissible(springs: Springs) -> tuple[str, ...]:
-    """A note where area springs are negative (ν < 1/3): admissible while the cells' energy stays positive."""
-    if min(springs["area"].min(), springs["mid_area"].min()) >= 0.0:
-        return ()
-    return (f"{_areas(springs)}: negative area springs are admissible here, the cell's energy is positive",)

@@ -19,7 +19,7 @@ from comparisons.external.calculix.model import deck
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.model import Triangles, problem
 from fem_reference.surface.biquadratic import areas
-from fem_reference.surface.mesh import nodes_of
+from fem_reference.surface.mesh import plan_of
 from fem_reference.verification.strain_laws import RUBBERS
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
@@ -293,9 +293,9 @@ def drawn():
 
 def volumes(bricks):
     """Of the bricks, by the plan's and the thickness in their middles."""
-    nodes, elements = nodes_of(bricks.plan)
-    plan = areas(nodes[elements]).sum(axis=1)
-    return np.tile(plan * bricks.taper[elements[:, :8]].mean(axis=1) * 0.003 / bricks.layers, bricks.layers)
+    plan = plan_of(bricks.plan)
+    sizes = areas(plan.corners).sum(axis=1) * bricks.taper[plan.elements[:, :8]].mean(axis=1)
+    return np.tile(sizes * 0.003 / bricks.layers, bricks.layers)
 
 
 def test_bricks_of_a_drawn_sheet_fill_it(drawn):

@@ -9,7 +9,7 @@ from skfem import Basis, ElementQuad2
 
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians, shape
 from fem_reference.surface.location import locate
-from fem_reference.surface.mesh import _through, mesh_of, nodes_of
+from fem_reference.surface.mesh import _through, mesh_of, plan_of
 from fem_reference.surface.mesh_points import SizeField, _quadtree
 from fem_reference.surface.outlined import quadrilaterals
 from sheetbench.scenes import load
@@ -62,10 +62,10 @@ def test_elements_fill_the_plan_and_stand_upright(plan, count, graded):
     begin = time.process_time()
     mesh = quadrilaterals(region, inner, (0.2 / count, 0.2 / count), graded)
     assert time.process_time() - begin < 1.0  # 0.04 s; 0.3 s are allowed a plate with four holes
-    nodes, elements = nodes_of(mesh)
-    area = np.linalg.det(jacobians(nodes[elements], AT_GAUSS[1]))
+    nodes, corners = plan_of(mesh).nodes, plan_of(mesh).corners
+    area = np.linalg.det(jacobians(corners, AT_GAUSS[1]))
     assert area.min() > 0.0
-    at_nodes = np.linalg.det(jacobians(nodes[elements], AT_NODES[1]))
+    at_nodes = np.linalg.det(jacobians(corners, AT_NODES[1]))
     assert np.all(at_nodes.min(axis=1) > 0.05 * at_nodes.max(axis=1))  # squeezed ones had 1e-4
     # sides through three corners of a circle's polygon are the circle, which has 1e-4 more area
     polygon = (2.0 * np.pi / (4 * SEGMENTS)) ** 2 / 6.0
@@ -101,7 +101,7 @@ def test_a_point_is_found_where_its_element_has_it(plan):
 def test_an_element_that_is_folded_beyond_its_sides_is_searched_too():
     """The finger's coarse mesh has an element whose map has no inverse at a point outside it."""
     coarse, fine = (mesh_of(load("gripper-finger"), count, graded=True) for count in (5, 10))
-    points = nodes_of(fine)[0]
+    points = plan_of(fine).nodes
     element, place = locate(coarse, points)
     back = coarse.mapping().F(0.5 * (place + 1.0)[:, :, None], tind=element)[:, :, 0].T
     assert np.abs(back - points).max() < 0.01 * coarse.param()

@@ -7,7 +7,7 @@ import lumped
 from lumped import moduli
 from lumped.assembly import Assembly
 from lumped.calibration.cell_by_cell import each_cell
-from lumped.calibration.report import _require_positive, report
+from lumped.calibration.report import report
 from lumped.spring_constants import Springs
 from sheetbench import scenes
 from sheetbench.scenes import BadInput, PerDirection, SpringSet
@@ -174,6 +174,8 @@ def test_textbook_constructions_on_oblong_cells():
 
 
 def test_a_bend_that_costs_nothing_is_refused():
-    costless = moduli.Moduli(np.eye(3)[None], np.diag([1.0, 1.0, 0.0])[None], np.ones((1, 2)), np.zeros(1))
+    bend, stretch = np.diag([1.0, 1.0, 0.0])[None, None], np.eye(3)[None, None]
+    costless = moduli.Moduli(stretch, bend, np.ones((1, 1, 2)), np.zeros((1, 1)))
+    springs = Springs.made(1e-3, area=-1.0)
     with pytest.raises(BadInput, match="the cell's energy is not positive"):
-        _require_positive(Springs.made(1e-3, area=-1.0), costless)
+        report("test", each_cell(SEED.sheet, SEED.material, (9, 9, 2)), springs, whole=costless)

@@ -68,9 +68,11 @@ class Newton:
         residual: Callable[[np.ndarray], np.ndarray],
         blocks: Callable[[np.ndarray], np.ndarray],
         guess: np.ndarray,
+        weigh: Callable[[np.ndarray], np.ndarray] = lambda correction: correction,
         tolerance: float | None = None,
     ) -> np.ndarray:
-        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve. Raises StepFailed."""
+        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
+        (size, 3) from the solution of the linear system. Raises StepFailed."""
         problem = self._system.problem
         small = self.tolerance if tolerance is None else tolerance
         u, last, fresh = guess, np.inf, False
@@ -79,7 +81,7 @@ class Newton:
         for _ in range(CORRECTIONS):
             if self._factor is None:
                 self._factor, fresh = problem.system.factor(blocks(u)), True
-            correction = problem.expand(self._factor.solve(-problem.reduce(residual(u)), SOLVED))
+            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)), SOLVED)))
             u = u + correction
             length = float(np.abs(correction[self._placed]).max())
             if not np.isfinite(length):

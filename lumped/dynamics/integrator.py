@@ -10,12 +10,7 @@ import numpy as np
 
 from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.system import State, System
-<<<<<<< HEAD
-from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, MotionMethod, StepFailed
-=======
-from sheetbench.numerics.time.method import Advance, StepFailed
->>>>>>> parent of 12c25b1c (Chains move by generalised-alpha alone: the conserving midpoint rule refuses them, as the other integrators do)
 
 __all__ = ["Advance", "Integrator", "LatticeSamples", "StepFailed"]
 
@@ -50,13 +45,8 @@ class Integrator(MotionMethod[State]):
 
     step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
     unless it is made `fixed`; explicit: whether its steps have a limit of stability; options: names of
-<<<<<<< HEAD
-    what else the user may choose; chains: whether it takes their constraints. Steps of one length end at
-    times that lie farther from each other than that: a table with more samples than there are steps has no
-    corner to step onto.
-=======
-    what else the user may choose. adapts, span, kinks: as `sheetbench.numerics.time.method` has them.
->>>>>>> parent of 12c25b1c (Chains move by generalised-alpha alone: the conserving midpoint rule refuses them, as the other integrators do)
+    what else the user may choose. Steps of one length end at times that lie farther from each other than
+    that: a table with more samples than there are steps has no corner to step onto.
     """
 
     name: ClassVar[str]
@@ -64,39 +54,13 @@ class Integrator(MotionMethod[State]):
     adaptive: ClassVar[bool] = False
     explicit: ClassVar[bool] = False
     options: ClassVar[tuple[str, ...]] = ()
-<<<<<<< HEAD
-    chains: ClassVar[bool] = False
     state = State
-=======
-    state: ClassVar[type[State]] = State
->>>>>>> parent of 12c25b1c (Chains move by generalised-alpha alone: the conserving midpoint rule refuses them, as the other integrators do)
 
     def __init__(self, system: System, step: float, fixed: bool = True):
         self.system, self.step, self.adapts = system, step, not fixed
         gaps = np.diff(system.kinks, prepend=-np.inf, append=np.inf)
         apart = np.minimum(gaps[:-1], gaps[1:])[: len(system.kinks)]
         self.kinks = system.kinks if self.adapts else system.kinks[apart > step]
-
-<<<<<<< HEAD
-    @classmethod
-    def require_no_chains(cls, system: System) -> None:
-        """Raise BadInput for chains, where it takes none."""
-        if system.constrained and not cls.chains:
-            raise BadInput(f"integrator = {cls.name!r}: does not take chains; choose another integrator")
-=======
-    @property
-    def span(self) -> int | None:
-        """One: steps end at samples."""
-        return 1
-
-    @cached_property
-    def kinks(self) -> np.ndarray:
-        """Times [s] at which something changes its course; for steps of one length those farther from each
-        other than that, as a table with more samples than there are steps has no corner to step onto."""
-        kinks = self.system.kinks
-        gaps = np.diff(kinks, prepend=-np.inf, append=np.inf)
-        return kinks if self.adapts else kinks[np.minimum(gaps[:-1], gaps[1:])[: len(kinks)] > self.step]
->>>>>>> parent of 12c25b1c (Chains move by generalised-alpha alone: the conserving midpoint rule refuses them, as the other integrators do)
 
     @classmethod
     def default_step(cls, period: Callable[[], float], limit: StepLimit | None) -> float:

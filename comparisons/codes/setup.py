@@ -97,7 +97,8 @@ class CodeSetup(CellInScene):
 
     def tables(self) -> tuple[Table, ...]:
         caption = f"Parameters of {self.code.title}"
-        return (Table.of(Parameter, self.keys, caption, "parameters", without=("code",)),)
+        shown = ("name", "value", "unit", "convention")
+        return (Table.of(Parameter, self.keys, caption, "parameters", fields=shown),)
 
     def result(self) -> str:
         """The parameters, and the error that stays."""

@@ -97,9 +97,8 @@ def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
     """
     kind: Any = model
     found = traced(lambda: kind(mesh, scene))
-    found.sheet.own, found.sheet.label = True, found.sheet.model
-    found.sheet.settings = {"elements": mesh.nelements}
-    return answered(found)
+    found.sheet.own = True
+    return answered(found, elements=mesh.nelements)
 
 
 def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
@@ -116,7 +115,7 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
     residual, q = forces.residual, shape.q
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     edges, wrenches, line = sheet.wrenches(shape, residual)
-    reactions, energies = sheet.reactions(residual, share), sheet.energies_by_part(shape)
+    reactions, energies = sheet.reactions(residual, share), sheet.element.energies(shape.strain)
     held = sheet.holding(q, residual, share)
     by_items = sheet.held_by_items(shape)
     reactions |= {name: forces.sum(axis=0) for name, (_, forces) in by_items.items()}

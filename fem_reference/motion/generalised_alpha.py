@@ -76,7 +76,6 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
     def forget(self) -> None:
         """Drop the factors, so that a resumed run goes on exactly as one never stopped."""
         self._factor = None
-        self._solver.forget()
 
     def start(self) -> Advance[SheetMotion]:
         """Return the motion at t = 0, with the work of what moves at once."""

@@ -81,10 +81,6 @@ class Columns:
         level = np.rint(2.0 * ElementHex2.doflocs[:, 2]).astype(int)
         return np.array([self.levels * column + level + 2 * layer for layer in range(self.layers)])
 
-    def edge(self, name: str) -> np.ndarray:
-        """Plan nodes on an edge."""
-        return self.plan.on_boundary(name)
-
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
         plan = quarters(self.plan.elements.T)

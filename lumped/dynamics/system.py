@@ -90,12 +90,6 @@ class System:
         algebraic = np.zeros((size, 3), dtype=bool) if self.coupling is None else self.coupling.algebraic
         self.algebraic = abs(self.transform).T @ algebraic.ravel() > 0.0
         self.moving_part = sp.csr_array(self.transform[:, np.flatnonzero(~self.algebraic)])
-        # every unknown is a component of u itself; bound and dependent components have several
-        entries = self.moving_part.tocoo()
-        single = np.bincount(entries.row, minlength=3 * size)[entries.row] == 1
-        identity = single & (entries.data == 1.0)
-        self._own = np.empty(self.moving_part.shape[1], dtype=int)
-        self._own[entries.col[identity]] = entries.row[identity]
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
         self.growing = self.natural if self.natural is not None and self.natural.moves else None
@@ -261,8 +255,8 @@ class System:
         return (self.moving_part @ unknowns).reshape(-1, 3)
 
     def contract(self, displacement: np.ndarray) -> np.ndarray:
-        """The free unknowns with mass of an admissible displacement (size, 3)."""
-        return displacement.ravel()[self._own]
+        """The free unknowns with mass of an admissible displacement (size, 3): Tᵀ M g is constant."""
+        return self.solve_mass(self.reduce(self.momentum(displacement)))
 
     def momentum(self, v: np.ndarray) -> np.ndarray:
         """M v, (size, 3)."""

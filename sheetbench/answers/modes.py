@@ -68,15 +68,11 @@ def require_flat_and_dead(scene: Scene) -> None:
     """Raise BadInput for what has no buckling load: loads that follow the sheet, actuators, supports that
     bend or tilt it."""
     for number, load in enumerate(scene.loads, start=1):
-        if isinstance(load, Pressure):
-            raise BadInput(
-                f"load {number}.kind = 'pressure': it follows the sheet; buckling is of dead loads"
-            )
+        follower = "kind = 'pressure'" if isinstance(load, Pressure) else ""
         if isinstance(load, EdgeLoad) and load.moment_per_length:
-            raise BadInput(
-                f"load {number}.moment_per_length = {load.moment_per_length:g} N·m/m: it follows the sheet; "
-                "buckling is of dead loads"
-            )
+            follower = f"moment_per_length = {load.moment_per_length:g} N·m/m"
+        if follower:
+            raise BadInput(f"load {number}.{follower}: it follows the sheet; buckling is of dead loads")
     if scene.actuators:
         raise BadInput("actuator 1: buckling is of a sheet without actuators")
     if bent_or_tilted(scene.supports, scene.sheet):

@@ -165,21 +165,19 @@ class Table:
     @classmethod
     def of(
         cls, kind: type, rows: Iterable[Any], caption: str, name: str = "", *, fields: Sequence[str] = (),
-        without: Sequence[str] = (), details: Sequence[str] = (), grouped: bool = False, text: str = "",
+        details: Sequence[str] = (), grouped: bool = False, text: str = "",
     ) -> Table:  # fmt: skip
         """Return the table of rows, dataclasses of one kind: a column a field, or those in `fields`,
         properties too.
 
         A field's column is in its annotation; without one it holds words under the field's name. A field that
-        holds a mapping is a column a key: a name, or a Column itself. without: fields that are left out;
-        details: fields for the files alone.
+        holds a mapping is a column a key: a name, or a Column itself. details: fields for the files
+        alone.
         """
         rows, declared = list(rows), _declared(kind)
         columns: list[Column] = []
         cells: list[list[Any]] = [[] for _ in rows]
         for field in fields or (one.name for one in dataclass_fields(kind)):
-            if field in without:
-                continue
             declared_one = replace(declared[field], detail=declared[field].detail or field in details)
             own, values = [declared_one], [(getattr(row, field),) for row in rows]
             if values and isinstance(values[0][0], Mapping):

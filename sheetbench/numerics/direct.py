@@ -3,7 +3,7 @@
 A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`). What
 has none by fronts, as may be far from definite, goes to rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's
 SuperLU without it: its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones are solved
-with the factors of their symmetric part where that is definite and close, else by L U of rslab or SciPy.
+with the factors of their symmetric part where that is definite and close, else by L U of SciPy.
 Solutions are refined, their residuals checked.
 """
 
@@ -146,11 +146,6 @@ class DirectSolver:
         self._analysis: Any = None
         self._transposed: np.ndarray | None = None
 
-    def forget(self) -> None:
-        """Drop the analysis: that of L U orders rows by the values of the matrix it was made of, and the last
-        digits of what later ones solve depend on it."""
-        self._analysis = None
-
     def factor(self, matrix: Matrix, more: Count = lambda: None) -> Factor:
         """Factors of a matrix (n, n) that has the pattern of the first one given; more: called once a further
         factorisation that these, or what is asked of them later, take.
@@ -187,15 +182,14 @@ class DirectSolver:
         # the rows of a symmetric matrix are its columns
         columns = sp.csc_array(matrix.T if self.symmetric and matrix.format == "csr" else matrix)
         try:
-            if self._analysis is None and rslab is not None:
-                self._analysis = rslab.analyze(columns, path="ldlt" if self.symmetric else "lu")
-            if self._analysis is not None:
-                factors = self._analysis.factor(columns)
-                _, negative, zero = factors.inertia if self.symmetric else (0, None, 0)
-                return Factor(matrix, factors.solve, negative, zero, more=more)
-            if self.symmetric:
+            if not self.symmetric:
+                return Factor(matrix, splu(columns).solve, more=more)
+            if rslab is None:
                 return _superlu(matrix, columns)
-            return Factor(matrix, splu(columns).solve, more=more)
+            self._analysis = self._analysis or rslab.analyze(columns, path="ldlt")
+            factors = self._analysis.factor(columns)
+            _, negative, zero = factors.inertia
+            return Factor(matrix, factors.solve, negative, zero, more=more)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
 

@@ -133,10 +133,6 @@ class ReducedSystem:
             return None
         return Saddle(self._reduction.rows, self._reduction.columns(), self._multipliers)
 
-    def forget(self) -> None:
-        """Drop what later factors take over from the first, as `DirectSolver.forget`."""
-        self._solver.forget()
-
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
         """The reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
         return self._reduction.matrix(blocks)

@@ -120,14 +120,8 @@ def default_probes(sheet: Sheet, supported: Sequence[str], held: Sequence[str]) 
     def distance(corner: PlanPoint) -> float:
         return sum(abs(corner[EDGES[edge].normal_axis] - sheet.edge_at(edge)) for edge in supported)
 
-    def free(point: PlanPoint) -> PlanPoint:
-        inside = list(point)
-        for edge in held:
-            axis, at = EDGES[edge].normal_axis, sheet.edge_at(edge)
-            if point[axis] == at:
-                inside[axis] = 0.25 * sheet.lengths[axis] + 0.5 * at
-        return inside[0], inside[1]
-
     far = max([(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)], key=distance)  # of ties the first
     points = {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
-    return {name: free(point) for name, point in points.items()}
+    ends = [(EDGES[edge].normal_axis, sheet.edge_at(edge)) for edge in held]
+    moved = {(axis, at): 0.25 * sheet.lengths[axis] + 0.5 * at for axis, at in ends}
+    return {k: (moved.get((0, x), x), moved.get((1, y), y)) for k, (x, y) in points.items()}

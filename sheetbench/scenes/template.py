@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import Any
 
-from sheetbench.scenes.language.schema import branches, json_schema, kind
+from sheetbench.scenes.language.schema import branches, for_editors, kind
 from sheetbench.scenes.language.toml import keys, line
 from sheetbench.scenes.objects.material import Material
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
@@ -81,7 +81,7 @@ def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
 
 def _block(heading: str, table: Mapping[str, Any], about: bool = True) -> str:
     """A table of the file: what it is, its heading, and every key below what it is."""
-    schema = json_schema(Scene)
+    schema = for_editors(Scene)
     top = heading.strip("[]")
     node = schema["properties"][top] if top else schema
     of_kind = next(
@@ -90,11 +90,7 @@ def _block(heading: str, table: Mapping[str, Any], about: bool = True) -> str:
     lines = [*(_comment(node["description"]) if about else ()), heading] if top else []
     for key, value in table.items():
         if sentence := of_kind.get("properties", {}).get(key):
-            lines += _comment(
-                f"[{sentence['unit']}] {sentence['description']}"
-                if "unit" in sentence
-                else sentence["description"]
-            )
+            lines += _comment(sentence["description"])
         lines.append(line(key, value))
     return "\n".join([*lines, ""])
 

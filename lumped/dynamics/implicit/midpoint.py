@@ -16,7 +16,7 @@ import numpy as np
 from lumped.dynamics.implicit.newton import Newton
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
-from lumped.dynamics.work import kinetic_of_placed, natural_work, obstacle_work
+from lumped.dynamics.work import imposed_work, obstacle_work
 from sheetbench.numerics.time.method import Advance
 
 STEP_TOLERANCE = 1e-13  # last correction relative to the sheet's side
@@ -87,20 +87,11 @@ class Midpoint(Integrator):
         self, before: State, after: State, exerted: np.ndarray, mean: np.ndarray, moved: np.ndarray
     ) -> float:
         """Work of moving supports, commands and loads without a potential as the step itself has it."""
-        system, done = self.system, 0.0
+        system, middle = self.system, 0.5 * (before.time + after.time)
+        done = imposed_work(system, before, after)
         if system.prescribed.moving:
             done += float(np.sum(exerted * moved))
-            done += kinetic_of_placed(system, after) - kinetic_of_placed(system, before)
-        middle = 0.5 * (before.time + after.time)
         if system.working:
             working = system.external(mean, middle) - system.problem.loads.dead
             done += float(np.sum(working * (after.u - before.u)))
-        if system.pushed:
-            done += obstacle_work(system, before, after.u, middle)
-        done += natural_work(system, before.u, before.time, middle)
-        done += natural_work(system, after.u, middle, after.time)
-        if system.coupling is not None:
-            then, between, now = (system.drive(t) for t in (before.time, middle, after.time))
-            done += system.coupling.command_work(before.u, then, between)
-            done += system.coupling.command_work(after.u, between, now)
-        return done
+        return done + (obstacle_work(system, before, after.u, middle) if system.pushed else 0.0)

@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lumped.dynamics.implicit import compiled_newton
-from lumped.dynamics.implicit.compiled_newton import CONVERGED, NewtonLimits, compiled_of, excess, iterate
+from lumped.dynamics.implicit.compiled_newton import NewtonLimits, compiled_of, excess, iterate
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import State, System
 from sheetbench.numerics import banded
@@ -58,9 +57,8 @@ class Newton:
         self.made = 0  # corrections of the last step's stages
 
     def forget(self) -> None:
-        """Drop the factors, and what those made anew would take over from them."""
+        """Drop the factors."""
         self._factor = self._factored = None
-        self._system.problem.system.forget()
 
     def solve(
         self,
@@ -146,15 +144,12 @@ class Newton:
         if compiled is None or not self.near(step.mass_coefficient):
             return False
         while True:
-            status, first, left, made = solve_stages(
+            solved, first, left, made = solve_stages(
                 first, left, step, stages, limits, compiled.arrays, self._factors
             )
             self.made += made
-            if status == CONVERGED:
+            if self._solved(solved, left):
                 return True
-            self._factored = None
-            if status != compiled_newton.STALE or left == 0:
-                raise StepFailed(UNSOLVED)
             by = step.mass_coefficient, step.damping_coefficient
             base = compiled.base_u, compiled.base_v
             equation = StepEquation(self._system, float(stages.time[first]), *base, *by)
@@ -202,10 +197,16 @@ class Newton:
         by = equation.mass_coefficient, equation.damping_coefficient
         given = by, self._system.loads([equation.time])[0], self._limits(small), compiled.arrays
         while self.near(by[0]) or self._factorise(equation, u):
-            status, left = iterate(left, u, *base, *given, self._factors)
-            if status == CONVERGED:
+            solved, left = iterate(left, u, *base, *given, self._factors)
+            if self._solved(solved, left):
                 return u
-            self._factored = None
-            if status != compiled_newton.STALE or left == 0:
-                raise StepFailed(UNSOLVED)
         return None
+
+    def _solved(self, solved: bool, left: int) -> bool:
+        """Whether the compiled iteration is done; if it is not, its factors do not serve. Raises StepFailed
+        where no corrections are left."""
+        if not solved:
+            self._factored = None
+            if left == 0:
+                raise StepFailed(UNSOLVED)
+        return solved

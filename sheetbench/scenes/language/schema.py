@@ -41,6 +41,7 @@ def json_schema(model: type[BaseModel]) -> dict[str, Any]:
     return schema
 
 
+@cache
 def for_editors(model: type[BaseModel]) -> dict[str, Any]:
     """The schema as a document of its own, with the units in the sentences, which editors show."""
     schema = deepcopy(json_schema(model))

@@ -39,13 +39,11 @@ def line(key: str, value: Any) -> str:
 def _headed(value: Any) -> Any:
     if isinstance(value, dict):
         table: Table = tomlkit.table()
-        for key, entry in value.items():
-            table[key] = _within_a_line(entry)
+        table.update({key: _within_a_line(entry) for key, entry in value.items()})
         return table
     if isinstance(value, list):
         tables: AoT = tomlkit.aot()
-        for entry in value:
-            tables.append(_headed(entry))
+        tables.extend(_headed(entry) for entry in value)
         return tables
     return value
 

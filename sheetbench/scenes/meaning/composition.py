@@ -24,7 +24,7 @@ from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.shapes import COINCIDENT, straight_sides
 
 if TYPE_CHECKING:
-    from shapely import Polygon
+    pass
 
 FINE = 33  # lines between which a taper is taken for its mean
 LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
@@ -80,22 +80,28 @@ def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
 def parts_between(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
     """Yield the parts of the sheet that have a share in the cells between lines at x and at y [m], as if it
     had no outline. The shares of a cell sum up to 1; the thickness of a taper is that in its middle."""
-    boxes = boxes_of(x, y)
     middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
     plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
-    left_over = np.ones(boxes.shape)
+    left_over = np.ones((len(y) - 1, len(x) - 1))
     for area, own in _disjoint(scene.patches):
-        share = shares_in(area, boxes)
+        share = shares_of(area, x, y)
         left_over -= share
-        constants = plain.arrays(boxes.shape)
+        constants = plain.arrays(left_over.shape)
         _put(constants, own)
         yield Part(share, constants)
-    yield Part(_without_rounding(left_over), plain.arrays(boxes.shape))
+    yield Part(_without_rounding(left_over), plain.arrays(left_over.shape))
 
 
-def shares_of(area: Polygon, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def shares_of(area: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """What share an area takes of every cell between lines at x and at y [m], (rows, columns)."""
-    return shares_in(area, boxes_of(x, y))
+    import shapely
+
+    shapely.prepare(area)
+    boxes = boxes_of(x, y)
+    touched = shapely.intersects(area, boxes)
+    share = np.zeros(boxes.shape)
+    share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(boxes[touched])
+    return _without_rounding(share)
 
 
 def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -105,17 +111,6 @@ def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
     high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
     return np.asarray(shapely.box(left, low, right, high))
-
-
-def shares_in(area: Any, boxes: np.ndarray) -> np.ndarray:
-    """What share of each box (…) an area takes."""
-    import shapely
-
-    shapely.prepare(area)
-    touched = shapely.intersects(area, boxes)
-    share = np.zeros(boxes.shape)
-    share[touched] = shapely.area(shapely.intersection(area, boxes[touched])) / shapely.area(boxes[touched])
-    return _without_rounding(share)
 
 
 def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
@@ -128,13 +123,11 @@ def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float
         new = patch.shape.area
         touched = shapely.intersects(new, np.array([area for area, _ in pieces], dtype=object))
         met = [piece for piece, touches in zip(pieces, touched, strict=True) if touches]
-        both = [(area.intersection(new), {**own, **patch.own}) for area, own in met]
-        rest = [
-            (area.difference(new) if touches else area, own)
-            for (area, own), touches in zip(pieces, touched, strict=True)
-        ]
-        alone = new.difference(shapely.union_all([area for area, _ in met]))
-        pieces = [(area, own) for area, own in [*both, *rest, (alone, patch.own)] if area.area > 0.0]
+        pieces = [piece for piece, touches in zip(pieces, touched, strict=True) if not touches]
+        found = [(area.intersection(new), {**own, **patch.own}) for area, own in met]
+        found += [(area.difference(new), own) for area, own in met]
+        found.append((new.difference(shapely.union_all([area for area, _ in met])), patch.own))
+        pieces += [(area, own) for area, own in found if area.area > 0.0]
     yield from pieces
 
 

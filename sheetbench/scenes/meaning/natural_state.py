@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
-from sheetbench.scenes.meaning.composition import boxes_of, of_sheet, shares_in
+from sheetbench.scenes.meaning.composition import of_sheet, shares_of
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.layers import moments, plane_stress, resultants
 from sheetbench.scenes.objects.natural import Natural, Temperature
@@ -93,7 +93,7 @@ def natural_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> Natura
     """Return the state of the cells between lines at x and at y [m], (rows, columns): a cell that several
     parts share has their mean; None of a sheet that is flat at rest."""
     sources, shape = list(sources_of(scene)), (len(y) - 1, len(x) - 1)
-    return NaturalState(sources, shape, lambda area: shares_in(area, boxes_of(x, y))) if sources else None
+    return NaturalState(sources, shape, lambda area: shares_of(area, x, y)) if sources else None
 
 
 def sources_of(scene: SceneFields) -> Iterator[Source]:

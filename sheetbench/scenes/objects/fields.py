@@ -1,5 +1,6 @@
 """The fields of a scene: tables and lists of them, their names in a file, and what they say of the sheet."""
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -21,7 +22,7 @@ from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.springs import DamperSet, SpringSet
-from sheetbench.scenes.objects.supports import Point, Support, lets_twist_go, place
+from sheetbench.scenes.objects.supports import Point, Support, holds_tilt, place
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -30,10 +31,16 @@ LISTS = {  # by their keys in Python: those in a file, where each entry is a tab
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
     "masses": "mass", "obstacles": "obstacle", "actuators": "actuator",
 }  # fmt: skip
-SHAPED = (
-    "sheet.outline", "sheet.mesh", "cutout", "support.where", "load.where", 'load.kind = "area"',
-    "mass.where", 'support.kind = "point"',
-)  # fmt: skip
+SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by the words for what it is that a scene has
+    "sheet.outline": lambda scene: scene.sheet.outline,
+    "sheet.mesh": lambda scene: scene.sheet.mesh,
+    "cutout": lambda scene: scene.cutouts,
+    "support.where": lambda scene: any(place(s) for s in scene.supports if not isinstance(s, Point)),
+    "load.where": lambda scene: any(getattr(load, "where", None) for load in scene.loads),
+    'load.kind = "area"': lambda scene: any(isinstance(load, AreaLoad) for load in scene.loads),
+    "mass.where": lambda scene: any(payload.where for payload in scene.masses),
+    'support.kind = "point"': lambda scene: any(isinstance(one, Point) for one in scene.supports),
+}
 
 
 class SceneFields(Frozen, defer_build=True):
@@ -129,11 +136,10 @@ class SceneFields(Frozen, defer_build=True):
     @property
     def varied_by(self) -> str:
         """The words by which it is not, "" where it is."""
-        fibres = [FIBRES] if self.material.kind == "orthotropic" else []
-        tapers = [f"sheet.{name}" for name in ("taper_x", "taper_y") if getattr(self.sheet, name) is not None]
-        own = any(patch.own for patch in self.patches)
-        drawn = [name for name, given in (("layer", self.layers), ("patch", own)) if given]
-        return ", ".join([*fibres, *tapers, *drawn])
+        own: dict[str, object] = {FIBRES: self.material.kind == "orthotropic"}
+        own |= {f"sheet.{name}": getattr(self.sheet, name) for name in ("taper_x", "taper_y")}
+        own |= {"layer": self.layers, "patch": any(patch.own for patch in self.patches)}
+        return ", ".join(word for word, given in own.items() if given)
 
     @property
     def natural_states(self) -> dict[str, Natural | Temperature]:
@@ -160,17 +166,7 @@ class SceneFields(Frozen, defer_build=True):
     @property
     def shaped_by(self) -> str:
         """The words by which it is no whole rectangle held and loaded at edges, at points or all over."""
-        given = (
-            self.sheet.outline is not None,
-            self.sheet.mesh is not None,
-            bool(self.cutouts),
-            any(place(one) is not None and not isinstance(one, Point) for one in self.supports),
-            any(getattr(load, "where", None) is not None for load in self.loads),
-            any(isinstance(load, AreaLoad) for load in self.loads),
-            any(payload.where is not None for payload in self.masses),
-            any(isinstance(support, Point) for support in self.supports),
-        )
-        return ", ".join(word for word, drawn in zip(SHAPED, given, strict=True) if drawn)
+        return ", ".join(word for word, has in SHAPED.items() if has(self))
 
     @property
     def drawn_by(self) -> str:
@@ -180,7 +176,7 @@ class SceneFields(Frozen, defer_build=True):
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""
         bound = {actuator.edge for actuator in self.actuators}
-        return frozenset(e for e in EDGES if e not in bound and lets_twist_go(e, self.supports))
+        return frozenset(EDGES) - bound - {support.edge for support in self.supports if holds_tilt(support)}
 
     def probe_points(self) -> np.ndarray:
         """Plan points of the probes, (n, 2) [m], in the order of `probes`."""

@@ -5,10 +5,11 @@ sheet touches where φ = h/2. A plane that the flat sheet lies on is at z = −h
 """
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from pydantic import AfterValidator, Field
+from pydantic import Field
 
 from sheetbench.scenes.objects.quantities import Frozen, Length, NonNegative, Unit, Vector3
 from sheetbench.scenes.objects.supports import Motion
@@ -16,15 +17,6 @@ from sheetbench.scenes.objects.supports import Motion
 SLIP_SPEED = 1e-3  # m/s, v₀ of the friction −μ p v/√(v² + v₀²)
 CREEPS = f"friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
 TOUCH = 1e-9  # δ₀, of the thickness: how far off a sheet touches, or an obstacle would not hold one that lies
-
-
-def _turned_somewhere(vector: Vector3) -> Vector3:
-    if not any(vector):
-        raise ValueError("needs a direction, not [0, 0, 0]")
-    return vector
-
-
-Direction = Annotated[Vector3, AfterValidator(_turned_somewhere)]
 
 
 class _Obstacle(Frozen):
@@ -37,6 +29,10 @@ class _Obstacle(Frozen):
     contact_damping: Annotated[NonNegative, Unit("s/m")] = Field(default=0.0, kw_only=True)
     """τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
     obstacle at a speed v ≪ 1/τ leaves it at about (1 − 2 τ v/3) v."""
+
+    def _faults(self) -> Iterator[object]:
+        for key, vector in self:
+            yield key in ("normal", "axis") and not any(vector) and f"{key}: needs a direction, not [0, 0, 0]"
 
     @property
     def direction(self) -> np.ndarray:
@@ -58,7 +54,7 @@ class Plane(_Obstacle):
     """A half space below a plane."""
 
     kind: Literal["plane"] = Field(default="plane", kw_only=True)
-    normal: Direction = (0.0, 0.0, 1.0)
+    normal: Vector3 = (0.0, 0.0, 1.0)
     """Out of the obstacle, towards the sheet, of any length."""
 
     radius: ClassVar[float] = math.inf
@@ -76,7 +72,7 @@ class Cylinder(_Obstacle):
     """A round bar without ends."""
 
     kind: Literal["cylinder"] = Field(default="cylinder", kw_only=True)
-    axis: Direction
+    axis: Vector3
     """Along the bar, of any length."""
     radius: Length
     """Of the bar."""

@@ -176,8 +176,3 @@ def holds_director(support: AnySupport) -> bool:
 def holds_tilt(support: AnySupport) -> bool:
     """Whether the director may not tilt in the axes held: all layers are held there, not just their mean."""
     return isinstance(support, Clamped | Curved | Symmetric)
-
-
-def lets_twist_go(edge: str, supports: tuple[AnySupport, ...]) -> bool:
-    """Whether no support holds the director along an edge, so that a twisting moment fades towards it."""
-    return not any(support.edge == edge and holds_tilt(support) for support in supports)

@@ -85,7 +85,7 @@ def test_columns_are_those_of_the_fields():
 def test_fields_are_chosen_left_out_and_properties_may_be_columns():
     chosen = Table.of(Row, ROWS, "", fields=("twice", "model"))
     assert [c.name for c in chosen.columns] == ["twice", "model"] and chosen.rows[0] == (6, "a")
-    left = Table.of(Row, ROWS, "", without=("moved", "grid"), details=("error",))
+    left = Table.of(Row, ROWS, "", fields=("model", "error", "front"), details=("error",))
     assert [(c.name, c.detail) for c in left.columns][1:3] == [("off by", True), ("front", False)]
     names = ["model", "grid", "moved", "off by", "front", "steps"]
     assert [c.name for c in Table.of(Row, [], "").columns] == names

@@ -8,7 +8,6 @@ from scipy.sparse.linalg import splu
 
 import lumped
 from lumped.statics import energy_descent
-from sheetbench.numerics import direct
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.direct import DirectSolver, Factor, NearFactor
 from sheetbench.numerics.fronts import CoupledCells, fronts_of
@@ -26,13 +25,8 @@ def indefinite():
 
 
 @pytest.mark.parametrize("known", [True, False], ids=["by fronts", "without"])
-@pytest.mark.parametrize("library", ["rslab", "superlu"])
-def test_a_symmetric_part_that_has_no_factors_is_not_taken_for_stability(
-    monkeypatch, indefinite, library, known
-):
+def test_a_symmetric_part_that_has_no_factors_is_not_taken_for_stability(indefinite, known):
     """Neither where it has none, nor where nothing is known of it."""
-    if library == "superlu":
-        monkeypatch.setattr(direct, "rslab", None)
     for matrix, expected in ((indefinite, 1), (sp.csc_array(indefinite + 2.0 * sp.eye_array(60)), 0)):
         matrix.sort_indices()
         fronts = fronts_of(
@@ -89,11 +83,8 @@ def test_an_admissible_displacement_is_its_own_nearest(layers):
     np.testing.assert_allclose(miss, 0.0, atol=1e-13)
 
 
-@pytest.mark.parametrize("library", ["rslab", "superlu"])
-def test_a_negative_eigenvalue_behind_the_nearest_ones_is_not_taken_for_stability(monkeypatch, library):
+def test_a_negative_eigenvalue_behind_the_nearest_ones_is_not_taken_for_stability():
     """Twenty soft eigenvalues before one of −1000; unsymmetric."""
-    if library == "superlu":
-        monkeypatch.setattr(direct, "rslab", None)
     values = np.concatenate([1e-3 * np.arange(1.0, 21.0), np.arange(1.0, 40.0), [-1000.0]])
     matrix, made = sp.csc_array(np.diag(values) + np.diag(np.full(59, 1e-4), 1)), []
     factor = DirectSolver(symmetric=False).factor(matrix, lambda: made.append(1))

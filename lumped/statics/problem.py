@@ -117,6 +117,7 @@ class Problem(Structure[LatticeState, Residual]):
         self._unknowns = typed(Unknowns(constraints.held, self._free, band))
         self._moves = bool(self.prescribed(1.0).any())
         self._iterates = self.descends and self.system.unknowns > ITERATED
+        self.factor = self.system.factor
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Tᵀ f, the force on the free unknowns."""
@@ -323,9 +324,6 @@ class Problem(Structure[LatticeState, Residual]):
 
     def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
         return state._replace(residual=None), 0.0
-
-    def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
-        return self.system.factor(blocks, more)
 
     def iterated(self, blocks: np.ndarray, near: Factor, rows: np.ndarray) -> np.ndarray | None:
         return iterated(self.system.matrix(blocks), near, rows) if self._iterates else None

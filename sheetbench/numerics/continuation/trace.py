@@ -103,8 +103,9 @@ def _traced(
             if reached is None:  # what is left of the path's own serves for snaps
                 path.limit = max(path.limit, path.limits.factorisations)
     while isinstance(ended, LoadStepFailed):
-        tried = ""
-        if settle is not None and path.structure.symmetric and _at_limit_point(path, ended):
+        tried, allowed = "", path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
+        stuck = ended.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
+        if settle is not None and path.structure.symmetric and stuck and allowed:
             left_at, doubt = path.load_factor, _doubt(path)
             try:
                 following = _snap(path, inspect, settle, careful)
@@ -218,12 +219,6 @@ def _refine(path: Path[State, Forces]) -> None:
             continue
         path.load_factor = target
         return
-
-
-def _at_limit_point(path: Path[State, Forces], failure: LoadStepFailed) -> bool:
-    """Whether a path that has ended may snap: it has left rest and has factorisations left."""
-    stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
-    return stuck and path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
 
 
 def _doubt(path: Path[State, Forces]) -> list[str]:

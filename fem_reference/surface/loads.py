@@ -61,10 +61,8 @@ class FollowerPressure:
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
         value, slope = AT_GAUSS
         along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
-        weighed, sides = (
-            GAUSS_WEIGHTS[:, None] * value,
-            (self.value * self.orientation)[:, None, None] * [-across, along],
-        )
+        weighed = GAUSS_WEIGHTS[:, None] * value
+        sides = (self.value * self.orientation)[:, None, None] * [-across, along]
         out = np.zeros((len(vectors), 18, 3, 18, 3))
         out[:, :9, :, :9] = np.einsum("gi,agj,aegb,bcd->eicjd", weighed, slope, sides, _CROSS, optimize=True)
         return out

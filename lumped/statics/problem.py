@@ -227,11 +227,11 @@ class Problem(Structure[LatticeState, Residual]):
     def imbalance_floor(self, state: LatticeState) -> float:
         assembly, largest = self.assembly, float(np.abs(state.u).max())
         # relative displacements are differences of u: their rounding, times the stiffness
-        if assembly.coupling is None:
-            links = assembly.rounding * largest * assembly.all_families.link_stiffness_norm
-            return links + sum(item.rounding() for item in self.items)
-        carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
-        return float(assembly.rounding * np.linalg.norm(carried))
+        carried = assembly.all_families.link_stiffness * largest
+        if assembly.coupling is not None:
+            carried = carried + assembly.coupling.carried()
+        of_items = sum(item.rounding() for item in self.items)
+        return float(assembly.rounding * np.linalg.norm(carried)) + of_items
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
         moved, lattice = self._moved(state, load_factor), self.assembly.lattice

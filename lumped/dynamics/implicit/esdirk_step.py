@@ -86,7 +86,7 @@ class EsdirkStep:
 
         def equation(i: int) -> StepEquation:
             base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
-            return StepEquation(inside[i], float(times[i]), *base, c1**2, c1)
+            return StepEquation(inside[i], float(times[i]), *base, (c1**2, c1))
 
         i = int(np.abs(theta - 0.5).argmin())
         middle = State(float(times[i]), u[i], v[i], a[i])

@@ -59,9 +59,8 @@ class Midpoint(Integrator):
             ends = state, u
             return system.matrix(mean(u), velocity(u), middle, 2.0 / h**2, 1.0 / h, 0.5, ends)
 
-        guess = state.u + moved
         free = state.v - motion.rate(state.time) + 0.5 * h * state.a
-        guess = guess + h * system.expand(system.contract(free))
+        guess = state.u + moved + h * system.accelerate(system.momentum(free))
         u = self._newton.solve(h, residual, blocks, guess)
         rate = velocity(u)
         v = 2.0 * rate - state.v
@@ -69,18 +68,12 @@ class Midpoint(Integrator):
             v = v + motion.rate(time) - motion.rate(state.time) - 2.0 * jump
         power, _ = system.damping_force(mean(u), rate, middle)
         after, relaxed = system.relaxed(state, State(time, u, v, (v - state.v) / h))
-        resisting = residual(u) if motion.moving else u
-        return Advance(after, h * power + relaxed, self._work(state, after, resisting, mean(u), moved))
-
-    def _work(
-        self, before: State, after: State, exerted: np.ndarray, mean: np.ndarray, moved: np.ndarray
-    ) -> float:
-        """Work of moving supports, commands and loads without a potential as the step itself has it."""
-        system, middle = self.system, 0.5 * (before.time + after.time)
-        done = imposed_work(system, before, after)
-        if system.prescribed.moving:
-            done += float(np.sum(exerted * moved))
+        work = imposed_work(system, state, after)
+        if motion.moving:
+            work += float(np.sum(residual(u) * moved))
         if system.working:
-            working = system.external(mean, middle) - system.problem.loads.dead
-            done += float(np.sum(working * (after.u - before.u)))
-        return done + (obstacle_work(system, before, after.u, middle) if system.pushed else 0.0)
+            working = system.external(mean(u), middle) - system.problem.loads.dead
+            work += float(np.sum(working * (u - state.u)))
+        if system.pushed:
+            work += obstacle_work(system, state, u, middle)
+        return Advance(after, h * power + relaxed, work)

@@ -6,8 +6,8 @@ K is the model's stiffness at rest and M its consistent mass, rotary inertia inc
 damping have no part in it, nor have actuators; a curved support and a tilted clamp count as upright clamps.
 About the deformed sheet, which the shell alone knows, K is the tangent of its equilibrium under the full
 load.
-Lanczos iterations (ARPACK) on (K − σM)⁻¹ with the shift σ < 0 below the spectrum, so that a free sheet's
-singular K needs no special care.
+Lanczos iterations (ARPACK) on (K − σM)⁻¹ with the shift σ = −E h²/12ρ a⁴, below the spectrum and of the order
+of the lowest ω², so that a free sheet's singular K needs no special care.
 
 As many lowest modes as supports leave rigid motions free, whose frequency is zero, are left out, and their
 number is reported.
@@ -31,10 +31,8 @@ from typing import Any
 import numpy as np
 
 from fem_reference.discrete.answer import equilibrium
-from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.items import Following
 from fem_reference.sheets import SHEETS, with_defaults
-from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
@@ -43,7 +41,7 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, require_static, scene_of
+from sheetbench.scenes import AnyScene, free_rigid_motions, require_static, scene_of
 
 REACH = 0.375  # of the grading
 
@@ -104,7 +102,12 @@ def modes(
     with one_blas_thread():
         sheet = SHEETS[model](scene, (along_x, along_y), **options, reach=REACH)
         if about == "deformed":
-            q, at, rigid = _equilibrium(sheet), 1.0, 0
+            if any(isinstance(item, Following) for item in sheet.items):
+                raise BadInput(
+                    "--about = deformed: pressure and edge moments follow the sheet: it has no modes then"
+                )
+            (q, status, notes), at, rigid = equilibrium(sheet), 1.0, 0
+            require_stable("shell", status, notes)
         else:
             q, at, rigid = np.zeros(sheet.size), 0.0, len(free_rigid_motions(scene))
         shape = sheet.shape(q, at)
@@ -114,7 +117,9 @@ def modes(
         ready = now()
         if not 1 <= count < sheet.unknowns - rigid:
             raise BadInput(f"count = {count}: 1 to {sheet.unknowns - rigid - 1} on this mesh")
-        values, vectors = lowest_modes(stiffness, mass, count + rigid, -(_slow(scene) ** 2), dense=0)
+        material, longer = scene.material, max(scene.sheet.lengths)
+        slow = scene.sheet.thickness / longer**2 * np.sqrt(material.young / (12.0 * material.density))
+        values, vectors = lowest_modes(stiffness, mass, count + rigid, -(slow**2), dense=0)
     return ReferenceModes(
         label=f"{model} {along_x} × {along_y}",
         settings={"elements": [along_x, along_y], **options},
@@ -125,20 +130,3 @@ def modes(
         solve_seconds=now() - ready,
         sample=sheet.sample,
     )
-
-
-def _slow(scene: Scene) -> float:
-    """An angular frequency [rad/s] of the order of the sheet's lowest: √(E h²/12ρ)/a², a the longer side."""
-    material, sheet = scene.material, scene.sheet
-    return np.sqrt(material.young / (12.0 * material.density)) * sheet.thickness / max(sheet.lengths) ** 2
-
-
-def _equilibrium(sheet: DiscreteElements) -> np.ndarray:
-    """q (N,) of a shell under the full load. Raises BadInput for loads that follow the sheet, NoEquilibrium
-    where there is no stable equilibrium."""
-    assert isinstance(sheet, DiscreteShell)
-    if any(isinstance(item, Following) for item in sheet.items):
-        raise BadInput("--about = deformed: pressure and edge moments follow the sheet: it has no modes then")
-    q, status, notes = equilibrium(sheet)
-    require_stable("shell", status, notes)
-    return q

@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from copy import copy
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -18,14 +18,13 @@ from scipy.sparse import csr_matrix
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
-from fem_reference.shell.element import Element, weighed
+from fem_reference.shell.element import weighed
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.numerics.sparsity import Pattern, add_blocks
 
 if TYPE_CHECKING:
-    from fem_reference.solid.element import Bricks
     from fem_reference.surface.rod import BoundRods
 
 
@@ -34,7 +33,7 @@ class DiscreteElements(Discrete):
     per_vector: 1 of an element's positions (a,), of its directors 1 over the lever. creep: drag σ and strains
     e_n (m, k) of a step of creep, which adds σ D (e − e_n) to the stresses, of D at no strain."""
 
-    element: Element | Bricks
+    element: Any
     creeps: ClassVar[bool] = False
     creep: tuple[float, np.ndarray] | None = None
     pattern: Pattern
@@ -161,7 +160,7 @@ class DiscreteElements(Discrete):
 
     def moduli(self, shape: SheetShape, pressure: np.ndarray | None) -> np.ndarray:
         """D (m, k, k), of a law with a pressure of its own at that one."""
-        return shape.moduli
+        return shape.moduli if pressure is None else self.element.moduli(shape.strain, pressure)
 
     def pressure(self, shape: SheetShape, by: np.ndarray) -> np.ndarray | None:
         """Pressure, linear in a change of the strain (m, k), of a law that has one of its own."""
@@ -179,19 +178,9 @@ class DiscreteElements(Discrete):
         found = self.element.strain(change)
         return found if self.natural is None else found - self.natural.at(*self.instant(at))
 
-    def energies_by_part(self, shape: SheetShape) -> dict[str, float]:
-        """Strain energy [J] of the sheet by part."""
-        return self.element.energies(shape.strain)
-
     def elastic(self, shape: SheetShape) -> float:
         """Strain energy [J] of the sheet."""
-        return sum(self.energies_by_part(shape).values())
-
-    def stiffness_of(self, q: np.ndarray, step: np.ndarray, other: np.ndarray) -> float:
-        """Δeᵀ D Δe' [J] of the strains of a step (N,) from q and of another one."""
-        shape, element = self.shape(q, 0.0), self.element
-        change, other_change = (element.step(shape.operator, self.gather(of)) for of in (step, other))
-        return float(np.sum(change * weighed(shape.moduli, other_change)))
+        return sum(self.element.energies(shape.strain).values())
 
     def measured(self, force: np.ndarray, scale: np.ndarray | float = 1.0) -> float:
         """Norm [N] of forces, those on directors, whose scale is the lever, over that."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.shell.element import weighed
 
 
 @dataclass(frozen=True)
@@ -39,18 +40,20 @@ def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: f
     forces times changes, of dampers those that the step balances. late: the end's share in them."""
     h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
     rate = (1.0 - late) * start.v + late * end.v
-    damped = sheet.tau * sheet.stiffness_of(middle, step, rate) if sheet.tau else 0.0
+    shape = sheet.shape(middle, 0.5 * (start.time + end.time), step / h)
+    damped = 0.0
+    if sheet.tau:
+        change, by_rate = (sheet.element.step(shape.operator, sheet.gather(of)) for of in (step, rate))
+        damped = sheet.tau * float(np.sum(change * weighed(shape.moduli, by_rate)))
     damped += sheet.alpha * float(step @ (sheet.sheet_mass @ rate))
     damped += sheet.branches.dissipated(start.memory, end.memory) if sheet.branches.times else 0.0
-    exerted, half_way = 0.5 * (start.exerted + end.exerted), 0.5 * (start.time + end.time)
-    work = float(sheet.of_supports(exerted) @ step)
+    work = float(sheet.of_supports(0.5 * (start.exerted + end.exerted)) @ step)
     for body in sheet.bodies:
         damped += body.dissipated(middle, step, rate)
         for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
             work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
     for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.natural is not None else ():
         work += 0.5 * sign * sum(sheet.elastic(sheet.shape(q, time)) for q in (start.q, end.q))
-    shape = sheet.shape(middle, half_way, step / h)
     for item in sheet.items:
         taken, done = item.exchanged(shape)
         damped, work = damped + h * taken, work + h * done

@@ -167,34 +167,29 @@ class Rods:
 
     def _dampers(self) -> np.ndarray:
         """τ S of what bends freely, (k, s); chains on one edge by their stiffness."""
-        out = [np.zeros((0, self.elements.stiffness.shape[1]))]
-        for rod, stiffness in zip(self.bound.rods, self.bound.by_rod(self.elements.stiffness), strict=True):
+        stiffness, out = self.elements.stiffness, np.zeros_like(self.elements.stiffness)
+        for rod, on in zip(self.bound.rods, self.bound.by_rod(np.arange(len(out))), strict=True):
             chains = rod.chains.values()
             rigidity = np.array([chain.bending_stiffness for chain in chains])
             tau = np.array([chain.damping_time for chain in chains]) @ rigidity / rigidity.sum()
-            out.append(np.zeros_like(stiffness))
             for bent in BENT[rod.chain.plane]:
-                out[-1][:, bent] = tau * stiffness[:, bent]
-        return np.concatenate(out)
+                out[on, bent] = tau * stiffness[on, bent]
+        return out
 
     def _side_masses(self, scene: Scene, places: np.ndarray) -> np.ndarray:
         """Mass of the sides' vectors, (k, a, a)."""
-        a = self.elements.reference.shape[1]
-        out = [np.zeros((0, a, a))]
-        for rod in self.bound.rods:
+        k, a = self.elements.reference.shape[:2]
+        out, third = np.zeros((k, a, a)), np.arange(places[-1] + 1, a)
+        for rod, on in zip(self.bound.rods, self.bound.by_rod(np.arange(k)), strict=True):
             ends = rod.elements.reference[:, [0, 2]]
             half = 0.5 * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-            mass = np.zeros((len(rod.nodes), a, a))
             for chain in rod.chains.values():
                 height, rotary = chain.axis_height(scene.sheet.thickness), chain.radius**2 / 4.0
-                kinds = np.diag([1.0, height**2 + rotary, rotary])
-                kinds[0, 1] = kinds[1, 0] = height
+                kinds = np.array([[1.0, height, 0.0], [height, height**2 + rotary, 0.0], [0.0, 0.0, rotary]])
                 side = chain.line_density * half[:, None, None] * np.kron(kinds, SIDE_MASS)
-                mass[:, places[:, None], places] += side
-                third = np.arange(places[-1] + 1, a)
-                mass[:, third[:, None], third] += LIGHT * side[:, 6:, 6:][:, : len(third), : len(third)]
-            out.append(mass)
-        return np.concatenate(out)
+                out[np.ix_(on, places, places)] += side
+                out[np.ix_(on, third, third)] += LIGHT * side[:, 6 : 6 + len(third), 6 : 6 + len(third)]
+        return out
 
 
 def _by_axis(of_vectors: np.ndarray) -> np.ndarray:

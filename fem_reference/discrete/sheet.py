@@ -70,6 +70,7 @@ class Discrete(ABC):
 
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
+        self.label, self.settings = self.model, {}
         self.commanded, self._commands = commands_of(scene, moving)
         material = scene.material
         self.branches = material.branches if moving else Branches((), ())

@@ -99,15 +99,13 @@ class Static(Creeping[StaticState, Forces]):
         return Forces(shape, on_rods, residual, size, sheet.short(shape))
 
     def imbalance(self, state: StaticState, forces: Forces) -> float:
-        sheet = self.sheet
-        left = sheet.reduce(forces.shape, forces.residual / sheet.scale)
-        return float(np.linalg.norm(left, sheet.norm))
+        left = self.sheet.reduce(forces.shape, forces.residual / self.sheet.scale)
+        return float(np.linalg.norm(left, self.sheet.norm))
 
     def gap(self, state: StaticState, load_factor: float) -> float:
         """Largest distance from what is prescribed, relative to the sheet's size, or change of a director."""
-        sheet = self.sheet
-        step = sheet.short(self.shape(state, load_factor)) * sheet.scale
-        return float(np.abs(step).max() / sheet.lever)
+        step = self.sheet.short(self.shape(state, load_factor)) * self.sheet.scale
+        return float(np.abs(step).max() / self.sheet.lever)
 
     def linearised(
         self, state: StaticState, forces: Forces, load_factor: float, mixed: bool = True

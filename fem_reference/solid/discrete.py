@@ -173,9 +173,6 @@ class DiscreteSolid(DiscreteElements):
     def of_held_positions(self, force: np.ndarray) -> np.ndarray:
         return np.where(self.free.ravel(), 0.0, force[: self._cut])
 
-    def moduli(self, shape: SheetShape, pressure: np.ndarray | None) -> np.ndarray:
-        return shape.moduli if pressure is None else self.element.moduli(shape.strain, pressure)
-
     def pressure(self, shape: SheetShape, by: np.ndarray) -> np.ndarray | None:
         return None if self.element.law.quadratic else self.element.pressure(shape.strain, by)
 

@@ -101,10 +101,8 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
         raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
     line = hold_bases(supports.of_scene(scene, columns.plan), rods)
     kinds, edges = named(scene.supports), {}
-    none, by_mean = (
-        np.zeros(columns.positions.shape, dtype=bool),
-        np.zeros(len(columns.plan.nodes), dtype=bool),
-    )
+    none = np.zeros(columns.positions.shape, dtype=bool)
+    by_mean = np.zeros(len(none), dtype=bool)
     for name, (nodes, axes) in line.edges.items():
         edges[name] = held = none.copy()
         held[nodes[:, None], columns.layers, axes] = True

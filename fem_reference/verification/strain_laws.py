@@ -15,8 +15,10 @@ and P = 0 along t. The strip is loaded by P, and the stretch that it shows is he
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from itertools import product
 from math import log
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -33,45 +35,43 @@ from sheetbench.scenes import EdgeLoad, Held, Material, Scene, Sheet
 SHEET = Sheet(length_x=0.2, length_y=0.1, thickness=0.01)
 MATERIAL = Material(young=1e6, poisson=0.3, density=1000.0)
 STRAINS = (0.001, 0.01, 0.1)
-WAYS = {"one way": 1, "both ways": 2}
-MODELS = ("shell", "solid")
+WAYS = ("one way", "both ways")
+LAWS: dict[str, Mapping[str, Any]] = {"shell": SHELL_LAWS, "solid": SOLID_LAWS}
+MODELS = tuple(LAWS)
 TOLERANCE = 1e-6
 LARGE = (-0.3, 0.5, 1.0)
 TO_ROUNDING = 1e-9
-CONSTANTS: dict[str, dict[str, float]] = {
-    "neo-hookean": {"young": 1e6},
-    "mooney-rivlin": {"c1": 0.16e6, "c2": 0.04e6},
-    "yeoh": {"c1": 0.19e6, "c2": -2e3, "c3": 100.0},
-    "gent": {"shear": 0.35e6, "limit": 30.0},
-}
 RUBBERS = [
     Material.model_validate({"law": law, **constants, "poisson": 0.49, "density": 1000.0})
-    for law, constants in CONSTANTS.items()
+    for law, constants in {
+        "neo-hookean": {"young": 1e6},
+        "mooney-rivlin": {"c1": 0.16e6, "c2": 0.04e6},
+        "yeoh": {"c1": 0.19e6, "c2": -2e3, "c3": 100.0},
+        "gent": {"shear": 0.35e6, "limit": 30.0},
+    }.items()
 ]
 
 
 def rows() -> Iterator[Row]:
     """The stretch of each model under each law, at the force of the closed form."""
-    for model, laws in (("shell", SHELL_LAWS), ("solid", SOLID_LAWS)):
-        for law in (law for law in STRAIN_LAWS if law in laws):
-            for way in WAYS:
-                for strain in STRAINS:
-                    quantity = f"{law}, {way}: stretch at P/E = {stress(law, way, strain):.6f}"
-                    found = _stretch(model, law, way, strain)
-                    yield relatively(quantity, f"{model} 2", strain, EXACT, found, TOLERANCE)
+    known = [(model, law) for model in MODELS for law in STRAIN_LAWS if law in LAWS[model]]
+    for (model, law), way, strain in product(known, WAYS, STRAINS):
+        pull = stress(law, way, strain)
+        force = pull * MATERIAL.young * SHEET.thickness
+        scene = pulled((force, force if way == "both ways" else 0.0))
+        found = moved(scene, SHEET.lengths, model, 2, law=law)[0] / SHEET.length_x
+        quantity = f"{law}, {way}: stretch at P/E = {pull:.6f}"
+        yield relatively(quantity, f"{model} 2", strain, EXACT, found, TOLERANCE)
 
 
 def rubbers() -> Iterator[Row]:
     """The force that holds each model of each rubber, stretched one way, sheared and both ways to λ = 2."""
-    for material in RUBBERS:
+    for material, way, strain, model in product(RUBBERS, (*WAYS, "sheared"), LARGE, MODELS):
         law = str(material.law)
-        for way in (*WAYS, "sheared"):
-            for strain in LARGE:
-                expected = stress(law, way, strain, material)
-                for model in MODELS:
-                    quantity = f"{law}, {way}: P/E at a stretch of {100.0 * strain:g} %"
-                    found = _held(model, material, stretches(law, way, strain, material)) / material.young
-                    yield relatively(quantity, f"{model} 1", expected, EXACT, found, TO_ROUNDING)
+        quantity = f"{law}, {way}: P/E at a stretch of {100.0 * strain:g} %"
+        found = _held(model, material, stretches(law, way, strain, material)) / material.young
+        expected = stress(law, way, strain, material)
+        yield relatively(quantity, f"{model} 1", expected, EXACT, found, TO_ROUNDING)
 
 
 def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> float:
@@ -126,9 +126,3 @@ def _held(model: str, material: Material, stretches: list[float]) -> float:
     moved, turned = np.pad(nodes * by[:2], ((0, 0), (0, 1))), np.tile([0.0, 0.0, through], (len(nodes), 1))
     residual = Static(sheet).forces(StaticState(sheet.of_vectors(moved, turned)), 0.0).residual
     return -float(sheet.reactions(residual)["x0"][0]) / (SHEET.length_y * SHEET.thickness)
-
-
-def _stretch(model: str, law: str, way: str, strain: float) -> float:
-    pull = stress(law, way, strain) * MATERIAL.young * SHEET.thickness
-    scene = pulled((pull, pull if way == "both ways" else 0.0))
-    return float(moved(scene, SHEET.lengths, model, 2, law=law)[0]) / SHEET.length_x

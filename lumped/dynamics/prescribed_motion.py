@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -30,42 +31,36 @@ class PrescribedMotion:
     @property
     def components(self) -> np.ndarray:
         """Components (size, 3) bool that g(t) moves."""
-        driven = np.zeros(self._still.shape, dtype=bool)
-        for moved, axis, _ in self.by_supports:
-            driven[moved, axis] = True
+        driven = self._of_supports(lambda course: np.ones(3)) > 0.0
         if self._coupling is not None:
             driven[: self._coupling.masses][self._coupling.moved] = True
         return driven
+
+    def _of_supports(self, value: Callable[[PiecewiseCurve], np.ndarray]) -> np.ndarray:
+        """What a value (3,) of each support's course is for its masses, (size, 3), zero elsewhere."""
+        g = np.zeros_like(self._still)
+        for moved, axis, course in self.by_supports:
+            g[moved, axis] = value(course)[axis]
+        return g
 
     def _place(self, time: float) -> np.ndarray:
         """Return g(t), (size, 3) [m]; not to be written to."""
         if not self.moving:
             return self._still
-        g = self._still.copy()
-        for moved, axis, course in self.by_supports:
-            g[moved, axis] = self._still[moved, axis] + course.at(time)[axis]
-        if self._coupling is not None:
-            g += self._coupling.driven(Drive(1.0, time))
-        return g
+        g = self._still + self._of_supports(lambda course: course.at(time))
+        return g if self._coupling is None else g + self._coupling.driven(Drive(1.0, time))
 
     def _rate(self, time: float, before: bool = False) -> np.ndarray:
         """Return the velocity of g from this moment on, or until then, (size, 3) [m/s]; not to be written
         to."""
-        g = np.zeros_like(self._still)
-        if not self.moving:
+        g = self._of_supports(lambda course: course.slope(time, before))
+        if self._coupling is None or not self.moving:
             return g
-        for moved, axis, course in self.by_supports:
-            g[moved, axis] = course.slope(time, before)[axis]
-        if self._coupling is not None:
-            g += self._coupling.driven_velocity(time)
-        return g
+        return g + self._coupling.driven_velocity(time)
 
     def support_acceleration(self, time: float) -> np.ndarray:
         """Return the acceleration from this moment on of what supports move, (size, 3) [m/s²]."""
-        g = np.zeros_like(self._still)
-        for moved, axis, course in self.by_supports:
-            g[moved, axis] = course.bend(time)[axis]
-        return g
+        return self._of_supports(lambda course: course.bend(time))
 
     def jumps(self, time: float) -> bool:
         """Return whether g changes its velocity at once."""

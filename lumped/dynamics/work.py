@@ -13,23 +13,30 @@ NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
 def work(system: System, before: State, after: State) -> float:
     """Return the work [J] of moving supports, commands, obstacles, natural states and loads without a
     potential in a step, by the trapezoidal rule."""
-    done, motion, coupling = 0.0, system.prescribed, system.coupling
-    then, now = system.drive(before.time), system.drive(after.time)
+    done, motion = imposed_work(system, before, after), system.prescribed
     if motion.moving:
         moved = motion.place(after.time) - motion.place(before.time)
         done += 0.5 * float(np.sum((system.exerted(before) + system.exerted(after)) * moved))
-        done += kinetic_of_placed(system, after) - kinetic_of_placed(system, before)
     if system.working:
         mean = 0.5 * (system.external(before.u, before.time) + system.external(after.u, after.time))
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
+    then, now = system.drive(before.time), system.drive(after.time)
     for item in system.items if system.pushed else ():
         exerted = item.exerted((before.u, then), before.v) + item.exerted((after.u, now), after.v)
         done += 0.5 * exerted.sum(axis=0) @ (item.place(*now) - item.place(*then))
-    if coupling is not None:
-        for u in (before.u, after.u):
-            done += 0.5 * coupling.command_work(u, then, now)
-    for u in (before.u, after.u):
-        done += 0.5 * natural_work(system, u, before.time, after.time)
+    return done
+
+
+def imposed_work(system: System, before: State, after: State) -> float:
+    """Return the work [J] of commands and natural states in a step, at its start until its middle and at its
+    end from there on, and what the masses gain that move as prescribed."""
+    middle, done = 0.5 * (before.time + after.time), 0.0
+    for u, then, now in ((before.u, before.time, middle), (after.u, middle, after.time)):
+        done += natural_work(system, u, then, now)
+        if system.coupling is not None:
+            done += system.coupling.command_work(u, system.drive(then), system.drive(now))
+    if system.prescribed.moving:
+        done += kinetic_of_placed(system, after) - kinetic_of_placed(system, before)
     return done
 
 

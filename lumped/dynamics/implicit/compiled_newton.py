@@ -18,8 +18,6 @@ from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, csr_arrays
 from sheetbench.numerics.typed import njit, typed
 
-CONVERGED, STALE, LOST = range(3)
-
 
 class Arrays(NamedTuple):
     """The equations of motion: forces, M, T with its columns in the band's order, how many they are, and the
@@ -82,21 +80,21 @@ def iterate(
     limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
-) -> tuple[int, int]:
+) -> tuple[bool, int]:
     """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has corrections
-    `left`: how that ended, and what corrections it has left then."""
+    `left`: whether that is done, and what corrections are left then, with other factors; 0 if it is lost."""
     last = np.inf
     while left > 0:
         length = correct(u, base_u, base_v, by, external, arrays, factors)
         left -= 1
         if length < limits.tolerance:
-            return CONVERGED, left
+            return True, left
         if not length <= limits.largest:
-            return LOST, left
+            break
         if length > limits.stale * last:
-            return STALE, left
+            return False, left
         last = length
-    return STALE, 0
+    return False, 0
 
 
 @njit(cache=True)
@@ -141,18 +139,15 @@ def correct(
 @njit(cache=True)
 def excess(
     u: np.ndarray,
-    v: np.ndarray,
-    a: np.ndarray,
+    base_u: np.ndarray,
+    base_v: np.ndarray,
     by: tuple[float, float],
     external: np.ndarray,
     arrays: Arrays,
     factors: np.ndarray,
 ) -> float:
-    """Return half the work [J] of what a state (n, 3) leaves of the equation along the correction of that."""
-    corrected, base_u, base_v, work = u.copy(), arrays.base_u, arrays.base_v, 0.0
-    for i in range(len(u)):
-        for q in range(3):
-            base_u[i, q], base_v[i, q] = u[i, q] - a[i, q] / by[0], v[i, q] - a[i, q] / by[1]
+    """Return half the work [J] of what u (n, 3) leaves of the equation along the correction of that."""
+    corrected, work = u.copy(), 0.0
     correct(corrected, base_u, base_v, by, external, arrays, factors)
     for i in range(len(u)):
         for q in range(3):

@@ -15,7 +15,6 @@ import numpy as np
 
 from lumped.dynamics.damping import add_damping_again
 from lumped.dynamics.implicit.compiled_newton import (
-    CONVERGED,
     Arrays,
     NewtonLimits,
     iterate,
@@ -61,9 +60,9 @@ def solve_stages(
     limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
-) -> tuple[int, int, int, int]:
-    """Solve the stages from the `first` on; that one is begun if it has corrections `left`. How that ended,
-    the stage where it did, what corrections that one has left, and how many were made in all."""
+) -> tuple[bool, int, int, int]:
+    """Solve the stages from the `first` on; that one is begun if it has corrections `left`. Whether all
+    are solved, else the stage that is not and the corrections left as by `iterate`; how many were made."""
     made, by = 0, (step.mass_coefficient, step.damping_coefficient)
     bases_u, bases_v = arrays.base_u, arrays.base_v
     base_u, base_v = bases_u.reshape(-1), bases_v.reshape(-1)
@@ -75,12 +74,12 @@ def solve_stages(
             _guess(i, step, stages, base_u, u)
         at = min(i, len(step.loads) - 1)
         given = left
-        status, left = iterate(
+        solved, left = iterate(
             given, stages.u[i], bases_u, bases_v, by, step.loads[at], limits, arrays, factors
         )
         made += given - left
-        if status != CONVERGED:
-            return status, i, left, made
+        if not solved:
+            return False, i, left, made
         for row in range(len(u)):
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.damping_coefficient * change
@@ -88,7 +87,7 @@ def solve_stages(
         forces = arrays.forces
         power = add_damping_again(forces, stages.u[i], stages.v[i], NUMBA_FALSE, arrays.force)
         stages.power[i, 0] = power
-    return CONVERGED, len(stages.u), 0, made
+    return True, len(stages.u), 0, made
 
 
 @njit(cache=True)

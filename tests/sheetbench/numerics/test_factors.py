@@ -214,5 +214,5 @@ def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_o
     problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
     path = solve_path(problem)
     assert path.status == "unstable" and path.factor.negative == 1
-    beside = _disturbed(path, problem, path.state, path.factor, share=0.1)
+    beside = _disturbed(problem, path.state, path.factor, share=0.1)
     assert problem.potential(beside, 1.0) < problem.potential(path.state.u, 1.0)

@@ -9,12 +9,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Material, Scene
+from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
-from sheetbench.scenes.objects.material import WORDS, Energy, limit_note
+from sheetbench.scenes.objects.material import WORDS, Energy
 
 
 def slopes(energy: Energy, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -44,10 +43,3 @@ def require_law(law: str, laws: Iterable[str], scene: Scene) -> None:
             f"law = '{law}': the material has no constants of it; give the scene [material] law = '{law}' "
             f"with {keys}, or take law = 'neo-hookean', which needs none"
         )
-
-
-def limit_notes(law: object, material: Material, status: Status) -> list[str]:
-    """Return a sentence on the law's limit where numbers have overflowed under a law that has one."""
-    if law != "gent" or status is not Status.NON_FINITE:
-        return []
-    return [limit_note(material)]

@@ -9,7 +9,7 @@ with it. Displacements and forces are (n, 3) [m], [N].
 
 from __future__ import annotations
 
-from functools import cached_property, partial
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -86,7 +86,8 @@ class Problem(Structure[LatticeState, Residual]):
     factors of blocks (b, 3, 3).
 
     size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`); symmetric: whether
-    all forces have a potential; descends: whether stable equilibria are minima of an energy of the free
+    all forces have a potential; driving: norm of the forces [N] of the natural state on the flat sheet, often
+    the only ones; descends: whether stable equilibria are minima of an energy of the free
     unknowns.
     """
 
@@ -102,7 +103,8 @@ class Problem(Structure[LatticeState, Residual]):
         self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
         self.contacts = [item for item in items if isinstance(item, Contact)]
         self.symmetric = self.conservative = assembly.conservative and loads.conservative
-        self.prestrained = assembly.natural is not None
+        self.prestrained, flat = assembly.natural is not None, np.zeros_like(loads.dead)
+        self.driving = float(np.linalg.norm(assembly.force(flat)[1])) if self.prestrained else 0.0
         coupling, transform = assembly.coupling, constraints.transform
         self.multipliers = 0 if coupling is None else coupling.multipliers
         self.descends = self.symmetric and self.multipliers == 0
@@ -128,13 +130,6 @@ class Problem(Structure[LatticeState, Residual]):
         """T q as a displacement."""
         full: np.ndarray = product(self._free, np.ascontiguousarray(unknowns))
         return full.reshape(-1, 3)
-
-    @cached_property
-    def driving(self) -> float:
-        """Norm of the forces [N] of the natural state on the flat sheet, often the only ones."""
-        if not self.prestrained:
-            return 0.0
-        return float(np.linalg.norm(self.assembly.force(np.zeros_like(self.loads.dead))[1]))
 
     def tangent(
         self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None, definite: bool = False

@@ -104,16 +104,18 @@ def _traced(
                 path.limit = max(path.limit, path.limits.factorisations)
     while isinstance(ended, LoadStepFailed):
         tried, allowed = "", path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
-        stuck = ended.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
-        if settle is not None and path.structure.symmetric and stuck and allowed:
-            left_at, doubt = path.load_factor, _doubt(path)
+        halted = ended.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
+        if settle is not None and path.structure.symmetric and halted and allowed:
+            left_at, (before, doubt) = path.load_factor, stability(path)
             try:
                 following = _snap(path, inspect, settle, careful)
             except LoadStepFailed as failure:
                 tried = f"; relaxed at a load factor {path.limits.snap_step:g} higher, {failure}"
             else:
                 path.snaps.append(left_at)
-                path.notes.extend(doubt)
+                begin = "" if before is Status.CONVERGED else "unstable "
+                snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {doubt}"
+                path.notes.extend([snapped] if doubt else [])
                 ended = following
                 continue
         ended = _give_up(path, ended, tried)
@@ -219,15 +221,6 @@ def _refine(path: Path[State, Forces]) -> None:
             continue
         path.load_factor = target
         return
-
-
-def _doubt(path: Path[State, Forces]) -> list[str]:
-    """A sentence where a path that is about to snap has not been stable until then."""
-    status, note = stability(path)
-    if not note:
-        return []
-    begin = "" if status is Status.CONVERGED else "unstable "
-    return [f"{begin}before it snapped at load factor {path.load_factor:.4g}: {note}"]
 
 
 def _snap(

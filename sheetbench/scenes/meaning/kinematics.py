@@ -126,13 +126,9 @@ class Shift(NamedTuple):
 
 def shifts(supports: tuple[AnySupport, ...]) -> list[Shift]:
     """The supports' displacements at the last sample of their motion, as statics take it."""
-    moves = []
-    for name, support in named(supports).items():
-        if support.motion is not None:
-            axes = held_axes(support)
-            last = np.array(support.motion.displacement[-1])[list(axes)]
-            moves.append(Shift(name, axes, last))
-    return moves
+    moving = [(name, s, s.motion) for name, s in named(supports).items() if s.motion is not None]
+    ends = [(name, held_axes(s), np.array(motion.displacement[-1])) for name, s, motion in moving]
+    return [Shift(name, axes, last[list(axes)]) for name, axes, last in ends]
 
 
 def _middle(rod: Curved | Clamped, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:

@@ -46,10 +46,8 @@ def rows() -> Iterator[Row]:
     """The largest force inside over the largest on the rim for every model and state."""
     meshes = {"distorted": distorted(), "along a line": following()}
     for (name, mesh), (kind, state, strained) in product(meshes.items(), STATES):
-        label, unbalanced = (
-            f"{kind.model} {mesh.nelements} elements, {name}",
-            _unbalanced(kind, mesh, strained),
-        )
+        unbalanced = _unbalanced(kind, mesh, strained)
+        label = f"{kind.model} {mesh.nelements} elements, {name}"
         yield absolutely(f"unbalanced, {state}", label, 0.0, EXACT, unbalanced, ROUNDING)
 
 

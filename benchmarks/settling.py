@@ -47,7 +47,7 @@ def equations() -> tuple[Any, Callable[..., np.ndarray], Callable[..., sp.csc_ar
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:
         u, v = system.expand(y[:n]), system.expand(y[n:])
-        return np.concatenate([y[n:], system.contract(system.accelerate(system.unbalanced(u, v, t)))])
+        return np.concatenate([y[n:], system.solve_mass(system.reduce(system.unbalanced(u, v, t)))])
 
     def jacobian(t: float, y: np.ndarray) -> sp.csc_array:
         u, v = system.expand(y[:n]), system.expand(y[n:])

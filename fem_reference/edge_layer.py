@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fem_reference.surface.borders import borders_of
-from fem_reference.surface.mesh import divisions, has_lines, lines_of
+from fem_reference.surface.borders import has_lines
+from fem_reference.surface.mesh import divisions, lines_of
 from sheetbench.scenes import EDGES, Scene
 
 LENGTH = 10.0**-0.5  # of the layer, in thicknesses
@@ -53,7 +53,7 @@ def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
     counts = divisions(scene.sheet, requested if isinstance(requested, int) else tuple(requested))
     even = settings.get("graded") is False or settings.get("grading") == "uniform"
     bricks = "grading" in settings
-    rows = not bricks or has_lines(borders_of(scene))
+    rows = not bricks or has_lines(scene)
     lines, thickness = lines_of(scene, counts, rows and not even), scene.sheet.thickness
     share, stiffening = 0.0, 0.0
     for name in sorted(scene.twisting_edges()):  # alike in every process

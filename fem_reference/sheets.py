@@ -11,9 +11,9 @@ import numpy as np
 from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.surface.borders import borders_of
+from fem_reference.surface.borders import borders_of, has_lines
 from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import Elements, has_lines, mesh_of
+from fem_reference.surface.mesh import Elements, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import NoEquilibrium, require_choice
 from sheetbench.numerics.continuation.stability import require_stable
@@ -89,7 +89,7 @@ def solid(
     from fem_reference.solid.discrete import DiscreteSolid
 
     require_choice("grading", grading, GRADINGS)
-    mesh = mesh_of(scene, elements, graded=grading == "edges" and has_lines(borders_of(scene)))
+    mesh = mesh_of(scene, elements, graded=grading == "edges" and has_lines(scene))
     made = DiscreteSolid(mesh, scene, layers, law, clamp, moving)
     layers = made.columns.layers
     return made.named(elements, f" × {layers}", grading=grading, layers=layers, law=law, clamp=clamp)

@@ -17,8 +17,8 @@ from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.validity import STRETCHED, stretched
-from fem_reference.surface.borders import borders_of
-from fem_reference.surface.mesh import Elements, divisions, has_lines
+from fem_reference.surface.borders import has_lines
+from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.solution import Solution
 from sheetbench.choices import BRANCHES
 from sheetbench.errors import require_choice
@@ -69,7 +69,7 @@ def _runs(
 ) -> list[Traced]:
     """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
     few = None if scene.obstacles else coarse_start.coarse(counts, scene)
-    rows = graded and has_lines(borders_of(scene))  # those along an outline are half of a coarse mesh
+    rows = graded and has_lines(scene)  # those along an outline are half of a coarse mesh
     on_coarse = {"progress": options["progress"], "limits": coarse_start.LIMITS}
     begun = [] if few is None else _runs(scene, few, rows, of_sheet, **on_coarse)
     near = None

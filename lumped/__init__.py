@@ -7,25 +7,23 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from lumped import moduli
-from lumped.assembly import Assembly
 from lumped.calibration import Calibration, given
 from lumped.calibration.cell_by_cell import with_shares
 from lumped.description import Description, describe
-from lumped.fitting.fits import FittedCalibration, ModalTarget, StaticTarget
+from lumped.fitting.fits import ModalTarget, StaticTarget
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.methods import CALIBRATIONS, calibrate
 from lumped.footprint import footprint
-from lumped.lattice import Lattice
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.sections import require_alike, sections_of
-from lumped.sensitivity import Sensitivity, sensitivity
+from lumped.sensitivity import sensitivity
 from lumped.statics.buckling import buckling
 from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
-    from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
+    from lumped.dynamics.explicit.step_limit import step_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
     from lumped.dynamics.runs.plan import explicit_limit, shortest_period
@@ -37,25 +35,20 @@ if TYPE_CHECKING:
 __all__ = [
     "CALIBRATIONS",
     "INTEGRATORS",
-    "Assembly",
     "Balanced",
     "Calibration",
     "Description",
-    "FittedCalibration",
     "Identifiability",
     "Inertia",
     "Integrator",
-    "Lattice",
     "Linear",
     "MidSurface",
     "ModalTarget",
     "Modes",
-    "Sensitivity",
     "State",
     "StateSpace",
     "StaticTarget",
     "StepFailed",
-    "StepLimit",
     "System",
     "buckling",
     "build_problem",
@@ -76,7 +69,6 @@ __all__ = [
     "simulate",
     "solve",
     "step_limit",
-    "turn_limit",
     "usual_masses",
     "with_shares",
 ]

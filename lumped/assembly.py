@@ -73,7 +73,7 @@ class Assembly:
 
     def _take(self, springs: AllFamilies) -> None:
         self.all_families = springs
-        self.force, self.tangent = springs.force, springs.tangent
+        self.force, self.tangent, self.average_force = springs.force, springs.tangent, springs.average_force
         self.springs, self.links = springs.families, springs.links
         self.conservative, self.any_strain = springs.conservative, springs.any_strain
 
@@ -93,13 +93,6 @@ class Assembly:
             raise BadInput(
                 "per-direction springs have no energy: descent and energy-based methods do not apply"
             )
-
-    def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
-        """Internal force (n, 3) [N] whose work from `start` to `end` is the elastic energy stored."""
-        force = np.zeros_like(start)
-        for family in self.springs:
-            family.add_average_force(start, end, force)
-        return force
 
     def survey(self, u: np.ndarray) -> Survey:
         """Return what the springs store at u, and how far they are strained."""

@@ -13,16 +13,19 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
-from lumped.check_states import CheckState, check_states
+from lumped.lattice import Lattice
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
 from lumped.springs.cell_laws import AREA_AND_STRAINS, ENERGIES
 from lumped.springs.families import Links, SpringCells
 from lumped.statics.problem import Problem
-from lumped.statics.solver import build_problem
+from lumped.statics.solver import build_problem, solve
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, require_no_branches
+from sheetbench.scenes import Scene, free_rigid_motions, require_no_branches
 from sheetbench.scenes.objects.supports import named
+
+STRETCH, WARP, TURN = 0.02, -0.05, 2.0  # of the imposed states: strain, height over length, rad in all
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,18 @@ class Couple:
 
 
 @dataclass(frozen=True)
+class CheckState:
+    """A state to check by: displacement (n, 3) [m], the energy [J] of springs and contact and its gradient
+    (n, 3) [N]."""
+
+    name: str
+    meaning: str
+    displacement: np.ndarray
+    force: np.ndarray
+    energy: float
+
+
+@dataclass(frozen=True)
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
@@ -122,7 +137,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     flat = np.zeros_like(loads.dead)
     columns, moments, pressures = loads.at_time(None)
     pressed = pressures != 0.0
-    states, why = check_states(scene, calibration, problem)
+    states, why = _check_states(scene, calibration, problem)
     none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
     points = zip(none, *(one.table() for one in problem.contacts), strict=True)
     touching, *contact = map(np.concatenate, points)
@@ -230,3 +245,46 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
     if any(state.history is not None for state in scene.natural_states.values()):
         changes.append("the natural state changes over time; here it has its last value")
     return tuple(changes)
+
+
+def _check_states(
+    scene: Scene, calibration: Calibration, problem: Problem
+) -> tuple[tuple[CheckState, ...], tuple[str, ...]]:
+    """Return two imposed states and the equilibrium, and why there is none."""
+    lattice = problem.assembly.lattice
+    shapes = [
+        ("stretched", f"stretched and warped by {STRETCH:g} and {-WARP:g}", _stretched(lattice)),
+        ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(lattice)),
+    ]
+    why: tuple[str, ...] = ()
+    if free := free_rigid_motions(scene):
+        why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)
+    else:
+        solution = solve(scene, calibration)
+        if solution.status is Status.CONVERGED:
+            found = solution.mesh.point_data["displacement"]
+            shapes.append(("equilibrium", "under supports and loads", found))
+        else:
+            why = (f"no equilibrium to check by: {solution.status}: {solution.message}",)
+    states = []
+    for name, meaning, displacement in shapes:
+        energy, force = problem.internal(displacement, 1.0)
+        states.append(CheckState(name, meaning, displacement, force, energy))
+    return tuple(states), why
+
+
+def _stretched(lattice: Lattice) -> np.ndarray:
+    x, y, z = lattice.positions.T
+    lx, ly = (lines.at[-1] for lines in lattice.lines)
+    a, b = x / lx, y / ly
+    along = STRETCH * np.stack([lx * (a + 0.5 * a * b), ly * (0.3 * a**2 - 0.4 * b)])
+    lift = WARP * min(lx, ly) * (0.1 + a * b + a**2) + STRETCH * z * (1.0 - a)
+    return np.stack([*along, lift], axis=1)
+
+
+def _rolled(lattice: Lattice) -> np.ndarray:
+    x, y, z = lattice.positions.T
+    radius = lattice.lines[0].at[-1] / TURN
+    turn = x / radius
+    rolled = np.stack([(radius - z) * np.sin(turn), y, radius - (radius - z) * np.cos(turn)], axis=1)
+    return rolled - lattice.positions

@@ -35,37 +35,28 @@ class MidSurface:
     points off the sheet. What masses are around them is found once for a lattice."""
 
     def __init__(self, lattice: Lattice, points: np.ndarray, order: int = 3):
-        points = np.asarray(points, dtype=float).reshape(-1, 2)
-        self._nodes, self._share = _nodes_and_shares(lattice, points, order)
+        self._shares = _shares(lattice, np.asarray(points, dtype=float).reshape(-1, 2), order)
 
     def of(self, field: np.ndarray) -> np.ndarray:
         """Values (n, 3) at the points of a field of vectors over the masses, (masses and more, 3)."""
-        values: np.ndarray = np.einsum("pc,pclq->pq", self._share, field[self._nodes])
-        return values
+        return np.asarray(self._shares @ field[: self._shares.shape[1]])
 
     def matrix(self, size: int) -> sp.csr_array:
         """The map of displacements (size, 3) to values at the points, (3 points, 3 size), both flat."""
-        points, around, layers = self._nodes.shape
-        axes = np.arange(3)
-        shape = (points, around, layers, 3)
-        rows = np.broadcast_to(3 * np.arange(points)[:, None, None, None] + axes, shape)
-        columns = 3 * self._nodes[..., None] + axes
-        values = np.broadcast_to(self._share[:, :, None, None], shape)
-        entries = (values.ravel(), (rows.ravel(), columns.ravel()))
-        return sp.csr_array(sp.coo_array(entries, shape=(3 * points, 3 * size)))
+        points, masses = self._shares.shape
+        wider = sp.csr_array((points, size - masses))
+        return sp.csr_array(sp.kron(sp.hstack([self._shares, wider]), sp.eye_array(3)))
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
         """The transpose: values (n, k) at the points shared among the masses, (size, k)."""
-        out = np.zeros((size, values.shape[1]))
-        parts = (self._share[..., None] * values[:, None, :])[:, :, None, :]
-        np.add.at(out, self._nodes, np.broadcast_to(parts, (*self._nodes.shape, values.shape[1])))
-        return out
+        masses = self._shares.shape[1]
+        return np.pad(self._shares.T @ values, ((0, size - masses), (0, 0)))
 
 
 @kept(last=8, most=2**16, size=lambda lattice, points, _: points.nbytes + 8 * lattice.mass_count)
-def _nodes_and_shares(lattice: Lattice, points: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """The masses (n, columns, layers) around plan points (n, 2) [m], and what share every one of a
-    column has in the value there, (n, columns). Raises BadInput for points off the sheet."""
+def _shares(lattice: Lattice, points: np.ndarray, order: int) -> sp.csr_array:
+    """What share every mass has in the value at plan points (n, 2) [m], (n, masses). Raises BadInput for
+    points off the sheet."""
     places = [lines.index(points[:, axis])[1] for axis, lines in enumerate(lattice.lines)]
     outside = np.max(np.abs(np.array(places) - 0.5), axis=0) > 0.5 + 1e-9
     if outside.any():
@@ -73,17 +64,28 @@ def _nodes_and_shares(lattice: Lattice, points: np.ndarray, order: int) -> tuple
     if lattice.per_area is not None:
         own = _own_cells(lattice, np.pad(lattice.per_area, 1), points)
         if order > 1:
-            return _near_rims(lattice, lattice.per_area, own, points)
-    ends = [lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines)]
-    (i, x), (j, y) = ends
-    columns = lattice.columns()[j[:, :, None], i[:, None, :]].reshape(len(points), -1, lattice.grid[2])
-    return columns, (y[:, :, None] * x[:, None, :] / lattice.grid[2]).reshape(len(points), -1)
+            return _of_columns(lattice, *_near_rims(lattice, lattice.per_area, own, points))
+    (i, x), (j, y) = (lines.around(points[:, axis], order + 1) for axis, lines in enumerate(lattice.lines))
+    return _of_columns(lattice, j, i, y[:, :, None] * x[:, None, :])
+
+
+def _of_columns(lattice: Lattice, rows: np.ndarray, over: np.ndarray, shares: np.ndarray) -> sp.csr_array:
+    """The map of the columns of masses at crossings of lines, rows (n, k) and over (n, l), with these shares
+    (n, k, l), of which every layer has as much; what is 0 is left out."""
+    nodes, layers = lattice.columns()[rows[:, :, None], over[:, None, :]], lattice.grid[2]
+    points = np.broadcast_to(np.arange(len(rows))[:, None, None, None], nodes.shape)
+    each = np.broadcast_to(shares[..., None] / layers, nodes.shape)
+    entries = (each.ravel(), (points.ravel(), nodes.ravel()))
+    found = sp.csr_array(sp.coo_array(entries, shape=(len(rows), lattice.mass_count)))
+    found.eliminate_zeros()
+    return found
 
 
 def _near_rims(
     lattice: Lattice, per_area: np.ndarray, own: np.ndarray, points: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Those on a lattice with absent cells, of points in the cells `own` (n, 2): of the lines around them."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Lines and shares as `_of_columns` takes them, on a lattice with absent cells, of points in the cells
+    `own` (n, 2): the lines around them."""
     wide, around, (x, y) = np.pad(per_area, 1), _around(per_area), lattice.lines
     reach = REACH + 1
 
@@ -115,8 +117,7 @@ def _near_rims(
             found = _terms(places(points[which], row + j - 1, column + i - 1)) @ fit
             share[which[:, None], rows - row + reach, over - column + reach] += weight[j, i, :, None] * found
     rows, over = (np.clip(own[:, axis, None] + lines, 0, per_area.shape[axis]) for axis in (0, 1))
-    nodes = lattice.columns()[rows[:, :, None], over[:, None, :]].reshape(len(points), -1, lattice.grid[2])
-    return nodes, share.reshape(len(points), -1) / lattice.grid[2]
+    return rows, over, share
 
 
 def _own_cells(lattice: Lattice, wide: np.ndarray, points: np.ndarray) -> np.ndarray:

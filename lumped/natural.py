@@ -65,7 +65,7 @@ def with_natural(
             g = flat + by
             natural = np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])
             if isinstance(family, Links):
-                return replace(family, rest_length=natural[0], natural=natural)
+                return replace(family, rest_length=natural[0], natural=natural[1])
             return replace(family, stiffness=stiffness, natural=natural)
 
         return make

@@ -23,16 +23,10 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.biquadratic import GAUSS, areas
-from fem_reference.surface.borders import borders_of
+from fem_reference.surface.borders import has_lines
 from fem_reference.surface.loads import orientation
 from fem_reference.surface.location import locate
-from fem_reference.surface.mesh import (
-    divisions,
-    facets_on,
-    has_lines,
-    mesh_of,
-    plan_of,
-)
+from fem_reference.surface.mesh import divisions, facets_on, mesh_of, plan_of
 from sheetbench.scenes import (
     AreaLoad,
     EdgeLoad,
@@ -70,7 +64,7 @@ class Bricks:
     def of(cls, scene: Scene, elements: int, layers: int, grading: str) -> Bricks:
         """elements: as those of the shell; grading "edges": finest there, where the mesh is one of lines."""
         counts = divisions(scene.sheet, elements)
-        plan = mesh_of(scene, counts, grading == "edges" and has_lines(borders_of(scene)))
+        plan = mesh_of(scene, counts, grading == "edges" and has_lines(scene))
         heights = np.linspace(-0.5, 0.5, 2 * layers + 1) * scene.sheet.thickness
         taper = scene.sheet.thickness_at(*plan_of(plan).nodes.T) / scene.sheet.thickness
         return cls(plan, counts, heights, taper)

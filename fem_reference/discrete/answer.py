@@ -21,7 +21,6 @@ from fem_reference.discrete.sheet import Discrete
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.surface.balance import left_over
 from fem_reference.surface.location import interpolate
-from fem_reference.surface.rubber import limit_notes
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.clock import now
 from sheetbench.numerics.continuation.limits import Limits
@@ -30,6 +29,7 @@ from sheetbench.numerics.continuation.path import Fault, Inspect, Path
 from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.scenes import Scene
+from sheetbench.scenes.objects.material import limit_note
 
 EPSILON = float(np.finfo(float).eps)
 EXACT = Limits(first_reach=np.inf, farthest=np.inf, smallest_step=1.0)  # of linear sheets: one step is all
@@ -112,6 +112,8 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
         left *= np.sqrt(sheet.unknowns)
     allowed = float(left + EPSILON * sheet.summed(shape))
     status, notes = judge(path)
+    if status is Status.NON_FINITE and sheet.settings.get("law") == "gent":  # beyond its limit
+        notes = [*notes, limit_note(sheet.scene.material)]
     residual, q = forces.residual, shape.q
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     edges, wrenches, line = sheet.wrenches(shape, residual)
@@ -146,6 +148,6 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
         load_factor=share,
         snaps=tuple(path.snaps),
         fallback=fallback,
-        remarks=(*notes, *limit_notes(sheet.settings.get("law"), scene.material, status)),
+        remarks=tuple(notes),
         stretch=shape.stretch,
     )

@@ -32,7 +32,6 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.natural import natural_strains
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.mesh import require_upright
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
@@ -61,7 +60,6 @@ class DiscretePlate(DiscreteShell):
         hard_edges: tuple[str, ...] = (),
         moving: bool = False,
     ):
-        require_upright(mesh)
         self._hard_edges = hard_edges
         super().__init__(mesh, scene, section, moving=moving)
 

@@ -28,24 +28,27 @@ from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
-from fem_reference.shell.element import Element, add_tangents
-from fem_reference.shell.hyperelastic import elements_of
+from fem_reference.shell.element import OF_POSITIONS, TABLES, Element
+from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
-from fem_reference.shell.natural import natural_strains
+from fem_reference.shell.natural import grown, natural_strains
+from fem_reference.shell.tangent import add_tangents
 from fem_reference.shell.validity import inverted, membrane_strain
 from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
-from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.carried import add_carried
-from fem_reference.surface.materials import Section, constants_of
+from fem_reference.surface.materials import Section, constants_of, section_at
 from fem_reference.surface.mesh import plan_of, quarters
 from fem_reference.surface.rod import block_diagonal
+from fem_reference.surface.rubber import require_law
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
+from sheetbench.errors import BadInput
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, require_uniform
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
@@ -100,9 +103,17 @@ class DiscreteShell(DiscreteElements):
         self.bind(bound)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[Any, NaturalState | None]:
-        """All elements, and the strains that they have without stress."""
-        natural = natural_strains(self.scene, self.plan.corners)
-        return elements_of(self.plan, self.scene, section, law), natural
+        """All elements, and the strains that they have without stress. Raises BadInput for a law that the
+        scene's material or a section of the caller's own does not have."""
+        scene, nodes = self.scene, self.plan.corners
+        require_law(law, LAWS, scene)
+        if law == STRAIN_LAW:
+            own = grown(section or section_at(scene, nodes), scene, nodes)
+            return Element.build(nodes, own), natural_strains(scene, nodes)
+        require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
+        if section is not None:
+            raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
+        return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
 
     def supports_of(self) -> Supports:
         """What supports and motions hold."""
@@ -147,10 +158,6 @@ class DiscreteShell(DiscreteElements):
         """Prescribed change (2, n, 3) of positions [m] and directors."""
         return self.supports.change(*self.instant(at))
 
-    def _target(self, at: float) -> np.ndarray:
-        """The same of all vectors (2 n + p, 3), those of rods standing still."""
-        return np.concatenate([self.change(at).reshape(-1, 3), np.zeros((self.rods.bound.held.size, 3))])
-
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         prescribed = np.zeros(self._held.shape)
         prescribed[: 2 * self.nodes] = self.supports.rate(time).reshape(-1, 3)
@@ -161,7 +168,9 @@ class DiscreteShell(DiscreteElements):
 
     def short(self, shape: SheetShape) -> np.ndarray:
         free = np.concatenate([np.zeros((self.nodes, 3)), to_unit(self.directors(shape.q))])
-        return np.where(self._held, self._target(shape.at) - shape.q.reshape(-1, 3), free).ravel()
+        target = np.zeros(self._held.shape)  # rods stand still
+        target[: 2 * self.nodes] = self.change(shape.at).reshape(-1, 3)
+        return np.where(self._held, target - shape.q.reshape(-1, 3), free).ravel()
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
         return self.of_unit_directors((q + step).reshape(-1, 3))
@@ -251,7 +260,8 @@ class DiscreteShell(DiscreteElements):
         along = multiplier(self.directors(shape.q), residual[3 * self.nodes :].reshape(-1, 3))
         on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
         data, slots, on = self.pattern.zeros(on_turns), self.pattern.slots[0], self.plan.elements
-        add_tangents(data, slots, self.element, shape.operator, moduli, stress, on, shape.frame)
+        forms, coupled = (stress @ OF_POSITIONS).reshape(-1, 9, 18), self.element.coupled
+        add_tangents(shape.operator, moduli, coupled, forms, shape.frame, on, TABLES, slots, data)
         if by_a:
             blocks = self.fold(shape, np.arange(len(self.plan.elements)), self._inertia)
             add_blocks(data, self.pattern.slots[0], by_a * blocks)
@@ -301,7 +311,7 @@ class DiscreteShell(DiscreteElements):
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)
         return HoldingForces(
-            np.concatenate([force, cross(surface.director, turning)], axis=1), surface.position
+            np.concatenate([force, np.cross(surface.director, turning)], axis=1), surface.position
         )
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:

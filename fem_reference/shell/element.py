@@ -32,7 +32,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from fem_reference.shell import sampling, tangent
+from fem_reference.shell import sampling
 from fem_reference.surface.biquadratic import (
     AT_GAUSS,
     GAUSS,
@@ -92,7 +92,7 @@ def _strain_forms() -> np.ndarray:
 
 
 FORMS = _strain_forms()
-_OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are theirs turned over
+OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are theirs turned over
 
 
 @dataclass(frozen=True)
@@ -167,22 +167,6 @@ class Element:
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
     """D e (…, k) of moduli (…, k, l) and strains (…, l)."""
     return np.asarray((moduli @ strain[..., None])[..., 0])
-
-
-def add_tangents(
-    data: np.ndarray,
-    slots: np.ndarray,
-    element: Element,
-    vectors: np.ndarray,
-    moduli: np.ndarray,
-    stress: np.ndarray,
-    on: np.ndarray,
-    frames: np.ndarray,
-) -> None:
-    """Add Bᵀ D B + Σ s_k H_k on the elements' unknowns to a matrix's data, at slots (m, 45, 45); on: their
-    nodes (m, 9), whose frames are (n, 3, 2)."""
-    forms = (stress @ _OF_POSITIONS).reshape(-1, 9, 18)
-    tangent.add_tangents(vectors, moduli, element.coupled, forms, frames, on, TABLES, slots, data)
 
 
 def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

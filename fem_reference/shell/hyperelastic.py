@@ -19,16 +19,11 @@ from typing import Self
 import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, built, cartesian, weighed
-from fem_reference.shell.laws import LAWS, Law, Response, outer
-from fem_reference.shell.natural import grown
+from fem_reference.shell.laws import Law, Response, outer
 from fem_reference.shell.slant import linear, slant
 from fem_reference.surface.biquadratic import integrated
-from fem_reference.surface.materials import Section, section_at, section_of, transverse_shear_stiffness
-from fem_reference.surface.mesh import Plan
-from fem_reference.surface.rubber import require_law
-from sheetbench.choices import STRAIN_LAW
-from sheetbench.errors import BadInput
-from sheetbench.scenes import Material, Scene, require_uniform
+from fem_reference.surface.materials import section_of, transverse_shear_stiffness
+from sheetbench.scenes import Material
 
 _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
 
@@ -135,17 +130,3 @@ class HyperelasticElement(Element):
     def _volumes(self) -> np.ndarray:
         """(m, 9, 3) [m³]."""
         return self.areas[:, :, None] * self.weights
-
-
-def elements_of(plan: Plan, scene: Scene, section: Section | None, law: str) -> Element:
-    """Return the elements of a scene's shell on a plan, of a law of strain and, unless that is another than
-    the default, of a section."""
-    nodes = plan.corners
-    require_law(law, LAWS, scene)
-    if law == STRAIN_LAW:
-        own = section or section_at(scene, nodes)
-        return Element.build(nodes, grown(own, scene, nodes))
-    require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
-    if section is not None:
-        raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
-    return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law])

@@ -23,7 +23,7 @@ import numpy as np
 from fem_reference.discrete.answer import inspected, shape_of
 from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.shell.element import BENDING, MEMBRANE, Element
-from fem_reference.surface.biquadratic import AT_GAUSS, cross
+from fem_reference.surface.biquadratic import AT_GAUSS
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault, Path
 from sheetbench.numerics.continuation.stability import stability
@@ -49,7 +49,7 @@ def inverted(element: Element, change: np.ndarray) -> str:
     value, slope = AT_GAUSS
     now = element.reference + change
     along, across, director = slope[0] @ now[:, :9], slope[1] @ now[:, :9], value @ now[:, 9:]
-    area = (cross(along, across) * director).sum(axis=2)
+    area = (np.cross(along, across) * director).sum(axis=2)
     share = (area / element.flat_jacobian).min(axis=1)
     worst = int(np.argmin(share))
     if share[worst] > FLAT:
@@ -61,8 +61,7 @@ def inverted(element: Element, change: np.ndarray) -> str:
 def stretch(element: Element, strain: np.ndarray, thickness: float) -> float:
     """The largest (h κ/2) (b/l)² of all elements of strains (m, 54), κ the curvature along their shorter
     side."""
-    sides, strain = element.sides, strain[:, BENDING]
-    bent = np.stack([np.abs(strain[:, part]).max(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
+    sides, bent = element.sides, np.abs(_along(strain[:, BENDING])).max(axis=2)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
     return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
 
@@ -70,7 +69,10 @@ def stretch(element: Element, strain: np.ndarray, thickness: float) -> float:
 def membrane_strain(element: Element, strain: np.ndarray) -> float:
     """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E, of
     strains (m, 54)."""
-    strain = strain[:, MEMBRANE]
-    along = np.stack([strain[:, part].mean(axis=1) for part in (slice(0, 6), slice(6, 12))], axis=1)
-    green = along / (0.5 * element.sides) ** 2
+    green = _along(strain[:, MEMBRANE]).mean(axis=2) / (0.5 * element.sides) ** 2
     return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))
+
+
+def _along(samples: np.ndarray) -> np.ndarray:
+    """Of samples (m, 21) those along r and along s, (m, 2, 6)."""
+    return samples[:, :12].reshape(-1, 2, 6)

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference.surface.actuator_forces import OnEdge
-from fem_reference.surface.biquadratic import AT_GAUSS, THREE, THREE_WEIGHTS, areas, cross, side_shape
+from fem_reference.surface.biquadratic import AT_GAUSS, THREE, THREE_WEIGHTS, areas, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.materials import constants_of
@@ -102,7 +102,7 @@ def left_over(
     which forces it is held, pairs (…, 3); size and allowed: as `Balance` has them."""
     force, moment = applied(scene, surface, edges)
     longest = float(np.ptp(surface.plan.nodes, axis=0).max())
-    turning = [cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
+    turning = [np.cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
     return Balance(
         force=share * force + np.sum(list(reactions.values()), axis=0),
         moment=share * moment + np.sum(turning, axis=0),

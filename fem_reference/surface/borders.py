@@ -65,6 +65,12 @@ def borders_of(scene: Scene) -> Borders | None:
     return Borders(scene.region, shapely.union_all([*(shape.area.boundary for shape in shapes), *through]))
 
 
+def has_lines(scene: Scene) -> bool:
+    """Return whether meshes of a scene are of lines along x and y."""
+    borders = borders_of(scene)
+    return borders is None or borders.along_axes
+
+
 def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:
     """Return the shapes whose borders count; lines: those too that say which part of an edge is loaded."""
     places = [place(support) for support in scene.supports if not isinstance(support, Point)]

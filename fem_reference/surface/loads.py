@@ -54,14 +54,15 @@ class FollowerPressure:
         along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
         out = np.zeros_like(vectors)
         out[:, :9] = np.einsum(
-            "e,g,gi,egc->eic", self._strength, GAUSS_WEIGHTS, value, np.cross(along, across)
+            "e,g,gi,egc->eic", self.value * self.orientation, GAUSS_WEIGHTS, value, np.cross(along, across)
         )
         return out
 
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
         value, slope = AT_GAUSS
         along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
-        weighed, sides = GAUSS_WEIGHTS[:, None] * value, self._strength[:, None, None] * [-across, along]
+        weighed = GAUSS_WEIGHTS[:, None] * value
+        sides = (self.value * self.orientation)[:, None, None] * [-across, along]
         out = np.zeros((len(vectors), 18, 3, 18, 3))
         out[:, :9, :, :9] = np.einsum("gi,agj,aegb,bcd->eicjd", weighed, slope, sides, _CROSS, optimize=True)
         return out
@@ -69,10 +70,6 @@ class FollowerPressure:
     def work(self, vectors: np.ndarray) -> float:
         """p times the volume over the plan, ∫ z (φ,r × φ,s)·e_z dr ds = Σ z f_z/p of the nodes."""
         return float(np.sum(vectors[:, :9, 2] * self.force(vectors)[:, :9, 2]))
-
-    @property
-    def _strength(self) -> np.ndarray:
-        return self.value * self.orientation
 
 
 @dataclass(frozen=True)

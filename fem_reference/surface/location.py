@@ -39,10 +39,8 @@ def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         xi, outside = _invert(mesh, candidate, x[:, point])
         outside /= (high - low).max(axis=0)[candidate]
         order = np.lexsort((candidate, np.maximum(outside, SLACK), point))
-        point, candidate, xi, outside = point[order], candidate[order], xi[:, order], outside[order]
-        first = np.ones(len(point), dtype=bool)
-        first[1:] = point[1:] != point[:-1]
-        first &= outside <= (SLACK if nodes.shape[1] == 4 else BULGE)
+        first = order[np.unique(point[order], return_index=True)[1]]
+        first = first[outside[first] <= (SLACK if nodes.shape[1] == 4 else BULGE)]
         element[start + point[first]] = candidate[first]
         local[:, start + point[first]] = xi[:, first]
     if np.any(element < 0):

@@ -15,7 +15,7 @@ import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
 from fem_reference.surface.alike import mesh_of_cells
-from fem_reference.surface.borders import Borders, borders_of, shapes_of
+from fem_reference.surface.borders import borders_of, has_lines, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
@@ -75,8 +75,12 @@ def _tensor(x: np.ndarray, y: np.ndarray, *lengths: float) -> MeshQuad:
 
 def _with_edges(mesh: MeshQuad, lengths: Sequence[float]) -> MeshQuad:
     """The mesh with boundaries where it reaches the edges of a sheet with these sides [m]."""
-    ends = {name: lengths[edge.normal_axis] * edge.far_end for name, edge in EDGES.items()}
-    return mesh.with_boundaries({name: _at(EDGES[name].normal_axis, end) for name, end in ends.items()})
+
+    def on(name: str) -> Callable[[np.ndarray], np.ndarray]:
+        axis, far = EDGES[name].normal_axis, EDGES[name].far_end
+        return lambda x: np.isclose(x[axis], lengths[axis] * far, rtol=1e-9, atol=1e-12)
+
+    return mesh.with_boundaries({name: on(name) for name in EDGES})
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,17 +182,12 @@ def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
             )
 
 
-def has_lines(borders: Borders | None) -> bool:
-    """Whether a mesh with these borders is one of lines along x and y."""
-    return borders is None or borders.along_axes
-
-
 def lines_of(
     scene: Scene, counts: tuple[int, int], graded: bool, reach: float = 1.0
 ) -> tuple[np.ndarray, np.ndarray]:
     """The lines of that mesh: their x and their y [m]; where it has none, equally far apart."""
     borders, graded = borders_of(scene), graded and scene.sheet.mesh is None
-    if not has_lines(borders):
+    if not has_lines(scene):
         x, y = _lines(scene.sheet, counts, False, _cuts(scene))
         return (_with_rows(x), _with_rows(y)) if graded else (x, y)
     x, y = _lines(scene.sheet, counts, graded, _cuts(scene), reach)
@@ -242,10 +241,6 @@ def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
     return half if all(EDGES[name].far_end for name in cuts) else 1.0 - half[::-1]
 
 
-def _at(axis: int, position: float) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda x: np.isclose(x[axis], position, rtol=1e-9, atol=1e-12)
-
-
 def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:
     """The facets (k,) of a load's edge, or of its part in a shape, whose borders lie on their ends."""
     facets = np.asarray(mesh.boundaries[load.edge])
@@ -257,17 +252,6 @@ def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:
     return facets[
         shapely.distance(load.where.area, middles) < COINCIDENT * np.ptp(mesh.p)
     ]  # but for rounding
-
-
-def require_upright(mesh: MeshQuad) -> None:
-    """Raises BadInput where the corners of an element do not all turn one way, as in a folded one."""
-    corners = mesh.p[:, mesh.t]  # (2, 4, m)
-    along = np.roll(corners, -1, axis=1) - corners
-    back = np.roll(corners, 1, axis=1) - corners
-    turn = along[0] * back[1] - along[1] * back[0]  # (4, m) [m²]
-    upright = np.all(turn * np.sign(turn[0]) > 0.0, axis=0)
-    if not upright.all():
-        raise BadInput(f"element {int(np.argmin(upright))} of the mesh is inverted or degenerate")
 
 
 def quarters(element_nodes: np.ndarray) -> np.ndarray:

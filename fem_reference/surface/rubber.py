@@ -6,38 +6,29 @@ A law with constants of its own is a row of that table and its slopes here.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 
-from sheetbench.answers.solution import Status
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import Material, Scene
+from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
-from sheetbench.scenes.objects.material import WORDS, Energy, limit_note
+from sheetbench.scenes.objects.material import WORDS, Energy
 
 
-class Slopes(NamedTuple):
-    """f(x) − f′(0) x, f′(x) − f′(0) and f″(x), each (…) [Pa]."""
+def slopes(energy: Energy, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return f(x) − f′(0) x, f′(x) − f′(0) and f″(x), each (…) [Pa], of a law at x = I₁ − 3 (…); not a number
+    beyond Gent's limit, which ends a step.
 
-    excess: np.ndarray
-    rise: np.ndarray
-    second: np.ndarray
-
-
-def slopes(energy: Energy, x: np.ndarray) -> Slopes:
-    """Return f of a law at x = I₁ − 3 (…); not a number beyond Gent's limit, which ends a step.
-
-    >>> slopes(Energy(1.0, limit=2.0), np.array([0.0, 1.0, 3.0])).rise
+    >>> slopes(Energy(1.0, limit=2.0), np.array([0.0, 1.0, 3.0]))[1]
     array([ 0.,  1., nan])
     """
     c10, _, c20, c30, limit = energy
     if not limit:
         second = 2.0 * c20 + 6.0 * c30 * x
-        return Slopes(x * x * (c20 + c30 * x), x * (2.0 * c20 + 3.0 * c30 * x), second)
+        return (x * x * (c20 + c30 * x), x * (2.0 * c20 + 3.0 * c30 * x), second)
     left = np.where(x < limit, 1.0 - x / limit, np.nan)
-    return Slopes(-c10 * (limit * np.log(left) + x), c10 * x / (limit * left), c10 / (limit * left**2))
+    return (-c10 * (limit * np.log(left) + x), c10 * x / (limit * left), c10 / (limit * left**2))
 
 
 def require_law(law: str, laws: Iterable[str], scene: Scene) -> None:
@@ -52,10 +43,3 @@ def require_law(law: str, laws: Iterable[str], scene: Scene) -> None:
             f"law = '{law}': the material has no constants of it; give the scene [material] law = '{law}' "
             f"with {keys}, or take law = 'neo-hookean', which needs none"
         )
-
-
-def limit_notes(law: object, material: Material, status: Status) -> list[str]:
-    """Return a sentence on the law's limit where numbers have overflowed under a law that has one."""
-    if law != "gent" or status is not Status.NON_FINITE:
-        return []
-    return [limit_note(material)]

@@ -35,7 +35,7 @@ class Coupling:
 
     def __init__(self, scene: Scene, lattice: Lattice):
         self.masses = lattice.mass_count
-        self._positions = lattice.positions
+        self._positions, self._layers = lattice.positions, {e: lattice.edge_columns(e) for e in EDGES}
         self._motions = _motions(scene, lattice)
         self.moved = np.zeros(lattice.mass_count, dtype=bool)
         for motion in self._motions:
@@ -53,7 +53,6 @@ class Coupling:
         ]
         by_edge |= chains
         self._all = [by_edge[edge] for edge in dict.fromkeys(str(a.edge) for a in scene.actuators)]
-        self._layers = {edge: lattice.edge_columns(edge) for edge in EDGES}
         self.size = lattice.mass_count + sum(chain.rows for chain in self.bodies)
         none = np.zeros((self.masses, 3), dtype=bool)
         free = np.concatenate([none, *(chain.free for chain in self.bodies)])
@@ -126,6 +125,11 @@ class Coupling:
             energy += stored
             force[body.place] += gradient
         return energy
+
+    def add_average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive, force: np.ndarray) -> None:
+        """Add the energy-conserving average of the internal force between two displacements."""
+        for body in self.bodies:
+            force[body.place] += body.average_force(start[body.place], end[body.place], drive)
 
     def add_tangent(
         self,

@@ -87,8 +87,9 @@ class System:
         self.mass = sp.csr_array(sp.bsr_array((mass_blocks, pattern.indices, pattern.indptr)))
         self.mass.eliminate_zeros()
         self.mass_rows = csr_arrays(self.mass)
-        algebraic = np.zeros((size, 3), dtype=bool) if self.coupling is None else self.coupling.algebraic
-        self.algebraic = abs(self.transform).T @ algebraic.ravel() > 0.0
+        # multipliers carry the rounding of inertia forces
+        self.placed = np.ones((size, 3), dtype=bool) if self.coupling is None else ~self.coupling.algebraic
+        self.algebraic = abs(self.transform).T @ ~self.placed.ravel() > 0.0
         self.moving_part = sp.csr_array(self.transform[:, np.flatnonzero(~self.algebraic)])
         self.reduced_mass = sp.csc_array(self.moving_part.T @ self.mass @ self.moving_part)
         self.solve_mass = _mass_solver(self.reduced_mass)
@@ -176,6 +177,8 @@ class System:
         force = self.assembly.at(time=time).average_force(start.u, end)
         if self.maxwell is not None and start.memory is not None:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
+        if self.coupling is not None:
+            self.coupling.add_average_force(start.u, end, self.drive(time), force)
         since, drive = self.ends(start, time)
         for item in self.items:
             item.add_force((end, drive), force, since)
@@ -251,10 +254,6 @@ class System:
     def expand(self, unknowns: np.ndarray) -> np.ndarray:
         """Displacement (size, 3) of the free unknowns that have mass; multiplier rows zero."""
         return (self.moving_part @ unknowns).reshape(-1, 3)
-
-    def contract(self, displacement: np.ndarray) -> np.ndarray:
-        """The free unknowns with mass of an admissible displacement (size, 3): Tᵀ M g is constant."""
-        return self.solve_mass(self.reduce(self.momentum(displacement)))
 
     def momentum(self, v: np.ndarray) -> np.ndarray:
         """M v, (size, 3)."""

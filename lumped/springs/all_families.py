@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -67,7 +67,7 @@ class AllFamilies:
 
     def __init__(self, families: Sequence[Family], pattern: MassPattern):
         self.families = (*families, *[NO_CELLS] * (4 - len(families)))
-        self._central = self.families[:4]
+        self._central: tuple[Any, ...] = self.families[:4]
         self._others = [family for family in self.families if isinstance(family, DirectionalLinks)]
         where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
         self.springs = typed(SpringArrays._make([*(family.arrays for family in self._central), where]))
@@ -80,11 +80,6 @@ class AllFamilies:
         """Stiffness of the central links at every row of the arrays, summed, (size,) [N/m]."""
         both = np.repeat(self.links.stiffness, 2)
         return np.bincount(self.links.nodes.ravel(), both, minlength=self._pattern.size)
-
-    @cached_property
-    def link_stiffness_norm(self) -> float:
-        """Return its norm."""
-        return float(np.linalg.norm(self.link_stiffness))
 
     def damped(self, time: float) -> list[Family]:
         """Return the dampers of the families, with `time` [s], of all links together."""
@@ -116,8 +111,17 @@ class AllFamilies:
             family.add_force(u, internal)
         return internal
 
+    def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
+        """Return the internal force whose work from `start` to `end` is the elastic energy stored; of springs
+        without one the force in the middle."""
+        force = np.zeros_like(start)
+        for family in self._central:
+            family.loops.add_average_forces(start, end, family.arrays, force)
+        return self.beside(0.5 * (start + end), force)
+
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
-        """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite."""
+        """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite: a sum of
+        squares, with negative area springs (ν < 1/3) only while strains are small."""
         return self.tangent(u, tuple(family.nonnegative_part(u) for family in self._central), 0.0)
 
     def tangent(

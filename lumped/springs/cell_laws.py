@@ -173,38 +173,24 @@ _OF = {law.tag: law for law in LAWS}
 
 
 def _of_law(part: str) -> Any:
-    """Return the function of a tag that stands for this part of its law; compiled, it is that part."""
+    """Return the function of a tag that stands for this part of its law, a function or a number; compiled, it
+    is that part."""
 
     def call(tag: Tag, *given: Any) -> Any:
-        return getattr(_OF[type(tag)], part)(*given)
+        found = getattr(_OF[type(tag)], part)
+        return found(*given) if given else found
 
     @overload(call, strict=False)
     def _(tag: Any, *given: Any) -> Any:
-        function = getattr(_OF[tag.instance_class], part)
-        return lambda tag, *given: function(*given)
+        found = getattr(_OF[tag.instance_class], part)
+        return (lambda tag, *given: found(*given)) if given else (lambda tag, *given: found)
 
     return call
 
 
 respond, stiffness = _of_law("respond"), _of_law("stiffness")
 extrapolate, of_extrapolated = _of_law("extrapolate"), _of_law("of_extrapolated")
-
-
-def _number_of_law(part: str) -> Any:
-    """Return the function of a tag that gives this number of its law; compiled, a constant."""
-
-    def call(tag: Tag) -> Any:
-        return getattr(_OF[type(tag)], part)
-
-    @overload(call, strict=False)
-    def _(tag: Any) -> Any:
-        number = getattr(_OF[tag.instance_class], part)
-        return lambda tag: number
-
-    return call
-
-
-measures, count = _number_of_law("measures"), _number_of_law("count")
+measures, count = _of_law("measures"), _of_law("count")
 
 
 def constants(tag: Tag, first: Any, apart: Any) -> Any:

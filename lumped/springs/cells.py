@@ -48,13 +48,13 @@ from sheetbench.numerics.typed import inner, njit
 
 
 class CellArrays(NamedTuple):
-    """nodes (c, 4, p); sides (c, 2, 3) [m] and area (c,) [m²] at rest, or (4, c), natural area and δg₀; law:
-    the tag with the constants of the springs' law or, times a second, of the dampers'; slots (c, 4p, 4p)
-    block numbers, corner-major."""
+    """nodes (c, 4, p); sides (c, 2, 3) [m] at rest; rest (4, c), natural area and δg₀ [m²]; law: the tag with
+    the constants of the springs' law or, times a second, of the dampers'; slots (c, 4p, 4p) block numbers,
+    corner-major."""
 
     nodes: np.ndarray
     sides: np.ndarray
-    area: np.ndarray
+    rest: np.ndarray
     law: Tag
     slots: np.ndarray
 
@@ -84,28 +84,23 @@ def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, V
     )
 
 
-@inner(error_model="numpy")
-def natural(change: Four, rest: Three, area: np.ndarray, c: int) -> tuple[Four, Three, float]:
-    """δg, g and A from where cell c is free of stress (`lumped.natural`); numba compiles one of both ways."""
-    if area.ndim == 1:
-        return change, rest, area[c]
-    d1, d2, d3 = area[1, c], area[2, c], area[3, c]
-    since = change[0] - d1, change[1] - d2, change[2] - d3, change[3]
-    return since, (rest[0] + d1, rest[1] + d2, rest[2] + d3), area[0, c]
-
-
 @inner(cache=True, error_model="numpy", forceinline=True)
 def measure(
     u: np.ndarray, cells: CellArrays, c: int
 ) -> tuple[Four, Three, float, tuple[Vector, Vector, Vector]]:
-    """δg and s; g and A at rest; a, b and q now, of cell c."""
-    sides = cells.sides
+    """δg and s since cell c was free of stress; g and A there; a, b and q now."""
+    sides, natural = cells.sides, cells.rest
     a, b = (sides[c, 0, 0], sides[c, 0, 1], sides[c, 0, 2]), (sides[c, 1, 0], sides[c, 1, 1], sides[c, 1, 2])
     da, db, q = changes(u, cells.nodes, c)
-    rest = dot(a, a), dot(b, b), dot(a, b)
     now_a, now_b = plus(a, da), plus(b, db)
-    change = dot(plus(a, now_a), da), dot(plus(b, now_b), db), dot(da, b) + dot(now_a, db), dot(q, q)
-    return *natural(change, rest, cells.area, c), (now_a, now_b, q)
+    area, d1, d2, d3 = natural[0, c], natural[1, c], natural[2, c], natural[3, c]
+    change = (
+        dot(plus(a, now_a), da) - d1,
+        dot(plus(b, now_b), db) - d2,
+        dot(da, b) + dot(now_a, db) - d3,
+        dot(q, q),
+    )
+    return change, (dot(a, a) + d1, dot(b, b) + d2, dot(a, b) + d3), area, (now_a, now_b, q)
 
 
 @inner(error_model="numpy")
@@ -157,7 +152,7 @@ def add_forces(
 
 @njit(cache=True, error_model="numpy")
 def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
-    """Energy of every cell, (c,) [J]."""
+    """Energy of every cell, (c,) [J]; of rubber without that of the links along its sides."""
     out = np.empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
         d, g, area, _ = measure(u, cells, c)

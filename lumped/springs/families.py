@@ -7,7 +7,6 @@ family's arrays. Stresses S, stiffness D and its material part M are those of `l
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
@@ -22,7 +21,7 @@ from sheetbench.numerics.typed import typed
 
 
 @dataclass(frozen=True, eq=False)
-class Family(ABC):
+class Family:
     """nodes: (m, …) masses of each spring; stiffness: (m,) or (m, 4) [N/m]; slots: (m, …) block numbers of
     each spring's pairs of masses. Displacements and forces are (n, 3) [m], [N]."""
 
@@ -31,30 +30,17 @@ class Family(ABC):
     slots: np.ndarray
 
     loops: ClassVar[Any]
+    arrays: ClassVar[Any]  # what the loops take after the displacement, `LinkArrays` or `CellArrays`
     measures: ClassVar[int] = 4  # that a spring's memory holds room for
 
     def __len__(self) -> int:
         return len(self.nodes)
-
-    @property
-    @abstractmethod
-    def arrays(self) -> Any:
-        """Return what the loops take after the displacement, `LinkArrays` or `CellArrays`."""
-
-    def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
-        """Add the force over a step whose work is the energy stored in it."""
-        self.loops.add_average_forces(start, end, self.arrays, force)
 
     def stresses(self, u: np.ndarray) -> np.ndarray:
         """Return the stress of every spring, (m, 1) of links, (m, 4) of cells [N/m]."""
         stress, change, none = np.zeros((3, len(self), self.measures))
         self.loops.add_forces(u, self.arrays, np.zeros_like(u), (0.0, none, stress, change))
         return stress
-
-    @abstractmethod
-    def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
-        """Return stresses with which, and with the material part M, the tangent is a sum of squares; with
-        negative area springs (ν < 1/3) only while strains are small."""
 
     def damped(self, time: float) -> Family:
         """Return dampers that resist the rates of the measures: springs with coefficients time [s] ×
@@ -65,14 +51,13 @@ class Family(ABC):
 @dataclass(frozen=True, eq=False)
 class Links(Family):
     """Central links, all together: offset (m, 3) [m] rest vectors, rest_length (m,) [m], kind (m,) numbers
-    into the lattice's `names`; natural: rest_length and δg₀ (2, m) of a sheet that is not flat at rest, which
-    rest_length then is a row of."""
+    into the lattice's `names`; natural: δg₀ (m,) [m²] of a sheet that is not flat at rest."""
 
     offset: np.ndarray
     rest_length: np.ndarray
     kind: np.ndarray
     names: tuple[str, ...]
-    natural: np.ndarray | None = None
+    natural: np.ndarray | float = 0.0
 
     loops: ClassVar[Any] = links
     measures: ClassVar[int] = 1
@@ -80,7 +65,7 @@ class Links(Family):
     @cached_property
     def arrays(self) -> LinkArrays:
         """Return what the loops take."""
-        rest = self.rest_length if self.natural is None else self.natural
+        rest = np.stack(np.broadcast_arrays(self.rest_length, self.natural))
         return typed(LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots))
 
     def largest_strain(self, u: np.ndarray) -> float:
@@ -95,9 +80,7 @@ class Links(Family):
         """Return the position (m, 3) of every link's second end beside its first, its length and its
         elongation (m,) [m]."""
         d = u[self.nodes[:, 1]] - u[self.nodes[:, 0]]
-        r, change = self.offset + d, ((2.0 * self.offset + d) * d).sum(axis=1)
-        if self.natural is not None:
-            change -= self.natural[1]
+        r, change = self.offset + d, ((2.0 * self.offset + d) * d).sum(axis=1) - self.natural
         length = np.linalg.norm(r, axis=1)
         return r, length, change / (length + self.rest_length)
 
@@ -120,10 +103,6 @@ class DirectionalLinks(Links):
         across = (elongation / length)[:, None, None] * (np.eye(3) - along)
         block = self.stiffness[:, :, None] * (along + across)
         np.add.at(blocks, self.slots, np.stack([block, -block, -block, block], axis=1))
-
-    def add_average_force(self, start: np.ndarray, end: np.ndarray, force: np.ndarray) -> None:
-        """Add the force in the middle of the step, for want of an energy."""
-        self.add_force(0.5 * (start + end), force)
 
     def damped(self, time: float) -> Links:
         """Return dampers along the links, of the mean stiffness."""
@@ -157,8 +136,10 @@ class SpringCells(Family):
     @cached_property
     def arrays(self) -> CellArrays:
         """Return what the loops take."""
-        area = self.area if self.natural is None else self.natural
-        return typed(CellArrays(self.nodes, self.sides, area, self.law.tag(self.constants), self.slots))
+        rest = self.natural
+        if rest is None:
+            rest = np.vstack([self.area, np.zeros((3, len(self)))])
+        return typed(CellArrays(self.nodes, self.sides, rest, self.law.tag(self.constants), self.slots))
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
         """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and
@@ -167,12 +148,6 @@ class SpringCells(Family):
         values, vectors = np.linalg.eigh(s[:, [[0, 2], [2, 1]]] * [[1.0, 0.5], [0.5, 1.0]])
         part = (vectors * np.maximum(values, 0.0)[:, None]) @ vectors.swapaxes(1, 2)
         return np.column_stack([part[:, [0, 1], [0, 1]], 2.0 * part[:, 0, 1], np.maximum(s[:, 3], 0.0)])
-
-    def energies(self, u: np.ndarray) -> np.ndarray:
-        """Return the energy of every cell's springs, (c,) [J]; of rubber that of the membrane less that of
-        the links along its sides."""
-        stored: np.ndarray = cells.energies(u, self.arrays)
-        return stored
 
     def damped(self, time: float) -> SpringCells:
         """Return dampers of coefficient time [s] × stiffness of small strains."""

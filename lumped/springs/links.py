@@ -25,12 +25,12 @@ from sheetbench.numerics.typed import inner, njit
 
 
 class LinkArrays(NamedTuple):
-    """nodes (m, 2); offset (m, 3) [m], d₀; rest_length (m,) [m], or (2, m), beside it δg₀ [m²]; constants
+    """nodes (m, 2); offset (m, 3) [m], d₀; rest (2, m), the length [m] and δg₀ [m²]; constants
     (m,), stiffness [N/m] or damping [N·s/m]; slots (m, 4) block numbers aa, ab, ba, bb."""
 
     nodes: np.ndarray
     offset: np.ndarray
-    rest_length: np.ndarray
+    rest: np.ndarray
     constants: np.ndarray
     slots: np.ndarray
 
@@ -43,15 +43,11 @@ def difference(u: np.ndarray, nodes: np.ndarray, m: int) -> Vector:
 
 
 @inner(error_model="numpy")
-def measure(
-    u: np.ndarray, nodes: np.ndarray, offset: np.ndarray, rest: np.ndarray, m: int
-) -> tuple[float, float, float, Vector]:
-    """δg, g, the length at rest [m] and r of link m; numba compiles one way out, by the kind of `rest`."""
-    d = difference(u, nodes, m)
+def measure(u: np.ndarray, links: LinkArrays, m: int) -> tuple[float, float, float, Vector]:
+    """δg, g, the length at rest [m] and r of link m."""
+    d, offset, rest = difference(u, links.nodes, m), links.offset, links.rest
     r = offset[m, 0] + d[0], offset[m, 1] + d[1], offset[m, 2] + d[2]
     change = (offset[m, 0] + r[0]) * d[0] + (offset[m, 1] + r[1]) * d[1] + (offset[m, 2] + r[2]) * d[2]
-    if rest.ndim == 1:
-        return change, dot(r, r), rest[m], r
     return change - rest[1, m], dot(r, r), rest[0, m], r
 
 
@@ -71,7 +67,7 @@ def add_forces(
     """Add the internal force to `force` (n, 3) [N]; return the springs' own energy [J]."""
     energy = 0.0
     for m in range(len(links.nodes)):
-        change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
+        change, square, length, r = measure(u, links, m)
         stored, stress, _, _ = elongation(change, square, length, links.constants[m])
         energy += stored
         if branches is not None:
@@ -91,7 +87,7 @@ def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.
     for k in range(len(states)):
         least, most, collapsed, which = 0.0, 0.0, shortest * shortest, -1
         for m in range(len(links.nodes)):
-            change, square, length, _ = measure(states[k], links.nodes, links.offset, links.rest_length, m)
+            change, square, length, _ = measure(states[k], links, m)
             rest = length * length
             if square < collapsed * rest:
                 collapsed, which = square / rest, m
@@ -109,7 +105,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: boo
     the stress S + D ġ, which goes with that of rubber, links along whose sides its cells take off again."""
     out = np.empty(len(links.nodes))
     for m in range(len(links.nodes)):
-        change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
+        change, square, length, r = measure(u, links, m)
         _, stress, material, rest = elongation(change, square, length, links.constants[m])
         along = 2.0 * dot(r, difference(step, links.nodes, m))
         if strain:
@@ -124,8 +120,8 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, fo
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean r, since the change of g is 2 r̄·Δr."""
     for m in range(len(links.nodes)):
-        change0, square0, length, r0 = measure(start, links.nodes, links.offset, links.rest_length, m)
-        change1, square1, _, r1 = measure(end, links.nodes, links.offset, links.rest_length, m)
+        change0, square0, length, r0 = measure(start, links, m)
+        change1, square1, _, r1 = measure(end, links, m)
         l0, l1 = np.sqrt(square0), np.sqrt(square1)
         e0, e1 = change0 / (l0 + length), change1 / (l1 + length)
         stress = mean_elongation(l0, l1, e0, e1, links.constants[m])
@@ -147,7 +143,7 @@ def add_tangent(
     flat = blocks.reshape(-1, 9)
     own = len(stress) == 0
     for m in range(len(links.nodes)):
-        change, square, length, r = measure(u, links.nodes, links.offset, links.rest_length, m)
+        change, square, length, r = measure(u, links, m)
         _, at_u, material, rest = elongation(change, square, length, links.constants[m])
         s, curved = share * at_u if own else stress[m], share * rest
         if extrapolated:

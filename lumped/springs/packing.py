@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ import numpy as np
 from lumped.lattice import Lattice
 from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
-from lumped.springs.families import Family, Links, SpringCells
+from lumped.springs.families import NO_CELLS, Family, Links, SpringCells
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.numerics.kept import kept
 from sheetbench.scenes.objects.grid import Grid
@@ -89,15 +89,15 @@ def pack(lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family])
     """Springs and dampers of a lattice."""
     nx, ny, layers = lattice.grid
     plane = nx * ny
-    families = [*((family, False) for family in springs), *((family, True) for family in dampers)]
     runs, rest, used, mid = [], [np.empty(0)], 0, False
-    kinds = {id(family.nodes): _kind(family) for family in springs}  # dampers are where their springs are
-    for kind in ROWS:
-        parts = [p for p in families if len(p[0]) and kinds.get(id(p[0].nodes), _kind(p[0])) == kind]
+    for both in zip_longest(springs, dampers, fillvalue=NO_CELLS):
+        parts = [(family, damped) for family, damped in zip(both, (False, True), strict=True) if len(family)]
         if not parts:
             continue
+        law = getattr(parts[0][0], "law", None)
+        kind = next((kind for kind, known in OF_LAWS.items() if known is law), LINKS)
         nodes = {id(family.nodes): family.nodes for family, _ in parts}
-        mid = mid or any(part.ndim == 3 and part.shape[2] > 1 for part in nodes.values())
+        mid = mid or parts[0][0].nodes[0].size > 4
         topology = _topology(lattice.grid, *nodes.values())
         ends = np.cumsum([len(part) for part in nodes.values()])
         number = dict(zip(nodes, np.split(topology.number, ends), strict=False))
@@ -142,13 +142,6 @@ def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
     keeping = damped and STRIDE * int(before[-1]) <= CACHE_LIMIT
     runs[:, 7] = STRIDE * (USED + before[:-1] * keeping)
     return keeping, STRIDE * (USED + int(before[-1] if keeping else rows.max(initial=0)))
-
-
-def _kind(family: Family) -> int:
-    """What the springs of a family are."""
-    if isinstance(family, SpringCells):
-        return next(kind for kind, law in OF_LAWS.items() if law is family.law)
-    return LINKS
 
 
 def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) -> None:

@@ -27,7 +27,7 @@ def survey(
     upright faces, (kinds + 3,) [J], and the rest of a `Survey`; springs: `SpringArrays`."""
     along, energies, stretch, summed, met = springs.links, np.zeros(kinds + 3), 0.0, 0.0, 0
     for m in range(len(along.nodes)):
-        change, square, length, _ = links.measure(u, along.nodes, along.offset, along.rest_length, m)
+        change, square, length, _ = links.measure(u, along, m)
         half, e = 0.5 * along.constants[m], change / (np.sqrt(square) + length)
         energies[kind[m]] += half * (e * e)
         if along.offset[m, 2] == 0.0:

@@ -39,7 +39,7 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
         if load_factor != path.load_factor and not factor.negative:
             return state
         for share in DISTURBANCES:  # of a saddle, as a flat sheet that has buckled
-            u = _disturbed(path, problem, state, factor, share)
+            u = _disturbed(problem, state, factor, share)
             found = _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
             if not problem.assembly.natural or not path.factored(path.tangent(found, load_factor)).negative:
                 break
@@ -84,26 +84,21 @@ def _failed(reason: str) -> LoadStepFailed:
     return LoadStepFailed(Status.STEP_LIMIT, reason, 0.0)
 
 
-def _disturbed(
-    path: LatticePath, problem: Problem, state: LatticeState, factor: Factor, share: float
-) -> np.ndarray:
+def _disturbed(problem: Problem, state: LatticeState, factor: Factor, share: float) -> np.ndarray:
     """Displacement beside an unstable equilibrium, moved along a direction of negative curvature.
 
     The move is this share of the layer distance; of its two signs the one of lower energy (if even the
     first).
     """
-    n, load_factor = problem.system.unknowns, state.load_factor
-    blocks = path.tangent(state, load_factor)
+    n, start = problem.system.unknowns, np.random.default_rng(0).standard_normal(problem.system.unknowns)
     inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
-    start = np.random.default_rng(0).standard_normal(n)
-    matrix = problem.system.matrix(blocks)
     try:
-        _, vectors = eigsh(matrix, k=1, sigma=0.0, OPinv=inverse, which="SA", v0=start, tol=1e-4)
+        _, vectors = eigsh(factor.matrix, k=1, sigma=0.0, OPinv=inverse, which="SA", v0=start, tol=1e-4)
     except ArpackNoConvergence:
         raise _failed("no direction of negative curvature found") from None
     move = problem.expand(vectors[:, 0])
     move *= share * problem.assembly.lattice.spacing[2] / np.abs(move).max()
-    return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, load_factor))
+    return min((state.u + move, state.u - move), key=lambda u: problem.potential(u, state.load_factor))
 
 
 def _definite_factor(

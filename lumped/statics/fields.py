@@ -14,6 +14,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
+from lumped.springs import cells
 from lumped.springs.cell_laws import FACE
 from lumped.springs.families import SpringCells
 from sheetbench.answers.solution import FieldMesh
@@ -58,7 +59,7 @@ def field_mesh(
     cell_energy = np.zeros(quads)
     for family in assembly.springs:
         if isinstance(family, SpringCells) and len(family):
-            energy = family.energies(small) / part**2
+            energy = cells.energies(small, family.arrays) / part**2
             if family.law is FACE:
                 energy = _links_by_cell(lattice, family.nodes[:, ::2, 0], energy)  # from corner to corner
             layers = quads // len(energy)

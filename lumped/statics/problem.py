@@ -9,7 +9,7 @@ with it. Displacements and forces are (n, 3) [m], [N].
 
 from __future__ import annotations
 
-from functools import cached_property, partial
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -86,7 +86,8 @@ class Problem(Structure[LatticeState, Residual]):
     factors of blocks (b, 3, 3).
 
     size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`); symmetric: whether
-    all forces have a potential; descends: whether stable equilibria are minima of an energy of the free
+    all forces have a potential; driving: norm of the forces [N] of the natural state on the flat sheet, often
+    the only ones; descends: whether stable equilibria are minima of an energy of the free
     unknowns.
     """
 
@@ -102,7 +103,8 @@ class Problem(Structure[LatticeState, Residual]):
         self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
         self.contacts = [item for item in items if isinstance(item, Contact)]
         self.symmetric = self.conservative = assembly.conservative and loads.conservative
-        self.prestrained = assembly.natural is not None
+        self.prestrained, flat = assembly.natural is not None, np.zeros_like(loads.dead)
+        self.driving = float(np.linalg.norm(assembly.force(flat)[1])) if self.prestrained else 0.0
         coupling, transform = assembly.coupling, constraints.transform
         self.multipliers = 0 if coupling is None else coupling.multipliers
         self.descends = self.symmetric and self.multipliers == 0
@@ -117,6 +119,7 @@ class Problem(Structure[LatticeState, Residual]):
         self._unknowns = typed(Unknowns(constraints.held, self._free, band))
         self._moves = bool(self.prescribed(1.0).any())
         self._iterates = self.descends and self.system.unknowns > ITERATED
+        self.factor = self.system.factor
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Tᵀ f, the force on the free unknowns."""
@@ -127,13 +130,6 @@ class Problem(Structure[LatticeState, Residual]):
         """T q as a displacement."""
         full: np.ndarray = product(self._free, np.ascontiguousarray(unknowns))
         return full.reshape(-1, 3)
-
-    @cached_property
-    def driving(self) -> float:
-        """Norm of the forces [N] of the natural state on the flat sheet, often the only ones."""
-        if not self.prestrained:
-            return 0.0
-        return float(np.linalg.norm(self.assembly.force(np.zeros_like(self.loads.dead))[1]))
 
     def tangent(
         self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None, definite: bool = False
@@ -231,11 +227,11 @@ class Problem(Structure[LatticeState, Residual]):
     def imbalance_floor(self, state: LatticeState) -> float:
         assembly, largest = self.assembly, float(np.abs(state.u).max())
         # relative displacements are differences of u: their rounding, times the stiffness
-        if assembly.coupling is None:
-            links = assembly.rounding * largest * assembly.all_families.link_stiffness_norm
-            return links + sum(item.rounding() for item in self.items)
-        carried = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
-        return float(assembly.rounding * np.linalg.norm(carried))
+        carried = assembly.all_families.link_stiffness * largest
+        if assembly.coupling is not None:
+            carried = carried + assembly.coupling.carried()
+        of_items = sum(item.rounding() for item in self.items)
+        return float(assembly.rounding * np.linalg.norm(carried)) + of_items
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
         moved, lattice = self._moved(state, load_factor), self.assembly.lattice
@@ -323,9 +319,6 @@ class Problem(Structure[LatticeState, Residual]):
 
     def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
         return state._replace(residual=None), 0.0
-
-    def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
-        return self.system.factor(blocks, more)
 
     def iterated(self, blocks: np.ndarray, near: Factor, rows: np.ndarray) -> np.ndarray | None:
         return iterated(self.system.matrix(blocks), near, rows) if self._iterates else None

@@ -79,11 +79,9 @@ def width(columns: Sequence[Part]) -> int:
 def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
     """Rows (n, width) as kind → name → (n, …)."""
     parts: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in columns}
-    first = 0
-    for kind, name, shape in columns:
-        numbers = math.prod(shape)
-        parts[kind][name] = rows[:, first : first + numbers].reshape(len(rows), *shape)
-        first += numbers
+    ends = np.cumsum([math.prod(shape) for _, _, shape in columns])
+    for (kind, name, shape), part in zip(columns, np.split(rows, ends[:-1], axis=1), strict=True):
+        parts[kind][name] = part.reshape(len(rows), *shape)
     return parts
 
 

@@ -159,7 +159,7 @@ class Esdirk(Integrator):
         by, step = 1.0 / (GAMMA * h), EsdirkStep(self.system, state, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
             middle = state.u + 0.5 * h * (state.v + 0.25 * h * state.a)
-            equation = StepEquation(step.in_stage(0), state.time + 0.5 * h, middle, state.v, by * by, by)
+            equation = StepEquation(step.in_stage(0), state.time + 0.5 * h, middle, state.v, (by * by, by))
             self._newton.renew(equation, middle)
         times = step.stages.time
         shifts, turns = self._shifts(times, h)
@@ -189,10 +189,10 @@ class Esdirk(Integrator):
             if len(given.shifts):
                 u, v = u + given.shifts[i], v + given.turns[i]
             system = step.in_stage(i)
-            equation = StepEquation(system, float(stages.time[i]), u + v / c1, v, c2, c1)
+            equation = StepEquation(system, float(stages.time[i]), u + v / c1, v, (c2, c1))
             guess = equation.base_u + np.tensordot(GUESSES[i, :i], stages.a[:i], 1) / c1**2
             stages.u[i] = u = self._newton.solve_equation(equation, guess, tolerance)
-            stages.v[i], stages.a[i] = self._newton.state(equation, u)
+            stages.v[i], stages.a[i] = equation.state(u)
             if system.maxwell is not None:
                 step.memories[i] = system.maxwell.after(u)
             stages.power[i, 0] = self.system.power(step.state(i))

@@ -23,7 +23,6 @@ class GeneralisedAlpha(Integrator):
     """Generalised-α with radius ρ∞; adaptive unless the step is `fixed`."""
 
     name, order, adaptive, options = "generalised-alpha", 2, True, ("radius",)
-    chains = True
     remembered = ("_algorithm", "_before", "_largest")
     control: Controller
 
@@ -85,10 +84,10 @@ class GeneralisedAlpha(Integrator):
         turn = motion.rate(time) - motion.rate(state.time)
         step = step_of(self._rule, h, state.u, state.v, state.a, self._old(state, h))
         base_u, base_v = step.base_u + held, step.base_v + turn
-        equation = StepEquation(system.within(state, h), time, base_u, base_v, step.by_a, step.by_v)
+        equation = StepEquation(system.within(state, h), time, base_u, base_v, (step.by_a, step.by_v))
         try:
             u = self._newton.solve_equation(equation, base_u + state.a / step.by_a)
         except StepFailed:  # after a jump the old acceleration leads nowhere
             u = self._newton.solve_equation(equation, state.u + held + h * state.v)
-        v, a = self._newton.state(equation, u)
+        v, a = equation.state(u)
         return State(time, u, v, a), step.algorithm(a)

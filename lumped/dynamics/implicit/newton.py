@@ -16,7 +16,7 @@ import numpy as np
 
 from lumped.dynamics.implicit.compiled_newton import NewtonLimits, compiled_of, excess, iterate
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
-from lumped.dynamics.system import State, System
+from lumped.dynamics.system import System
 from sheetbench.numerics import banded
 from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.reduced import Factor
@@ -30,15 +30,30 @@ UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
 
 class StepEquation(NamedTuple):
-    """The equation of a step or stage: time t [s], û and v̂ (size, 3), c₂ [1/s²], c₁ [1/s], of a system with
+    """The equation of a step or stage: time t [s], û and v̂ (size, 3), (c₂ [1/s²], c₁ [1/s]), of a system with
     its branches there."""
 
     system: System
     time: float
     base_u: np.ndarray
     base_v: np.ndarray
-    mass_coefficient: float
-    damping_coefficient: float
+    by: tuple[float, float]
+
+    def state(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return v and c₂ (u − û), zero for multipliers."""
+        change = u - self.base_u
+        if self.system.coupling is not None:
+            change = np.where(self.system.placed, change, 0.0)
+        return self.base_v + self.by[1] * change, self.by[0] * change
+
+    def residual(self, u: np.ndarray) -> np.ndarray:
+        """Return inertia and internal less external forces (size, 3) [N]."""
+        v, a = self.state(u)
+        return self.system.momentum(a) - self.system.unbalanced(u, v, self.time)
+
+    def blocks(self, u: np.ndarray) -> np.ndarray:
+        """Return the blocks of its derivative."""
+        return self.system.matrix(u, self.state(u)[0], self.time, *self.by, 1.0)
 
 
 class Newton:
@@ -48,10 +63,6 @@ class Newton:
         self._system, self.tolerance, self._stale = system, tolerance * system.problem.size, stale
         self._factor: Factor | None = None
         self._key: Any = None
-        multipliers = system.coupling.algebraic if system.coupling is not None else np.zeros((1, 3), bool)
-        size = (system.assembly.pattern.size, 3)
-        self.algebraic = multipliers
-        self._placed = ~np.broadcast_to(multipliers, size)  # multipliers carry the rounding of inertia forces
         self._compiled, self._factors = compiled_of(system), np.empty((0, 0))
         self._factored: float | None = None  # c₂ of the compiled iteration's factors, where it has some
         self.made = 0  # corrections of the last step's stages
@@ -67,8 +78,10 @@ class Newton:
         blocks: Callable[[np.ndarray], np.ndarray],
         guess: np.ndarray,
         tolerance: float | None = None,
+        weigh: Callable[[np.ndarray], np.ndarray] = lambda correction: correction,
     ) -> np.ndarray:
-        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve. Raises StepFailed."""
+        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
+        (size, 3) from the solution of the linear system. Raises StepFailed."""
         problem = self._system.problem
         small = self.tolerance if tolerance is None else tolerance
         u, last, fresh = guess, np.inf, False
@@ -77,9 +90,9 @@ class Newton:
         for _ in range(CORRECTIONS):
             if self._factor is None:
                 self._factor, fresh = problem.system.factor(blocks(u)), True
-            correction = problem.expand(self._factor.solve(-problem.reduce(residual(u)), SOLVED))
+            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)), SOLVED)))
             u = u + correction
-            length = float(np.abs(correction[self._placed]).max())
+            length = float(np.abs(correction[self._system.placed]).max())
             if not np.isfinite(length):
                 break
             if length < small or (fresh and 0.5 * last < length < ROUNDED * problem.size):
@@ -92,13 +105,6 @@ class Newton:
         self._factor = None
         raise StepFailed(UNSOLVED)
 
-    def state(self, equation: StepEquation, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """v and c₂ (u − û), zero for multipliers."""
-        change = u - equation.base_u
-        if self._system.coupling is not None:
-            change = np.where(self.algebraic, 0.0, change)
-        return equation.base_v + equation.damping_coefficient * change, equation.mass_coefficient * change
-
     def solve_equation(
         self, equation: StepEquation, guess: np.ndarray, tolerance: float | None = None
     ) -> np.ndarray:
@@ -108,30 +114,17 @@ class Newton:
         found = self._solve_compiled(equation, guess, small)
         if found is not None:
             return found
-        return self.solve(
-            (equation.mass_coefficient, equation.damping_coefficient),
-            lambda u: self._residual(equation, u),
-            lambda u: self._blocks(equation, u),
-            guess,
-            tolerance=small,
-        )
+        return self.solve(equation.by, equation.residual, equation.blocks, guess, small)
 
-    def excess(self, system: System, state: State, by: tuple[float, float]) -> float:
-        """Return the energy [J] that a state has too much by the equation with c₂ and c₁ of a system with its
-        branches there, along stiff directions most: half the work of what it leaves along the correction of
-        that; infinite where no factors kept serve."""
-        if (compiled := self._compiled) is not None and self.near(by[0]):
-            given = system.loads([state.time])[0], compiled.arrays, self._factors
-            return excess(state.u, state.v, state.a, by, *given)
-        unbalanced = system.momentum(state.a) - system.unbalanced(state.u, state.v, state.time)
-        left = system.problem.reduce(unbalanced)
-        factor = self._factor if self._key == by else None
+    def excess(self, equation: StepEquation, u: np.ndarray) -> float:
+        """Return the energy [J] that a state has too much by its equation, along stiff directions most: half
+        the work of what it leaves along the correction of that; infinite where no factors kept serve."""
+        if (compiled := self._compiled) is not None and self.near(equation.by[0]):
+            given = self._system.loads([equation.time])[0], compiled.arrays, self._factors
+            return excess(u, equation.base_u, equation.base_v, equation.by, *given)
+        left = self._system.problem.reduce(equation.residual(u))
+        factor = self._factor if self._key == equation.by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
-
-    def _residual(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
-        """Inertia and internal less external forces (size, 3) [N]."""
-        v, a = self.state(equation, u)
-        return equation.system.momentum(a) - equation.system.unbalanced(u, v, equation.time)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be
@@ -150,7 +143,7 @@ class Newton:
                 return True
             by = step.mass_coefficient, step.damping_coefficient
             base = compiled.base_u, compiled.base_v
-            equation = StepEquation(self._system, float(stages.time[first]), *base, *by)
+            equation = StepEquation(self._system, float(stages.time[first]), *base, by)
             if not self._factorise(equation, stages.u[first]):
                 return False
 
@@ -166,8 +159,8 @@ class Newton:
     def renew(self, equation: StepEquation, u: np.ndarray) -> None:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
         if not self._factorise(equation, u):
-            self._factor = self._system.problem.system.factor(self._blocks(equation, u))
-            self._key = (equation.mass_coefficient, equation.damping_coefficient)
+            self._factor = self._system.problem.system.factor(equation.blocks(u))
+            self._key = equation.by
 
     def _factorise(self, equation: StepEquation, u: np.ndarray) -> bool:
         """Make the compiled iteration's factors at u; False where there is none, or the tangent is not
@@ -175,16 +168,10 @@ class Newton:
         self._factored = None
         if self._compiled is not None:
             band = self._compiled.band
-            self._factors = banded.stored(self._blocks(equation, u), band)
+            self._factors = banded.stored(equation.blocks(u), band)
             if banded.factor(self._factors, len(band.order), band.width):
-                self._factored = equation.mass_coefficient
+                self._factored = equation.by[0]
         return self._factored is not None
-
-    def _blocks(self, equation: StepEquation, u: np.ndarray) -> np.ndarray:
-        v, _ = self.state(equation, u)
-        return equation.system.matrix(
-            u, v, equation.time, equation.mass_coefficient, equation.damping_coefficient, 1.0
-        )
 
     def _solve_compiled(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray | None:
         """u of the equation, None where that is not compiled, or its tangent not positive definite. Raises
@@ -192,9 +179,8 @@ class Newton:
         if (compiled := self._compiled) is None:
             return None
         u, left, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
-        by = equation.mass_coefficient, equation.damping_coefficient
-        given = by, self._system.loads([equation.time])[0], self._limits(small), compiled.arrays
-        while self.near(by[0]) or self._factorise(equation, u):
+        given = equation.by, self._system.loads([equation.time])[0], self._limits(small), compiled.arrays
+        while self.near(equation.by[0]) or self._factorise(equation, u):
             solved, left = iterate(left, u, *base, *given, self._factors)
             if self._solved(solved, left):
                 return u

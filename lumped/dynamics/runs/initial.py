@@ -53,7 +53,7 @@ def _constrained(system: System, u: np.ndarray, a: np.ndarray) -> tuple[np.ndarr
     gradient = coupling.constraint_gradient(u)
     jacobian = gradient.reshape(len(gradient), -1) @ rows_of[:, unknown].toarray()
     weighted = np.linalg.solve(system.reduced_mass[unknown][:, unknown].toarray(), jacobian.T)
-    own = system.contract(a)[unknown]
+    own = system.solve_mass(system.reduce(system.momentum(a)))[unknown]
     multipliers = scipy.linalg.solve(jacobian @ weighted, jacobian @ own, assume_a="pos")
     rows, change = np.zeros(u.size), np.zeros(system.reduced_mass.shape[0])
     rows[3 * masses + order] = multipliers

@@ -9,7 +9,7 @@ from 16 factorisations on looks at 49 (`tests/test_catalogue.py`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -44,8 +44,3 @@ class Limits:
     snap_step: float = 0.01  # in load factor, past the limit point
     factorisations: int = 400
     in_all: int = 1600
-
-    @property
-    def direct(self) -> Limits:
-        """Without a careful second run: of a path that leads to a start only."""
-        return replace(self, careful_after=self.in_all)

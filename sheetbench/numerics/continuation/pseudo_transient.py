@@ -82,7 +82,8 @@ class _Creep(Generic[State, Forces]):
         """The stable equilibrium. Raises StepFailed, SingularMatrixError."""
         while True:
             self._step()
-            residual = self._residual(self.state)
+            forces = self.structure.forces(self.state, self.load_factor)
+            residual = self.structure.imbalance(self.state, forces) / self.size
             if residual > self.nearly:
                 continue
             state = self._equilibrium()
@@ -130,8 +131,7 @@ class _Creep(Generic[State, Forces]):
             self.path.note(self.load_factor, relative, lengths[-1] if lengths else 0.0)
             if not np.isfinite(relative):
                 return None
-            if k == 0:
-                first = relative
+            first = relative if k == 0 else first
             settled = relative <= max(STEP_TOLERANCE * first, ENOUGH)
             if k > 0 and settled and structure.gap(state, self.load_factor) <= self.path.limits.tolerance:
                 return state
@@ -195,10 +195,6 @@ class _Creep(Generic[State, Forces]):
             if self.structure.gap(state, self.load_factor) <= self.path.limits.tolerance:
                 return state
             step = np.zeros_like(step)
-
-    def _residual(self, state: State) -> float:
-        forces = self.structure.forces(state, self.load_factor)
-        return self.structure.imbalance(state, forces) / self.size
 
     def _factor(self, structure: Creeping[State, Forces], state: State) -> Factor:
         """Of the true tangent."""

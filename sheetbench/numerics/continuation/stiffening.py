@@ -76,7 +76,7 @@ def stiffened(
     share = softest(structure)
     while True:  # what leads nowhere is too soft, where nothing else is left
         soften(contacts, share)
-        path.begin(replace(limits.direct, tolerance=LOOSE))
+        path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE))
         last = path.state, 0.0
         ended = trace(path, kept_out)
         path.limits = limits

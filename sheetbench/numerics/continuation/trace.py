@@ -103,16 +103,19 @@ def _traced(
             if reached is None:  # what is left of the path's own serves for snaps
                 path.limit = max(path.limit, path.limits.factorisations)
     while isinstance(ended, LoadStepFailed):
-        tried = ""
-        if settle is not None and path.structure.symmetric and _at_limit_point(path, ended):
-            left_at, doubt = path.load_factor, _doubt(path)
+        tried, allowed = "", path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
+        halted = ended.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
+        if settle is not None and path.structure.symmetric and halted and allowed:
+            left_at, (before, doubt) = path.load_factor, stability(path)
             try:
                 following = _snap(path, inspect, settle, careful)
             except LoadStepFailed as failure:
                 tried = f"; relaxed at a load factor {path.limits.snap_step:g} higher, {failure}"
             else:
                 path.snaps.append(left_at)
-                path.notes.extend(doubt)
+                begin = "" if before is Status.CONVERGED else "unstable "
+                snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {doubt}"
+                path.notes.extend([snapped] if doubt else [])
                 ended = following
                 continue
         ended = _give_up(path, ended, tried)
@@ -218,21 +221,6 @@ def _refine(path: Path[State, Forces]) -> None:
             continue
         path.load_factor = target
         return
-
-
-def _at_limit_point(path: Path[State, Forces], failure: LoadStepFailed) -> bool:
-    """Whether a path that has ended may snap: it has left rest and has factorisations left."""
-    stuck = failure.status is Status.STEP_LIMIT and path.load_factor > 0.0
-    return stuck and path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
-
-
-def _doubt(path: Path[State, Forces]) -> list[str]:
-    """A sentence where a path that is about to snap has not been stable until then."""
-    status, note = stability(path)
-    if not note:
-        return []
-    begin = "" if status is Status.CONVERGED else "unstable "
-    return [f"{begin}before it snapped at load factor {path.load_factor:.4g}: {note}"]
 
 
 def _snap(

@@ -76,7 +76,9 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
         case "missing":
             return f"{key}: missing"
         case "value_error":
-            return f"{key}: {facts['error']}" if key else str(facts["error"])
+            text = str(facts["error"])
+            of_key = text.partition(":")[0] in _keys(nodes)
+            return f"{key}{'.' if of_key else ': '}{text}" if key else text
         case "union_tag_not_found":
             return f"{key}: kind is missing; {_choose('', nodes)}"
         case "union_tag_invalid" if facts["tag"] in _FORMS:

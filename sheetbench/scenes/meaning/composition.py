@@ -164,8 +164,8 @@ def weights(scene: SceneFields) -> tuple[PointLoad | AreaLoad, ...]:
             found.append(PointLoad(at=payload.at, force=(x, y, z), history=scene.gravity.history))
             continue
         area = area_in(scene, payload.where)
-        spread = AreaLoad(force_per_area=(x / area, y / area, z / area), where=payload.where)
-        found.append(spread.replace(history=scene.gravity.history))
+        spread, over = (x / area, y / area, z / area), scene.gravity.history
+        found.append(AreaLoad(force_per_area=spread, where=payload.where, history=over))
     return tuple(found)
 
 

@@ -44,8 +44,7 @@ class Placed(NamedTuple):
 
     def lifted(self, height: np.ndarray) -> np.ndarray:
         """Displacement (k, 3) [m] of what lies at heights (k,) [m] on the directors."""
-        lifted: np.ndarray = self.displacement + height[:, None] * self.director
-        return lifted
+        return np.asarray(self.displacement + height[:, None] * self.director)
 
 
 class TurnedEdge:
@@ -103,8 +102,7 @@ class MovedEdge:
         rotation, rate = self._rotation.at(time), self._rotation.slope(time)
         arms = np.column_stack([points - self._middle, height])
         turning = _cross(_angular_velocity(rotation, rate)) @ (np.eye(3) + _turn(rotation))
-        velocity: np.ndarray = self._displacement.slope(time) + arms @ turning.T
-        return velocity
+        return np.asarray(self._displacement.slope(time) + arms @ turning.T)
 
 
 DrivenEdge = TurnedEdge | MovedEdge
@@ -128,13 +126,9 @@ class Shift(NamedTuple):
 
 def shifts(supports: tuple[AnySupport, ...]) -> list[Shift]:
     """The supports' displacements at the last sample of their motion, as statics take it."""
-    moves = []
-    for name, support in named(supports).items():
-        if support.motion is not None:
-            axes = held_axes(support)
-            last = np.array(support.motion.displacement[-1])[list(axes)]
-            moves.append(Shift(name, axes, last))
-    return moves
+    moving = [(name, s, s.motion) for name, s in named(supports).items() if s.motion is not None]
+    ends = [(name, held_axes(s), np.array(motion.displacement[-1])) for name, s, motion in moving]
+    return [Shift(name, axes, last[list(axes)]) for name, axes, last in ends]
 
 
 def _middle(rod: Curved | Clamped, supports: tuple[AnySupport, ...], sheet: Sheet) -> float:
@@ -155,16 +149,14 @@ def _turn(rotation: np.ndarray) -> np.ndarray:
     """R(θ) − I = sin θ/θ [θ]× + (1 − cos θ)/θ² [θ]×² of rotation vectors (…, 3), (…, 3, 3)."""
     cross = _cross(rotation)
     sine, versine = (c[..., None, None] for c in _coefficients(rotation))
-    turn: np.ndarray = sine * cross + versine * (cross @ cross)
-    return turn
+    return np.asarray(sine * cross + versine * (cross @ cross))
 
 
 def _angular_velocity(rotation: np.ndarray, rate: np.ndarray) -> np.ndarray:
     """ω (3,) [rad/s] of a rotation vector (3,) and its rate."""
     sine, versine = _coefficients(rotation)
     along = (1.0 - sine) / max(rotation @ rotation, np.finfo(float).tiny) * (rotation @ rate)
-    omega: np.ndarray = sine * rate + versine * (_cross(rotation) @ rate) + along * rotation
-    return omega
+    return np.asarray(sine * rate + versine * (_cross(rotation) @ rate) + along * rotation)
 
 
 def _coefficients(rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

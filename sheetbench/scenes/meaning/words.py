@@ -194,10 +194,11 @@ def _payload(payload: Mass, sheet: Sheet) -> str:
 
 def _weight(scene: SceneFields, mass: float) -> str:
     whole = f", of {1e3 * mass:.3g} g in all" if scene.masses else ""
-    if scene.gravity is None:
+    if (gravity := scene.gravity) is None:
         return f"none: weightless{whole}"
-    force = [mass * component for component in scene.gravity.acceleration]
-    return f"{_vector(force, 'N')}{whole}{_over_time(scene.gravity.history)}"
+    return (
+        f"{_vector([mass * part for part in gravity.acceleration], 'N')}{whole}{_over_time(gravity.history)}"
+    )
 
 
 def _support(support: AnySupport, sheet: Sheet) -> str:

@@ -51,7 +51,7 @@ Graded = float | Grading
 
 def remark(grading: Graded) -> str:
     """What a title adds of a grading: ", grading 0.3", ", lines on shapes", nothing of equal cells."""
-    by = grading.by if isinstance(grading, Grading) else grading
+    by = amount(grading)
     return ", lines on shapes" if grading and not by else f", grading {grading:g}" if grading else ""
 
 

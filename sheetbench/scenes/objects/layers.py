@@ -51,12 +51,9 @@ class Layer(Fibres):
 def plies(layers: tuple[Layer, ...], material: Material) -> tuple[Ply, ...]:
     """Return the plies of a sheet's layers. Heights are from the plane in which a pull does not bend the
     sheet: its middle, but of a laminate that is not symmetric about that."""
-    ends = np.cumsum([0.0, *(layer.thickness for layer in layers)])
-    base = material.ply
-    found = tuple(
-        base._replace(**{**in_own_axes(layer.own), "low": low, "high": high})
-        for layer, (low, high) in zip(layers, pairwise((ends / ends[-1] - 0.5).tolist()), strict=True)
-    )
+    ends, base = np.cumsum([0.0, *(layer.thickness for layer in layers)]), material.ply
+    within = zip(layers, pairwise((ends / ends[-1] - 0.5).tolist()), strict=True)
+    found = tuple(base._replace(low=a, high=b, **in_own_axes(layer.own)) for layer, (a, b) in within)
     if not unlike_its_mirror(found):
         return found
     stretching, mixed, _ = resultants(found)

@@ -138,12 +138,8 @@ class Frozen(BaseModel, frozen=True):
         names = [name for name, field in type(self).model_fields.items() if not field.kw_only]
         if len(values) > len(names):
             raise TypeError(f"{type(self).__name__} takes {len(names)} values by place: {', '.join(names)}")
-        for name, value in zip(names, values, strict=False):
-            if name in keys:
-                raise TypeError(f"{type(self).__name__}: {name} is given twice")
-            keys[name] = value
         try:
-            super().__init__(**keys)
+            super().__init__(**dict(zip(names, values, strict=False)), **keys)
         except ValidationError as error:
             raise SceneError(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
 

@@ -85,16 +85,12 @@ class Shape(Frozen):
     def contains(self, points: np.ndarray) -> np.ndarray:
         """Whether plan points (…, 2) [m] lie inside or on its boundary."""
         x, y = np.moveaxis(np.asarray(points, dtype=float), -1, 0)
-        if self.rectangle is not None:
-            (left, right), (low, high) = self.rectangle.x, self.rectangle.y
-            return (left <= x) & (x <= right) & (low <= y) & (y <= high)
         if self.circle is not None:
             centre = self.circle.centre
             return np.hypot(x - centre[0], y - centre[1]) <= self.circle.radius
         import shapely
 
-        inside: np.ndarray = shapely.intersects_xy(self.area, x, y)
-        return inside
+        return np.asarray(shapely.intersects_xy(self.area, x, y))
 
     def in_words(self) -> str:
         """Kind and place, in millimetres."""

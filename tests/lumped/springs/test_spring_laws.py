@@ -102,18 +102,18 @@ def test_forces_of_cells_of_any_rest_shape_are_the_energys_gradient(name, natura
     """Whatever the angle between a cell's sides at rest, and where that is not free of stress."""
     sides = SIDES[name]
     area = np.array([np.linalg.norm(np.cross(*sides))])
-    q = of_stiffness(STIFFNESS, sides[None], area)
+    q, rest = of_stiffness(STIFFNESS, sides[None], area), np.array([area, *np.zeros((3, 1))])
     if natural:
         grown = sides @ np.array([[1.1, 0.05, 0.0], [0.05, 0.9, 0.0], [0.0, 0.0, 1.0]])
         first, second = sides[[0, 1, 0]], sides[[0, 1, 1]]
         change = (grown[[0, 1, 0]] * grown[[0, 1, 1]] - first * second).sum(axis=1)
-        area = np.array([[np.linalg.norm(np.cross(*grown))], *change[:, None]])
+        rest = np.array([[np.linalg.norm(np.cross(*grown))], *change[:, None]])
     nodes = np.arange(4).reshape(1, 4, 1)
     rng = np.random.default_rng(1)
     u = 0.1 * rng.standard_normal((4, 3))
     force = np.zeros_like(u)
     slots = np.arange(16, dtype=np.int32).reshape(1, 4, 4)
-    cell = CellArrays(nodes, sides[None], area, AreaAndStrains(q), slots)
+    cell = CellArrays(nodes, sides[None], rest, AreaAndStrains(q), slots)
     cells.add_forces(u, cell, force)
 
     def energy(v):

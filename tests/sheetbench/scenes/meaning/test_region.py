@@ -73,7 +73,7 @@ def test_what_a_shape_holds_stops_motions():
 @pytest.mark.parametrize(
     ("drawn", "said"),
     [
-        ({"outline": [(0, 0), (0.2, 0.1), (0.2, 0.0), (0.0, 0.1)]}, "sheet: outline: its sides cross"),
+        ({"outline": [(0, 0), (0.2, 0.1), (0.2, 0.0), (0.0, 0.1)]}, "sheet.outline: its sides cross"),
         ({"outline": [(0, 0), (0.1, 0.0), (0.1, 0.1)]}, "outline: .* 0 ≤ x ≤ 0.1 m; .* length_x = 0.2 m"),
         ({"cutout": [{"shape": CORNER}]}, "cutout 1.shape: rectangle .*: no part of it is on what is left"),
         ({"cutout": [HOLE, HOLE]}, "cutout 2.shape: circle .* no part"),

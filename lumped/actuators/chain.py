@@ -104,10 +104,17 @@ class BoundChain:
         """Return the joints' energy [J] and the gradient of energy + σ ds λ·Φ, (rows, 3) [N]."""
         at, springs, offset = self.frames.at(y), *self._joint_springs(drive)
         stored, by_measure, _ = joints.derivatives(at.measures, *springs)
-        out, count = np.zeros((self.rows, 3)), self.frames.coordinates
-        out[:count] = np.tensordot(self._weights(y, by_measure), self.frames.gradient(at.slopes), axes=1)
-        out[count:].ravel()[: len(at.residuals)] = self._scale * at.residuals
-        return float(stored.sum()) + offset, out
+        return float(stored.sum()) + offset, self._gradient(y, at.slopes, at.residuals, by_measure)
+
+    def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
+        """Discrete gradient: constraint gradients at the mean, where their differences are exact.
+
+        The multiplier rows hold the constraints at the end; their multipliers are the end's.
+        """
+        before, middle, after = (self.frames.at(y) for y in (start, 0.5 * (start + end), end))
+        springs, _ = self._joint_springs(drive)
+        by_measure = joints.average_gradient(before.measures, after.measures, *springs)
+        return self._gradient(end, middle.slopes, after.residuals, by_measure)
 
     def tangent(self, y: np.ndarray, drive: Drive) -> np.ndarray:
         """Return joint stiffness, constraint gradients and both curvatures, (rows, 3, rows, 3) [N/m]."""
@@ -213,6 +220,14 @@ class BoundChain:
         """What the energy + σ ds λ·Φ changes with every quantity."""
         multipliers = y[self.frames.coordinates :].ravel()[: self.frames.constraints]
         return np.concatenate([self._scale * multipliers, by_measure.ravel()])
+
+    def _gradient(
+        self, y: np.ndarray, slopes: np.ndarray, residuals: np.ndarray, by_measure: np.ndarray
+    ) -> np.ndarray:
+        out, count = np.zeros((self.rows, 3)), self.frames.coordinates
+        out[:count] = np.tensordot(self._weights(y, by_measure), self.frames.gradient(slopes), axes=1)
+        out[count:].ravel()[: len(residuals)] = self._scale * residuals
+        return out
 
     def _angle_gradient(self, y: np.ndarray) -> np.ndarray:
         """Derivatives (j, 2, 3 coordinates) of the joints' angles by the rows."""

@@ -126,6 +126,11 @@ class Coupling:
             force[body.place] += gradient
         return energy
 
+    def add_average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive, force: np.ndarray) -> None:
+        """Add the energy-conserving average of the internal force between two displacements."""
+        for body in self.bodies:
+            force[body.place] += body.average_force(start[body.place], end[body.place], drive)
+
     def add_tangent(
         self,
         u: np.ndarray,

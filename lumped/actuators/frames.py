@@ -8,8 +8,9 @@ lengths), then the multipliers, three a row. Everything the chain needs is then 
     joints      plane "normal": b·t' = b·n' = 0;  "inplane": n·t' = n·b' = 0;  "spatial": n·b' = b·n'
     measures    n·t', b·t', t·t' of each joint (the one a plane joint holds at zero is left out)
 
-The mass matrix is constant, and a mass offset from a segment is a constant linear map of its rows. A held
-base is a frame that does not move.
+The mass matrix is constant, a mass offset from a segment is a constant linear map of its rows, and mean
+values give differences exactly, which the conserving integrator needs. A held base is a frame that does not
+move.
 
 An end may be held at a corner whose director n_c is held too: a row n_c (times ds) a held end, before the
 multipliers, and a joint of half length (but for "inplane") between n_c and the end's segment,

@@ -10,7 +10,6 @@ import numpy as np
 
 from lumped.dynamics.explicit.step_limit import StepLimit
 from lumped.dynamics.system import State, System
-from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, MotionMethod, StepFailed
 
 __all__ = ["Advance", "Integrator", "LatticeSamples", "StepFailed"]
@@ -46,9 +45,8 @@ class Integrator(MotionMethod[State]):
 
     step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
     unless it is made `fixed`; explicit: whether its steps have a limit of stability; options: names of
-    what else the user may choose; chains: whether it takes their constraints. Steps of one length end at
-    times that lie farther from each other than that: a table with more samples than there are steps has no
-    corner to step onto.
+    what else the user may choose. Steps of one length end at times that lie farther from each other than
+    that: a table with more samples than there are steps has no corner to step onto.
     """
 
     name: ClassVar[str]
@@ -56,21 +54,13 @@ class Integrator(MotionMethod[State]):
     adaptive: ClassVar[bool] = False
     explicit: ClassVar[bool] = False
     options: ClassVar[tuple[str, ...]] = ()
-    chains: ClassVar[bool] = False
     state = State
 
     def __init__(self, system: System, step: float, fixed: bool = True):
-        self.require_no_chains(system)
         self.system, self.step, self.adapts = system, step, not fixed
         gaps = np.diff(system.kinks, prepend=-np.inf, append=np.inf)
         apart = np.minimum(gaps[:-1], gaps[1:])[: len(system.kinks)]
         self.kinks = system.kinks if self.adapts else system.kinks[apart > step]
-
-    @classmethod
-    def require_no_chains(cls, system: System) -> None:
-        """Raise BadInput for chains, where it takes none."""
-        if system.constrained and not cls.chains:
-            raise BadInput(f"integrator = {cls.name!r}: does not take chains; choose another integrator")
 
     @classmethod
     def default_step(cls, period: Callable[[], float], limit: StepLimit | None) -> float:

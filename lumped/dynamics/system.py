@@ -177,6 +177,8 @@ class System:
         force = self.assembly.at(time=time).average_force(start.u, end)
         if self.maxwell is not None and start.memory is not None:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
+        if self.coupling is not None:
+            self.coupling.add_average_force(start.u, end, self.drive(time), force)
         since, drive = self.ends(start, time)
         for item in self.items:
             item.add_force((end, drive), force, since)

@@ -66,10 +66,6 @@ class Factor:
         """The matrix, both triangles."""
         return self.given() if callable(self.given) else self.given
 
-    @cached_property
-    def _largest(self) -> float:
-        return _largest(self.matrix)
-
     def negative_real(self) -> int | None:
         """Real eigenvalues below zero of an unsymmetric matrix (`stability`), among those nearest to zero;
         None if they are not found, or the determinant's sign tells that there are others."""
@@ -83,23 +79,13 @@ class Factor:
         return count if odd_below_zero(self.matrix) == bool(count % 2) else None
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """x (n,) with A x = b, refined once where its backward error exceeds `enough`. Raises
-        SingularMatrixError if the residual stays large."""
-        x = self.solve_unrefined(b)
-        if self.backward_error <= enough and isfinite(x @ x):
-            return x
-        left, error = self._backward(x, b)
-        if not error <= enough:  # also catches nan
-            x = x + self.solve_unrefined(left)
-            left, error = self._backward(x, b)
-        return checked(x, error)
-
-    def _backward(self, x: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
-        """b − A x (n,), and how large it is relative to ‖A‖‖x‖ + ‖b‖ (largest entries)."""
-        left = b - self.matrix @ x
-        size = self._largest * np.abs(x).max(initial=0.0) + np.abs(b).max(initial=0.0)
-        gap = np.abs(left).max(initial=0.0)
-        return left, float(gap / size) if gap else 0.0
+        """x (n,) with A x = b, corrected (`saddle_point`) unless its backward error is known to be `enough`.
+        Raises SingularMatrixError if the residual stays large."""
+        if self.backward_error <= enough:
+            x = self.solve_unrefined(b)
+            if isfinite(x @ x):
+                return x
+        return checked(*minimal_residual(self.matrix, self.solve_unrefined, b, max(enough, ROUNDED)))
 
 
 @dataclass(eq=False)
@@ -177,7 +163,7 @@ class DirectSolver:
         return part
 
     def _by_library(self, matrix: Matrix, more: Count) -> Factor:
-        if not np.isfinite(_largest(matrix)):
+        if not np.isfinite(matrix.data).all():
             raise SingularMatrixError("an entry of the matrix is not finite")
         # the rows of a symmetric matrix are its columns
         columns = sp.csc_array(matrix.T if self.symmetric and matrix.format == "csr" else matrix)
@@ -203,11 +189,6 @@ def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | 
     preconditioner = LinearOperator((n, n), matvec=near.solve_unrefined, dtype=float)
     x, failed = cg(matrix, b, rtol=ITERATION_ACCURACY, maxiter=ITERATIONS, M=preconditioner)
     return None if failed or not np.isfinite(x).all() else x
-
-
-def _largest(matrix: Matrix) -> float:
-    """Of the entries' magnitudes; nan or infinite where one is."""
-    return float(max(matrix.data.max(initial=0.0), -matrix.data.min(initial=0.0)))
 
 
 def _superlu(matrix: Matrix, columns: sp.csc_array) -> Factor:

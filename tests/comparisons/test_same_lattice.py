@@ -14,7 +14,7 @@ from comparisons.live import server
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
-from comparisons.sweep import solved, task
+from comparisons.sweep import campaign, task
 from comparisons.sweep.campaign import function
 from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.scenes import SpringSet
@@ -50,7 +50,7 @@ def carried_out(runs, *_, **__):
 def caught(monkeypatch, tmp_path):
     for name in CONSUMERS:
         monkeypatch.setattr(lumped, name, used)
-    monkeypatch.setattr(solved, "carry_out", carried_out)
+    monkeypatch.setattr(campaign, "carry_out", carried_out)
     monkeypatch.setattr(lumped, "shortest_period", lambda *_: 1.0)
     monkeypatch.setattr(lumped, "explicit_limit", lambda *_: 1.0)
     for module in (solvers, task):

@@ -23,7 +23,13 @@ from lumped.dynamics.explicit.step_limit import StepLimit, step_limit
 from lumped.dynamics.integrator import Integrator
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import work
+from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, StepFailed
+
+
+def _require_no_chains(system: System) -> None:
+    if system.constrained:
+        raise BadInput("integrator = 'verlet': does not take chains; choose another integrator")
 
 
 class Verlet(Integrator):
@@ -33,6 +39,7 @@ class Verlet(Integrator):
 
     def __init__(self, system: System, step: float):
         super().__init__(system, step)
+        _require_no_chains(system)
         one_by_one = not system.packed or system.items or system.damping.drag.coefficient > 0.0
         self._flat = None if one_by_one or system.shared_mass else FlatSystem(system)
         if self._flat is not None:
@@ -41,7 +48,7 @@ class Verlet(Integrator):
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit:
         """The springs' and the dampers' limit of stability."""
-        cls.require_no_chains(system)
+        _require_no_chains(system)
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:

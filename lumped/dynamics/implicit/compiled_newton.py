@@ -139,18 +139,15 @@ def correct(
 @njit(cache=True)
 def excess(
     u: np.ndarray,
-    v: np.ndarray,
-    a: np.ndarray,
+    base_u: np.ndarray,
+    base_v: np.ndarray,
     by: tuple[float, float],
     external: np.ndarray,
     arrays: Arrays,
     factors: np.ndarray,
 ) -> float:
-    """Return half the work [J] of what a state (n, 3) leaves of the equation along the correction of that."""
-    corrected, base_u, base_v, work = u.copy(), arrays.base_u, arrays.base_v, 0.0
-    for i in range(len(u)):
-        for q in range(3):
-            base_u[i, q], base_v[i, q] = u[i, q] - a[i, q] / by[0], v[i, q] - a[i, q] / by[1]
+    """Return half the work [J] of what u (n, 3) leaves of the equation along the correction of that."""
+    corrected, work = u.copy(), 0.0
     correct(corrected, base_u, base_v, by, external, arrays, factors)
     for i in range(len(u)):
         for q in range(3):

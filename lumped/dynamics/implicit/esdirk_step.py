@@ -89,8 +89,7 @@ class EsdirkStep:
             return StepEquation(inside[i], float(times[i]), *base, (c1**2, c1))
 
         i = int(np.abs(theta - 0.5).argmin())
-        middle = State(float(times[i]), u[i], v[i], a[i])
-        if newton.excess(inside[i], middle, (c1**2, c1)) > enough:
+        if newton.excess(equation(i), u[i]) > enough:
             for i in range(within):
                 try:
                     found = newton.solve_equation(equation(i), u[i], tolerance)

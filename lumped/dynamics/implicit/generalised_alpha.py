@@ -23,7 +23,6 @@ class GeneralisedAlpha(Integrator):
     """Generalised-α with radius ρ∞; adaptive unless the step is `fixed`."""
 
     name, order, adaptive, options = "generalised-alpha", 2, True, ("radius",)
-    chains = True
     remembered = ("_algorithm", "_before", "_largest")
     control: Controller
 

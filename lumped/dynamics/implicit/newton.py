@@ -16,7 +16,7 @@ import numpy as np
 
 from lumped.dynamics.implicit.compiled_newton import NewtonLimits, compiled_of, excess, iterate
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
-from lumped.dynamics.system import State, System
+from lumped.dynamics.system import System
 from sheetbench.numerics import banded
 from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.reduced import Factor
@@ -78,8 +78,10 @@ class Newton:
         blocks: Callable[[np.ndarray], np.ndarray],
         guess: np.ndarray,
         tolerance: float | None = None,
+        weigh: Callable[[np.ndarray], np.ndarray] = lambda correction: correction,
     ) -> np.ndarray:
-        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve. Raises StepFailed."""
+        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
+        (size, 3) from the solution of the linear system. Raises StepFailed."""
         problem = self._system.problem
         small = self.tolerance if tolerance is None else tolerance
         u, last, fresh = guess, np.inf, False
@@ -88,7 +90,7 @@ class Newton:
         for _ in range(CORRECTIONS):
             if self._factor is None:
                 self._factor, fresh = problem.system.factor(blocks(u)), True
-            correction = problem.expand(self._factor.solve(-problem.reduce(residual(u)), SOLVED))
+            correction = weigh(problem.expand(self._factor.solve(-problem.reduce(residual(u)), SOLVED)))
             u = u + correction
             length = float(np.abs(correction[self._system.placed]).max())
             if not np.isfinite(length):
@@ -114,16 +116,14 @@ class Newton:
             return found
         return self.solve(equation.by, equation.residual, equation.blocks, guess, small)
 
-    def excess(self, system: System, state: State, by: tuple[float, float]) -> float:
-        """Return the energy [J] that a state has too much by the equation with c₂ and c₁ of a system with its
-        branches there, along stiff directions most: half the work of what it leaves along the correction of
-        that; infinite where no factors kept serve."""
-        if (compiled := self._compiled) is not None and self.near(by[0]):
-            given = system.loads([state.time])[0], compiled.arrays, self._factors
-            return excess(state.u, state.v, state.a, by, *given)
-        unbalanced = system.momentum(state.a) - system.unbalanced(state.u, state.v, state.time)
-        left = system.problem.reduce(unbalanced)
-        factor = self._factor if self._key == by else None
+    def excess(self, equation: StepEquation, u: np.ndarray) -> float:
+        """Return the energy [J] that a state has too much by its equation, along stiff directions most: half
+        the work of what it leaves along the correction of that; infinite where no factors kept serve."""
+        if (compiled := self._compiled) is not None and self.near(equation.by[0]):
+            given = self._system.loads([equation.time])[0], compiled.arrays, self._factors
+            return excess(u, equation.base_u, equation.base_v, equation.by, *given)
+        left = self._system.problem.reduce(equation.residual(u))
+        factor = self._factor if self._key == equation.by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:

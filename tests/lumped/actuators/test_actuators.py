@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 import lumped
 from lumped.actuators import Drive
 from lumped.actuators.chain import BoundChain
-from lumped.dynamics.implicit.generalised_alpha import GeneralisedAlpha
+from lumped.dynamics import INTEGRATORS
 from lumped.lattice import build
 from sheetbench.numerics.saddle_point import CORRECTIONS, minimal_residual
 from sheetbench.scenes import Chain, Sheet
@@ -126,17 +126,38 @@ def test_weight_and_inertia_of_the_pair_are_those_of_two_rods(segments):
         assert np.sum(turned * (chain.mass @ turned)) == pytest.approx(inertia, rel=1e-12)
 
 
-def test_a_free_sheet_with_the_pair_falls_without_bending():
+@pytest.mark.parametrize("name", ["generalised-alpha", "midpoint"])
+def test_a_free_sheet_with_the_pair_falls_without_bending(name):
     equations, rest = system(make_scene(supports=[], actuators=PAIR), n=4)
     chain = equations.coupling.bodies[0]
     masses, points = equations.assembly.lattice.mass_count, chain.frames.points
-    states, _ = run(GeneralisedAlpha(equations, 1e-3), rest, 1e-3, 50)
+    states, _ = run(INTEGRATORS[name](equations, 1e-3), rest, 1e-3, 50)
     fall = -0.5 * 9.81 * states[-1].time ** 2
     expected = np.zeros((masses + chain.frames.coordinates, 3))
     expected[: masses + points, 2] = fall  # every mass and point; the directors stay as they are
     moved = states[-1].u[: len(expected)]
-    # it is exact for a constant acceleration
+    # every integrator is exact for a constant acceleration
     assert_allclose(moved, expected, atol=1e-9 * abs(fall))
+
+
+def test_the_pair_keeps_momentum():
+    equations, rest = system(make_scene(gravity=False, supports=[], actuators=PAIR), n=4)
+    chain = equations.coupling.bodies[0]
+    masses = equations.assembly.lattice.mass_count
+    points, count = chain.frames.points, chain.frames.coordinates
+    x = np.concatenate([equations.assembly.lattice.positions, chain.frames.rest])
+    arms = x[: masses + points]  # what translates; the rest are directors, which only turn
+    v = np.zeros_like(rest.u)
+    v[: masses + points] = np.array([0.1, 0.2, -0.3]) + np.cross([3.0, -2.0, 5.0], arms)
+    v[masses + points : masses + count] = np.cross([3.0, -2.0, 5.0], x[masses + points :])
+    start = type(rest)(0.0, rest.u, v, equations.accelerate(equations.unbalanced(rest.u, v, 0.0)))
+    states, _ = run(INTEGRATORS["midpoint"](equations, 1e-3), start, 1e-3, 100)
+    momenta = [(equations.mass @ state.v.ravel()).reshape(-1, 3) for state in states]
+    linear = np.array([p[: masses + points].sum(axis=0) for p in momenta])
+    those = slice(masses + count)
+    turning = [np.cross(x + s.u[those], p[those]) for s, p in zip(states, momenta, strict=True)]
+    for kept in (linear, np.sum(turning, axis=1)):
+        assert np.abs(kept - kept[0]).max() < 1e-8 * np.abs(kept[0]).max()
 
 
 def test_nearly_dependent_constraints_take_a_few_corrections():

@@ -45,8 +45,7 @@ FALLING = make_scene("one-edge-clamped").replace(obstacles=(Plane(position=(0.0,
 BENDING = SETTLING.replace(gravity=SETTLING.gravity.replace(history=BENT), air=Air(drag=1.2))
 RUNS = [  # scene, duration with two checkpoints [s], integrator of the lattice or step of the shell
     *((of(), 0.025, name) for name in INTEGRATORS for of in (moved, relaxing)),
-    *((of(CHAIN, loads=()), 0.025, "generalised-alpha") for of in (moved, relaxing)),
-    *((of(CHAIN), 0.025, "generalised-alpha") for of in (moved, relaxing)),
+    *((of(CHAIN, loads=loads), 0.025, "midpoint") for loads in ((), (PULSE,)) for of in (moved, relaxing)),
     *((FALLING, 0.06, name) for name in ("esdirk", "verlet")),
     *((BENDING, 0.07, step) for step in (None, 1e-3)),
 ]

@@ -86,13 +86,6 @@ def elongation(change: float, square: float, rest_length: float, k: float) -> Fo
 
 
 @inner(error_model="numpy")
-def mean_elongation(l0: float, l1: float, e0: float, e1: float, k: float) -> float:
-    """(W(g₁) − W(g₀))/(g₁ − g₀) = ½ k (e₀ + e₁)/(l₀ + l₁): the stress whose work over a step is the energy
-    stored (Simo and Tarnow 1992, Gonzalez 1996)."""
-    return 0.5 * k * (e0 + e1) / (l0 + l1)
-
-
-@inner(error_model="numpy")
 def times_six(d: Constants, x: Three) -> Three:
     """A symmetric matrix times a vector."""
     return (

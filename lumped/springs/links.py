@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.springs.laws import Branches, Vector, dot, elongation, mean_elongation, times
+from lumped.springs.laws import Branches, Vector, dot, elongation, times
 from sheetbench.numerics.typed import inner, njit
 
 
@@ -118,13 +118,13 @@ def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: boo
 @njit(cache=True, error_model="numpy")
 def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, force: np.ndarray) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
-    of the mean stress on the mean r, since the change of g is 2 r̄·Δr."""
+    of the mean stress on the mean r, as δg is 2 r̄·Δr (Simo and Tarnow 1992, Gonzalez 1996)."""
     for m in range(len(links.nodes)):
         change0, square0, length, r0 = measure(start, links, m)
         change1, square1, _, r1 = measure(end, links, m)
         l0, l1 = np.sqrt(square0), np.sqrt(square1)
         e0, e1 = change0 / (l0 + length), change1 / (l1 + length)
-        stress = mean_elongation(l0, l1, e0, e1, links.constants[m])
+        stress = 0.5 * links.constants[m] * (e0 + e1) / (l0 + l1)  # (W₁ − W₀)/(g₁ − g₀)
         pull(links.nodes, m, stress, (r0[0] + r1[0], r0[1] + r1[1], r0[2] + r1[2]), force)
 
 

@@ -21,9 +21,8 @@ from sheetbench.scenes.objects.material import WORDS
 
 MODELS = tuple(REFERENCES)
 
-_MOTION = "fem_reference.motion.simulation"
 _LATER = {"buckling": "fem_reference.linear_buckling", "modes": "fem_reference.vibration"}
-_LATER |= {"simulate": _MOTION, "require_moving": _MOTION}
+_LATER |= dict.fromkeys(("simulate", "require_moving"), "fem_reference.motion.simulation")
 
 __all__ = ["MODELS", "buckling", "check", "modes", "options", "require_moving", "simulate", "solve"]
 
@@ -76,8 +75,7 @@ def check(model: str, requested: Mapping[str, Any]) -> None:
 
 def options(model: str) -> dict[str, Any]:
     """A reference model's own options with their defaults. Raises BadInput for an unknown model."""
-    if model not in MODELS:
-        raise BadInput(f"model = {model!r}: known are {', '.join(MODELS)}")
+    require_choice("model", model, MODELS)
     from fem_reference.sheets import SHEETS
 
     _, _, *own = signature(SHEETS[model]).parameters.values()  # behind scene and elements

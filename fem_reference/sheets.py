@@ -15,7 +15,7 @@ from fem_reference.surface.borders import borders_of, has_lines
 from fem_reference.surface.materials import Section
 from fem_reference.surface.mesh import Elements, mesh_of
 from sheetbench.choices import STRAIN_LAW
-from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.errors import NoEquilibrium, require_choice
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
@@ -88,8 +88,7 @@ def solid(
     """
     from fem_reference.solid.discrete import DiscreteSolid
 
-    if grading not in GRADINGS:
-        raise BadInput(f"grading = {grading!r}: known are {', '.join(GRADINGS)}")
+    require_choice("grading", grading, GRADINGS)
     mesh = mesh_of(scene, elements, graded=grading == "edges" and has_lines(scene))
     made = DiscreteSolid(mesh, scene, layers, law, clamp, moving)
     layers = made.columns.layers

@@ -37,7 +37,7 @@ from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
 from sheetbench.clock import now
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
@@ -89,8 +89,7 @@ def modes(
     >>> fem_reference.modes(load("one-edge-clamped"), "plate", elements=4, count=2).frequencies.round(1)
     array([2.7, 6.1])
     """
-    if model not in SHEETS:
-        raise BadInput(f"model = {model!r}: known are {', '.join(SHEETS)}")
+    require_choice("model", model, SHEETS)
     scene = scene_of(scene)
     if about == "deformed":
         require_static(scene)

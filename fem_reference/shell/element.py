@@ -169,20 +169,12 @@ def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
     return np.asarray((moduli @ strain[..., None])[..., 0])
 
 
-def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What makes Cartesian strains [xx, yy, 2xy] at the Gauss points of the sampled membrane and bending
-    ones, (m, 9, 3, 21) each, and [xz, yz] of the shear ones, (m, 9, 2, 12), of elements with nodes (m, 9, 2).
-    """
-    _, in_plane, bending, slanted = _geometry(nodes)
-    return in_plane, bending, slanted
-
-
 @kept(last=4, most=1 << 16)
 def built(
     nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""
-    areas, stretching, bent, slanted = _geometry(nodes)
+    stretching, bent, slanted, areas = cartesian(nodes)
     stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
     stiffness[:, MEMBRANE, MEMBRANE] = integrated(stretching, membrane, areas)
     stiffness[:, BENDING, BENDING] = integrated(bent, bending, areas)
@@ -198,9 +190,10 @@ def upright(nodes: np.ndarray) -> np.ndarray:
 
 
 @kept(last=4, most=1 << 16)
-def _geometry(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Areas w |det J| (m, 9) [m²], and what makes Cartesian membrane, bending and shear strains of the
-    sampled ones. Raises BadInput if an element is inverted."""
+def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """What makes Cartesian strains [xx, yy, 2xy] at the Gauss points of the sampled membrane and bending
+    ones, (m, 9, 3, 21) each, and [xz, yz] of the shear ones, (m, 9, 2, 12), of elements with nodes (m, 9, 2);
+    areas w |det J| (m, 9) [m²]. Raises BadInput if an element is inverted."""
     jacobian = jacobians(nodes, AT_GAUSS[1])
     # A side along an axis has no slant, not one of rounding: D couples neither rr nor ss with rs then.
     jacobian[np.abs(jacobian) < ROUNDED * np.abs(jacobian).max(axis=(1, 2, 3), keepdims=True)] = 0.0
@@ -217,7 +210,7 @@ def _geometry(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np
     share = areas / areas.sum(axis=1, keepdims=True)
     mean_lost = np.einsum("eg,ega,gk->eak", share, pull[..., 2], np.eye(9) - rs)
     membrane[..., 2 * len(rr.T) :] += mean_lost[:, None]
-    return areas, membrane, bending, _spread(inverse.swapaxes(2, 3), rr, ss)
+    return membrane, bending, _spread(inverse.swapaxes(2, 3), rr, ss), areas
 
 
 def _spread(pull: np.ndarray, *onto: np.ndarray) -> np.ndarray:

@@ -47,7 +47,7 @@ class HyperelasticElement(Element):
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
         linear, half = built(nodes, *section_of(material, thickness)), 0.5 * thickness
-        return cls(*linear, law, material, *cartesian(nodes), half * _LEVELS, half * _SHARES)
+        return cls(*linear, law, material, *cartesian(nodes)[:3], half * _LEVELS, half * _SHARES)
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s (m, 54), conjugate to the sampled strains."""

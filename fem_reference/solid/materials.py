@@ -82,7 +82,8 @@ def _green_distortion(material: Material | Constants, strain: np.ndarray) -> Tri
 
 
 def _green_volume(strain: np.ndarray) -> Triad:
-    return Triad(strain @ _TRACE, _everywhere(_TRACE, strain), _everywhere(np.zeros((6, 6)), strain))
+    none = np.broadcast_to(0.0, (*strain.shape, 6))
+    return Triad(strain @ _TRACE, np.broadcast_to(_TRACE, strain.shape), none)
 
 
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
@@ -108,10 +109,6 @@ def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:
     )
     tangent = 4.0 * (second + c01)[..., None, None] * np.outer(_TRACE, _TRACE)
     return Triad(value, stress, tangent - 2.0 * c01 * _DOUBLE - at_rest * log.second)
-
-
-def _everywhere(constant: np.ndarray, strain: np.ndarray) -> np.ndarray:
-    return np.broadcast_to(constant, strain.shape[:-1] + constant.shape)
 
 
 def _rubber(energy: Callable[[Material], Energy]) -> SolidLaw:

@@ -33,7 +33,7 @@ from fem_reference.solid.mesh import Columns
 from fem_reference.surface import supports
 from fem_reference.surface.rod import Rod, hold_bases
 from fem_reference.surface.supports import Supports
-from sheetbench.errors import BadInput
+from sheetbench.errors import require_choice
 from sheetbench.scenes import Scene, Symmetric, holds_director
 from sheetbench.scenes.objects.supports import named
 
@@ -97,8 +97,7 @@ def applied(matrices: np.ndarray, nodal: np.ndarray) -> np.ndarray:
 
 def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = ()) -> ColumnSupports:
     """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
-    if clamp not in CLAMPS:
-        raise BadInput(f"clamp = {clamp!r}: known are {', '.join(CLAMPS)}")
+    require_choice("clamp", clamp, CLAMPS)
     line = hold_bases(supports.of_scene(scene, columns.plan), rods)
     kinds, edges = named(scene.supports), {}
     none = np.zeros(columns.positions.shape, dtype=bool)

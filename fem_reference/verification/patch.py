@@ -9,6 +9,7 @@ are not biquadratic). Solid: a finite deformation gradient, its top and bottom p
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -22,20 +23,17 @@ from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.outlined import quadrilaterals
 from fem_reference.verification.rows import EXACT, Row, absolutely
-from sheetbench.scenes import Material, Scene, Sheet
+from fem_reference.verification.specimens import specimen
+from sheetbench.scenes import Material, Sheet
 
 ROUNDING = 1e-8
 ELEMENTS, MOVED = 3, 0.25  # inner vertices move by up to so much of an element
-SCENE = Scene(
-    name="patch",
-    sheet=Sheet(length_x=1.0, length_y=1.0, thickness=0.02),
-    material=Material(young=1e7, poisson=0.3, density=1000.0),
-)
+SCENE = specimen(Sheet(1.0, 1.0, 0.02), Material(young=1e7, poisson=0.3, density=1000.0), ())
 STRETCH = np.array([[0.10, 0.04], [-0.03, -0.07]])  # displacement gradient in the plane
 CURVATURE = np.array([[1.0, 1.5], [1.5, -1.0]])  # gradient of the director's tilt [1/m]
 TURN = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
 THROUGH = {"plate": 1.0, "shell": 1.0, "solid": 1.05}  # by which the directors are stretched
-STATES: list[tuple[Any, str, np.ndarray | float]] = [  # the rotation of a stretch, the size of a curvature
+STATES: list[tuple[Any, str, Any]] = [  # the rotation of a stretch, the size of a curvature
     (DiscretePlate, "constant stretch", np.eye(3)),
     (DiscretePlate, "constant curvature", 1.0),
     (DiscreteShell, "finite stretch", TURN),
@@ -46,11 +44,11 @@ STATES: list[tuple[Any, str, np.ndarray | float]] = [  # the rotation of a stret
 
 def rows() -> Iterator[Row]:
     """The largest force inside over the largest on the rim for every model and state."""
-    for name, mesh in (("distorted", distorted()), ("along a line", following())):
-        for kind, state, strained in STATES:
-            label = f"{kind.model} {mesh.nelements} elements, {name}"
-            unbalanced = _unbalanced(kind(mesh, SCENE), strained)
-            yield absolutely(f"unbalanced, {state}", label, 0.0, EXACT, unbalanced, ROUNDING)
+    meshes = {"distorted": distorted(), "along a line": following()}
+    for (name, mesh), (kind, state, strained) in product(meshes.items(), STATES):
+        unbalanced = _unbalanced(kind, mesh, strained)
+        label = f"{kind.model} {mesh.nelements} elements, {name}"
+        yield absolutely(f"unbalanced, {state}", label, 0.0, EXACT, unbalanced, ROUNDING)
 
 
 def distorted() -> MeshQuad:
@@ -69,22 +67,22 @@ def following() -> MeshQuad:
     return quadrilaterals(square, line, (0.25, 0.25), True)
 
 
-def _unbalanced(sheet: Any, strained: np.ndarray | float) -> float:
+def _unbalanced(kind: Any, mesh: MeshQuad, strained: Any) -> float:
     """The largest force inside the unit square over the largest of a sheet that is stretched and turned, or
     bent so far."""
-    nodes, moved = sheet.plan.nodes, np.zeros((sheet.nodes, 3))
-    if isinstance(strained, float):
+    sheet = kind(mesh, SCENE)
+    nodes, moved, bent = sheet.plan.nodes, np.zeros((sheet.nodes, 3)), isinstance(strained, float)
+    if bent:
         moved[:, 2] = -0.5 * strained * np.einsum("na,ab,nb->n", nodes, CURVATURE, nodes)
         turned = np.pad(strained * nodes @ CURVATURE, ((0, 0), (0, 1)))
     else:
         moved[:, :2] = nodes @ STRETCH.T
         moved = (sheet.flat + moved) @ strained.T - sheet.flat
         turned = np.tile(THROUGH[sheet.model] * strained[:, 2] - [0.0, 0.0, 1.0], (sheet.nodes, 1))
-    residual = Static(sheet).forces(StaticState(sheet.of_vectors(moved, turned)), 0.0).residual
+    residual = np.abs(Static(sheet).forces(StaticState(sheet.of_vectors(moved, turned)), 0.0).residual)
     inside = np.all((nodes > 1e-9) & (nodes < 1.0 - 1e-9), axis=1)
-    if isinstance(strained, float):
-        force, couple = residual.reshape(2, -1, 3)
-        forces = np.abs(np.column_stack([force[:, 2], couple[:, :2]]))
+    if bent:
+        forces = np.concatenate(residual.reshape(2, -1, 3), axis=1)[:, 2:5]
         return float(forces[inside].max() / forces[~inside].max())
-    forces = np.abs(sheet.displacement(residual))
+    forces = sheet.displacement(residual)
     return float(sheet.middles(forces)[inside].max() / forces.max())

@@ -122,14 +122,9 @@ def off_axis() -> Iterator[Row]:
 
 def settling_scene() -> Scene:
     """The strip that settles, its tip the only probe."""
-    return Scene(
-        name="settling-strip",
-        sheet=Sheet(length_x=0.18, length_y=0.09, thickness=0.002),
-        material=Material(young=12e6, poisson=0.0, density=1100.0, damping_time=0.01),
-        gravity=Gravity(acceleration=(0.0, 0.0, -9.81)),
-        supports=(Clamped(edge="x0"),),
-        probes={"tip": (0.18, 0.045)},
-    )
+    sheet, material = Sheet(0.18, 0.09, 0.002), Material(12e6, 0.0, 1100.0, damping_time=0.01)
+    weight = Gravity(acceleration=(0.0, 0.0, -9.81))
+    return specimen(sheet, material, (Clamped(edge="x0"),), gravity=weight, probes={"tip": (0.18, 0.045)})
 
 
 def sheared(model: str, share: float, elements: int) -> np.ndarray:

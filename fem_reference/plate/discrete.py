@@ -19,24 +19,27 @@ Source: Hughes, The Finite Element Method (2000), ch. 5.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
+from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshQuad
 
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
-from fem_reference.plate.element import PlateElements
+from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
 from fem_reference.plate.validity import buckling_load, strained
+from fem_reference.shell.directors import projected
 from fem_reference.shell.discrete import DiscreteShell
-from fem_reference.shell.natural import natural_strains
 from fem_reference.surface.balance import Surface
+from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, section_at
 from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.scenes import EDGES, Scene, outside_model
-from sheetbench.scenes.meaning.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
 class DiscretePlate(DiscreteShell):
@@ -65,8 +68,9 @@ class DiscretePlate(DiscreteShell):
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:
         nodes = self.plan.corners
-        self.section = section or section_at(self.scene, nodes)
-        return PlateElements.build(nodes, self.section), natural_strains(self.scene, nodes, linear=True)
+        state = natural_at(self.scene, AT_GAUSS[0] @ nodes)
+        made = PlateElements.build(nodes, section or section_at(self.scene, nodes))
+        return made, state and state.made(_own)
 
     def supports_of(self) -> Supports:
         found = super().supports_of()
@@ -80,6 +84,20 @@ class DiscretePlate(DiscreteShell):
 
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright
+
+    def frame(self, q: np.ndarray, at: float) -> np.ndarray:
+        return self._frame
+
+    @cached_property
+    def _frame(self) -> np.ndarray:
+        return super().frame(np.zeros(self.size), 0.0)
+
+    def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
+        return self._constant_basis
+
+    @cached_property
+    def _constant_basis(self) -> csc_matrix:
+        return super().basis(np.zeros(self.size))
 
     def change(self, at: float) -> np.ndarray:
         share, time = self.instant(at)
@@ -98,7 +116,23 @@ class DiscretePlate(DiscreteShell):
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
-        return super().stiffness(shape, moduli, 0.0 * stress, 0.0 * residual, by_a)
+        stiffness = moduli[0, 0, 0] / self.element.stiffness[0, 0, 0] * self._stiffness
+        return stiffness + by_a * self._mass if by_a else stiffness
+
+    @cached_property
+    def _stiffness(self) -> np.ndarray:
+        """Data of K, which moduli are a multiple of everywhere."""
+        return self.folded(self.element.tangent(self.element.stiffness)).data
+
+    @cached_property
+    def _mass(self) -> np.ndarray:
+        return self.folded(self._inertia).data
+
+    def folded(self, blocks: np.ndarray) -> csr_matrix:
+        """The sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""
+        return self.pattern.matrix(
+            projected(blocks.reshape(-1, 18, 3, 18, 3), self._frame[self.plan.elements])
+        )
 
     # when a state means nothing
 
@@ -112,10 +146,18 @@ class DiscretePlate(DiscreteShell):
         return ""
 
     def stretch(self, shape: SheetShape) -> float:
-        return strained(shape)
+        return strained(self.element, shape.change, shape.strain)
 
     def beyond(self, stretch: float) -> str:
         if not stretch > 1.0:
             return outside_model(self.scene, 0.0)
         ends = f"linear theory ends at {100.0 / stretch:.3g} % of the load or before"
         return f"slopes, turns or twice the strain of {stretch:.3g}, beyond 1: {ends}"
+
+
+def _own(strain: np.ndarray, curvature: np.ndarray) -> np.ndarray:
+    """Return the strains (9 m, 8) that e0 and k0 (m, 9, 2, 2) leave without stress."""
+    out = np.zeros((*strain.shape[:2], 8))
+    for part, form in ((MEMBRANE, strain), (BENDING, -curvature)):
+        out[..., part] = [1.0, 1.0, 2.0] * form[..., [0, 1, 0], [0, 1, 1]]
+    return out.reshape(-1, 8)

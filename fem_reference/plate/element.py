@@ -1,38 +1,90 @@
-"""Nine-node plate element: the shell's (`shell.element`) with its strains linear in the vectors' change.
+"""Biquadratic Mindlin plate element with assumed transverse shear: its strains at the Gauss points.
 
-With the displacement u and the director's tilt β, the director of the flat sheet being e_z,
+Kinematics, u = u₀ + ζ β with the director's tilt β (the director is e_z + β), linear:
 
-    ε = sym ∇u      κ = sym ∇β      γ = ∇w + β
+    ε = sym ∇u₀      κ = sym ∇β      γ = ∇w + β
 
-are sampled and interpolated as the shell's strains are (MITC9): e = B q with B = H Q₀ of the flat sheet.
-Constant strains are represented exactly in any straight-sided quadrilateral, and there are no spurious zero
-modes.
+All fields are biquadratic. Taken as it stands, γ = 0 cannot be met pointwise and the thin plate locks, so
+the covariant components γ_ξ = ∂w/∂ξ + β·∂x/∂ξ and γ_η are the shell's (`shell.element`) about the flat
+sheet, sampled at 2 × 3 and 3 × 2 Gauss points and interpolated from there: MITC9 (Bucalem & Bathe, Int. J.
+Numer. Meth. Engng 36, 1993). Constant strains are represented exactly in any straight-sided quadrilateral,
+and there are no spurious zero modes.
+Voigt order (xx, yy, 2xy); plan coordinates in metres.
 """
 
 from __future__ import annotations
 
-from functools import cached_property
+from dataclasses import dataclass
+from typing import ClassVar, Self
 
 import numpy as np
 
-from fem_reference.shell.element import Element
-from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
+from fem_reference.shell.element import FORMS, Element, cartesian, upright, weighed
+from fem_reference.shell.element import SHEAR as SAMPLED_SHEAR
+from fem_reference.surface.biquadratic import AT_GAUSS, areas, jacobians
+from fem_reference.surface.materials import Section
+
+MEMBRANE, BENDING, SHEAR = slice(0, 3), slice(3, 6), slice(6, 8)
 
 
+@dataclass(frozen=True)
 class PlateElements(Element):
-    """m elements; vectors are their changes (m, 18, 3) of positions and directors."""
+    """m elements, whose strains (ε, κ, γ) at 9 Gauss points each are linear in the change of their vectors:
+    e = B q, (9 m, 8).
 
-    @cached_property
-    def gradient(self) -> np.ndarray:
-        """∇N at the Gauss points (m, 9, 2, 9) [1/m]."""
-        inverse = np.linalg.inv(jacobians(self.reference[:, :9, :2], AT_GAUSS[1]))  # ∂ξ_a/∂x_b, by a and b
-        return np.einsum("agi,egab->egbi", AT_GAUSS[1], inverse)
+    stiffness: that per strain times a point's area (9 m, 8, 8); gradient: ∇N at the Gauss points
+    (m, 9, 2, 9); forms: B (m, 72, 54).
+    """
+
+    gradient: np.ndarray
+    forms: np.ndarray
+    parts: ClassVar[dict[str, slice]] = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
+
+    @classmethod
+    def build(cls, nodes: np.ndarray, section: Section) -> Self:
+        """Of elements with nodes at plan positions (m, 9, 2) [m]."""
+        slope, reference = AT_GAUSS[1], upright(nodes)
+        inverse = np.linalg.inv(jacobians(nodes, slope))  # ∂ξ_a/∂x_b, by a and b
+        gradient = np.einsum("agi,egab->egbi", slope, inverse)
+        m, q = gradient.shape[:2]
+        forms = np.zeros((m, q, 8, 18, 3))
+        for part, of in ((MEMBRANE, slice(0, 9)), (BENDING, slice(9, 18))):
+            xx, yy, xy = np.moveaxis(forms[:, :, part, of], 2, 0)
+            xx[..., 0] = xy[..., 1] = gradient[:, :, 0]
+            yy[..., 1] = xy[..., 0] = gradient[:, :, 1]
+        sampled = np.einsum("kij,ejc->ekic", FORMS[SAMPLED_SHEAR], reference)
+        forms[:, :, SHEAR] = np.einsum("egak,ekic->egaic", cartesian(nodes)[2], sampled)
+        stiffness, weights = np.zeros((m, q, 8, 8)), areas(nodes)
+        for part, moduli in zip((MEMBRANE, BENDING, SHEAR), section, strict=True):
+            stiffness[:, :, part, part] = weights[..., None, None] * moduli
+        made = stiffness.reshape(-1, 8, 8), weights, gradient, forms.reshape(m, 8 * q, 54)
+        return cls(reference, *made)
 
     def strain(self, change: np.ndarray) -> np.ndarray:
-        return self.step(self.reference, change)
+        """e (9 m, 8) of a change (m, 18, 3) of positions and directors."""
+        return weighed(self.forms, change.reshape(-1, 54)).reshape(-1, 8)
 
     def operator(self, change: np.ndarray) -> np.ndarray:
-        return self.reference
+        """B, whatever the change."""
+        return self.forms
+
+    def step(self, operator: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """B δq (9 m, 8) of a step (m, 18, 3)."""
+        return self.strain(step)
+
+    def forces(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Bᵀ s (m, 18, 3) of stresses (9 m, 8), which are forces times lengths."""
+        return weighed(operator.swapaxes(1, 2), stress.reshape(len(operator), -1)).reshape(-1, 18, 3)
 
     def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Zero: B does not change with a step."""
         return np.zeros_like(step)
+
+    def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Σ |B| |s| (18,) by vector, of stresses (9 m, 8)."""
+        return self.forces(np.abs(operator), np.abs(stress)).sum(axis=(0, 2))
+
+    def tangent(self, moduli: np.ndarray) -> np.ndarray:
+        """Bᵀ D B (m, 54, 54) of moduli (9 m, 8, 8)."""
+        m, points = len(self.forms), self.forms.reshape(-1, 8, 54)
+        return self.forms.swapaxes(1, 2) @ (moduli @ points).reshape(m, -1, 54)

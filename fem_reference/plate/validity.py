@@ -21,44 +21,37 @@ import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from fem_reference.discrete.shape import SheetShape
-from fem_reference.shell.element import MEMBRANE, cartesian, weighed
+from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
 
 SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
 
 
-def strained(shape: SheetShape) -> float:
-    """Return the largest slope, turn, or double the mean strain along x or y of an element of a shape: linear
-    theory ends at 1 of each."""
-    elements = shape.sheet.element
-    by_xy = elements.gradient @ shape.change[:, None, :9]  # of u, v and w by x and y, (m, 9, 2, 3)
+def strained(elements: PlateElements, change: np.ndarray, strain: np.ndarray) -> float:
+    """Return the largest slope, turn, or double the mean strain along x or y of an element, of changes of the
+    vectors (m, 18, 3) and strains (9 m, 8): linear theory ends at 1 of each."""
+    by_xy = elements.gradient @ change[:, None, :9]  # of u, v and w by x and y, (m, 9, 2, 3)
     inplane = 0.5 * (by_xy[:, :, 0, 1] - by_xy[:, :, 1, 0])
-    tilt, slope = np.linalg.norm(shape.change[:, 9:], axis=2), np.linalg.norm(by_xy[..., 2], axis=2)
-    along = np.einsum("mq,mqi->mi", elements.areas, _stretches(shape)[..., :2])
+    tilt, slope = np.linalg.norm(change[:, 9:], axis=2), np.linalg.norm(by_xy[..., 2], axis=2)
+    along = np.einsum("mq,mqi->mi", elements.areas, strain.reshape(-1, 9, 8)[..., :2])
     mean = along / elements.areas.sum(axis=1, keepdims=True)
     return float(max(tilt.max(), slope.max(), np.abs(inplane).max(), 2.0 * np.abs(mean).max()))
-
-
-def _stretches(shape: SheetShape) -> np.ndarray:
-    """The mid-surface's strains (m, 9, 3) at the Gauss points."""
-    of_samples = cartesian(shape.sheet.plan.corners)[0]
-    return np.einsum("mgak,mk->mga", of_samples, shape.strain[:, MEMBRANE])
 
 
 def buckling_load(shape: SheetShape) -> float | None:
     """Return the lowest positive share of the load at which the in-plane forces of a shape under all of it
     buckle the plate; None where they cannot, or nearly not."""
     sheet, elements = shape.sheet, shape.sheet.element
-    force = weighed(sheet.section.membrane, _stretches(shape))  # [N/m]
-    xx, yy, xy = np.moveaxis(force, 2, 0)
+    force = shape.elastic[:, MEMBRANE] / elements.areas.reshape(-1, 1)  # [N/m]
+    xx, yy, xy = force.T
     pressing = -(0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy)).min()
-    rigidity = sheet.section.bending[..., 0, 0].max()
+    rigidity = (elements.stiffness[:, BENDING.start, BENDING.start] / elements.areas.ravel()).max()
     if sheet.bodies or pressing * max(sheet.scene.sheet.lengths) ** 2 < SLIGHT * rigidity:
         return None
-    tensor = force[..., [0, 2, 2, 1]].reshape(*elements.areas.shape, 2, 2) * elements.areas[..., None, None]
+    tensor = force[:, [0, 2, 2, 1]].reshape(*elements.areas.shape, 2, 2) * elements.areas[..., None, None]
     on_w = np.einsum("mqai,mqab,mqbj->mij", elements.gradient, tensor, elements.gradient)
     blocks = np.zeros((len(on_w), 18, 3, 18, 3))
     blocks[:, :9, 2, :9, 2] = on_w
-    geometric = sheet.pattern.matrix(sheet.fold(shape, np.arange(len(blocks)), blocks))
+    geometric = sheet.folded(blocks)
     matrix = sheet.tangent(shape, np.zeros(sheet.size), 0.0, 0.0)
     inverse = LinearOperator(matrix.shape, matvec=sheet.solver().factor(matrix).solve, dtype=float)
     start = np.random.default_rng(0).uniform(-1.0, 1.0, sheet.unknowns)

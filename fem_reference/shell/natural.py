@@ -14,15 +14,14 @@ from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 AT_SITES = np.concatenate([shape(*product_grid(*GRIDS[name]))[0] for name in ("rr", "ss", "rs")])
 
 
-def natural_strains(scene: Scene, nodes: np.ndarray, linear: bool = False) -> NaturalState | None:
-    """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest;
-    linear: to first order in e0 and k0."""
+def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:
+    """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest."""
     state = natural_at(scene, AT_SITES @ nodes)
     if state is None:
         return None
 
     def sample(e: np.ndarray, k: np.ndarray) -> np.ndarray:
-        forms = (e, -k) if linear else (green(e), 0.5 * (green(e - k) - green(e + k)))
+        forms = green(e), 0.5 * (green(e - k) - green(e + k))
         parts = [sampled(nodes, form) for form in forms]
         return np.pad(np.concatenate(parts, axis=1), ((0, 0), (0, STRAINS - BENDING.stop)))
 

@@ -81,8 +81,10 @@ def sheet_masses(
         raise BadInput(f"masses = {distribution!r}: choose from tributary, gregory")
     (nx, ny, layers), (lx, ly, _) = lattice.grid, lattice.spacing
     if cells is None:
-        per_area = scene.material.density * scene.sheet.thickness / layers
-        plan = per_area * lx * ly * lattice.share[::layers].reshape(ny, nx)
+        own = scene.material.density * scene.sheet.thickness / layers * lx * ly * lattice.share
+        if distribution == "tributary":
+            return own
+        plan = own[::layers].reshape(ny, nx)
     else:
         quarter = 0.25 * cells.per_area * lattice.cell_areas / layers
         plan = np.asarray(sum(np.pad(quarter, ((1 - j, j), (1 - i, i))) for j in range(2) for i in range(2)))

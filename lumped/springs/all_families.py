@@ -81,6 +81,10 @@ class AllFamilies:
         both = np.repeat(self.links.stiffness, 2)
         return np.bincount(self.links.nodes.ravel(), both, minlength=self._pattern.size)
 
+    @cached_property
+    def link_stiffness_norm(self) -> float:
+        return float(np.linalg.norm(self.link_stiffness))
+
     def damped(self, time: float) -> list[Family]:
         """Return the dampers of the families, with `time` [s], of all links together."""
         links, *cells = [family.damped(time) for family in self._central]

@@ -103,8 +103,9 @@ class Problem(Structure[LatticeState, Residual]):
         self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
         self.contacts = [item for item in items if isinstance(item, Contact)]
         self.symmetric = self.conservative = assembly.conservative and loads.conservative
-        self.prestrained, flat = assembly.natural is not None, np.zeros_like(loads.dead)
-        self.driving = float(np.linalg.norm(assembly.force(flat)[1])) if self.prestrained else 0.0
+        self.prestrained, self.driving = assembly.natural is not None, 0.0
+        if self.prestrained:
+            self.driving = float(np.linalg.norm(assembly.force(np.zeros_like(loads.dead))[1]))
         coupling, transform = assembly.coupling, constraints.transform
         self.multipliers = 0 if coupling is None else coupling.multipliers
         self.descends = self.symmetric and self.multipliers == 0
@@ -227,11 +228,11 @@ class Problem(Structure[LatticeState, Residual]):
     def imbalance_floor(self, state: LatticeState) -> float:
         assembly, largest = self.assembly, float(np.abs(state.u).max())
         # relative displacements are differences of u: their rounding, times the stiffness
-        carried = assembly.all_families.link_stiffness * largest
+        carried = assembly.all_families.link_stiffness_norm * largest
         if assembly.coupling is not None:
-            carried = carried + assembly.coupling.carried()
-        of_items = sum(item.rounding() for item in self.items)
-        return float(assembly.rounding * np.linalg.norm(carried)) + of_items
+            each = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
+            carried = float(np.linalg.norm(each))
+        return assembly.rounding * carried + sum(item.rounding() for item in self.items)
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
         moved, lattice = self._moved(state, load_factor), self.assembly.lattice

@@ -5,8 +5,10 @@ stresses are nothing but the error of the interpolation: the first tangent is fo
 mesh, and neither with bending nor with shear. Three corrections lead from there to the end, where the path
 from the flat sheet takes five.
 
-Between the two meshes stand Cartesian membrane strains at nodes, what those at the Gauss points of the
-elements around extrapolate to on average.
+Between the two meshes stand Cartesian membrane strains at nodes, what the samples of the elements around
+extrapolate to on average. Samples are along an element's own coordinates ξ (see `element`): with J = ∂x/∂ξ
+
+    e_αβ = J_xα E_xy J_yβ.
 """
 
 from __future__ import annotations
@@ -18,9 +20,9 @@ from skfem import ElementQuad2
 
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.shell.discrete import UP, DiscreteShell
-from fem_reference.shell.element import MEMBRANE, cartesian
+from fem_reference.shell.element import GRIDS, MEMBRANE
 from fem_reference.shell.natural import AT_SITES, sampled
-from fem_reference.surface.biquadratic import THREE, interpolation
+from fem_reference.surface.biquadratic import interpolation, jacobians, shape
 from fem_reference.surface.location import interpolate
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
@@ -33,7 +35,12 @@ Shape = Callable[[np.ndarray], np.ndarray]
 COARSER = 4  # times as many elements along a side
 FINE = 8  # elements along the shorter side, from which on a coarse one saves more than it takes
 LIMITS = Limits(factorisations=10)  # of a coarse path that leads straight; others are given up
-_TO_NODES = interpolation(THREE, THREE, 2.0 * ElementQuad2.doflocs.T - 1.0)
+
+NODES = 2.0 * ElementQuad2.doflocs.T - 1.0
+ALONG = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}  # e_αβ in the order of their samples
+_TO_NODES = {name: interpolation(*GRIDS[name], NODES) for name in ALONG}
+_AT_NODES = shape(*NODES)[1]
+_ENDS = np.cumsum([len(points.T) for points in _TO_NODES.values()])
 
 
 def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
@@ -52,19 +59,17 @@ def plain(path: Path[StaticState, Forces]) -> bool:
 
 def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[StaticState]:
     """The state of a shell from the coordinates (N,) of another."""
-    plan, finer = coarser.plan, sheet.plan
-    strain = coarser.shape(q, 1.0).strain[:, MEMBRANE]
-    at_nodes, count = np.zeros((coarser.nodes, 3)), np.bincount(plan.elements.ravel())[:, None]
-    along = np.einsum("ng,mgak,mk->mna", _TO_NODES, cartesian(plan.corners)[0], strain, optimize=True)
-    np.add.at(at_nodes, plan.elements, along)
-    every = np.concatenate([*q[: 6 * coarser.nodes].reshape(2, -1, 3), at_nodes / count], axis=1)
-    found = interpolate(plan.mesh, plan.elements, every, finer.nodes)
-    displacement, director = found[:, :3], found[:, 3:6] + UP
+    plan, finer = coarser.plan, sheet.element
+    strain = at_nodes(plan.corners, plan.elements, coarser.shape(q, 1.0).strain[:, MEMBRANE])
+    changes = q[: 6 * coarser.nodes].reshape(2, -1, 3)
+    every = np.concatenate([*changes, strain.reshape(-1, 4)], axis=1)
+    found = interpolate(plan.mesh, plan.elements, every, sheet.plan.nodes)
+    displacement, turn, flat = np.split(found, (3, 6), axis=1)
+    director = turn + UP
     director /= np.linalg.norm(director, axis=1, keepdims=True)
-    tensor = 0.5 * found[:, [6, 8, 8, 7]] * [2.0, 1.0, 1.0, 2.0]
-    at_sites = (AT_SITES @ tensor[finer.elements]).reshape(-1, len(AT_SITES), 2, 2)
-    stretched = np.zeros(sheet.element.stiffness.shape[:2])
-    stretched[:, MEMBRANE] = sampled(finer.corners, at_sites)
+    stretched = np.zeros(finer.stiffness.shape[:2])
+    at_sites = (AT_SITES @ flat[sheet.plan.elements]).reshape(-1, len(AT_SITES), 2, 2)
+    stretched[:, MEMBRANE] = sampled(sheet.plan.corners, at_sites)
     return _start(sheet, displacement, director - UP, stretched)
 
 
@@ -86,3 +91,14 @@ def _start(
     no_rods = tuple(np.zeros_like(body.elements.stiffness) for body in sheet.bodies)
     found = StaticState(q, sheet.element.stress(strain), on_rods=no_rods)
     return Start(found, 1.0, static.length(static.rest(), found), static.potential(found, 1.0)[1])
+
+
+def at_nodes(nodes: np.ndarray, element_nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
+    """E (n, 2, 2) at the nodes of elements at (m, 9, 2) [m] with samples (m, 21); element_nodes: (m, 9)."""
+    along = zip(_TO_NODES.values(), np.split(strain, _ENDS[:-1], axis=1), strict=True)
+    rr, ss, rs = (samples @ to_nodes.T for to_nodes, samples in along)
+    tensor = np.moveaxis(np.array([[rr, rs], [rs, ss]]), (0, 1), (2, 3))
+    inverse = np.linalg.inv(jacobians(nodes, _AT_NODES))  # ∂ξ_a/∂x_b
+    sums = np.zeros((element_nodes.max() + 1, 2, 2))
+    np.add.at(sums, element_nodes, inverse.swapaxes(2, 3) @ tensor @ inverse)
+    return sums / np.bincount(element_nodes.ravel())[:, None, None]

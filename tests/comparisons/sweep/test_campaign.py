@@ -33,7 +33,8 @@ def test_outcomes_come_in_the_order_asked_and_are_kept(store):
     assert [outcome.row["square"] for outcome in found] == [9.0, 1.0, 4.0, 9.0]
     assert [(p.done, p.total) for p in seen if p.status == "done"] == [(1, 3), (2, 3), (3, 3)]
     assert seen[-1].seconds_left == 0.0
-    assert [len(p.going) for p in seen if p.status != "done"] == [1, 2, 2] and not seen[-1].going
+    going = [len(p.going) for p in seen if p.status != "done"]
+    assert going in ([1, 2, 2], [1, 2, 1]) and not seen[-1].going  # the first two may end at once
     seen.clear()
     assert carry_out(runs, store, pool=pytest.fail, progress=seen.append) == found
     assert not seen

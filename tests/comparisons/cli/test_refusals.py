@@ -77,7 +77,7 @@ ROWS = {
     f"live {TWO} --port 70000": "--port",
     f"live {TWO} --grid 99": "grid = 99",
     f"modes {ONE} --count 0": "--count",
-    f"modes {TWO} --lumped 3 --elements 2 --buckling": "bend the sheet at once",
+    f"modes {TWO} --lumped 3 --elements 2 --buckling --quiet": "bend the sheet at once",
     f"modes {ONE} --lumped 3 --count 500": "count = 500",
     "new a.toml --poisson 0.5": "--poisson = 0.5|less than 0.5",
     "new a.toml --side '3 s'": "--side = '3 s'|length",

@@ -46,7 +46,7 @@ def far_apart_note(
     if off is None or off <= FAR:
         return "", False
 
-    def told(cause: str, after: str = "", apart: bool = False) -> tuple[str, bool]:
+    def reason(cause: str, after: str = "", apart: bool = False) -> tuple[str, bool]:
         both = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart"
         return f"{both}: {cause}{after}.", apart
 
@@ -56,21 +56,21 @@ def far_apart_note(
         finer = solve(lattice.spec.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
     if finer is None or finer.status is not Status.CONVERGED:
         ended = "" if finer is None else f"; on twice as many cells a side the lattice ends {finer.status}"
-        return told("different branches of equilibria, or too coarse a grid or mesh", ended)
+        return reason("different branches of equilibria, or too coarse a grid or mesh", ended)
     fine = finer.displacement(points)
     left, moved = error(fine, right) or 0.0, error(own, fine) or 0.0
     masses = f"on {counted(finer.settings['grid'])} masses"
     moves = f"{masses} the lattice moves by {few(100.0 * moved)} %, to {100.0 * left:.3g} % off"
     if left < NEARER * off:
-        return told(f"the grid is too coarse, {masses} it is {100.0 * left:.3g} %")
+        return reason(f"the grid is too coarse, {masses} it is {100.0 * left:.3g} %")
     if bar is not None and bar > UNKNOWN:
-        return told(f"the {reference.model}'s mesh leaves ± {few(100.0 * bar)} %, more --elements tell")
+        return reason(f"the {reference.model}'s mesh leaves ± {few(100.0 * bar)} %, more --elements tell")
     ahead = error(2.0 * fine - own, right) or 0.0
     if ahead > STAYS * off and (off > SURE or _tends(lattice, reference, off)):
         trust = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
         branches = f"they lie on different branches of equilibria{trust}, for {moves}"
-        return told(branches, apart=bar is not None)
-    return told(f"different branches of equilibria, or too coarse a grid: {moves}")
+        return reason(branches, apart=bar is not None)
+    return reason(f"different branches of equilibria, or too coarse a grid: {moves}")
 
 
 def _tends(lattice: Resolved[Lattice], reference: Solution, off: float) -> bool:

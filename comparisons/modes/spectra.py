@@ -59,12 +59,12 @@ def spectra(
     def starting(model: Resolved[Any]) -> None:
         context().progress(Work(f"modes of {model.spec.model}", model.size))
 
+    buckled = tuple(_buckling(own, models, count)) if buckling else ()  # refused before anything is solved
     starting(own)
     found = [_lattice(own, count, about)]
     for model in models:
         starting(model)
         found.append(_reference(model, count, about))
-    buckled = tuple(_buckling(own, models, count)) if buckling else ()
     return Spectra(scene, tuple(found), about, _sag(scene, own.springs), buckled)
 
 

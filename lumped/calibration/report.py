@@ -52,13 +52,13 @@ def report(
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
     areas = springs["area"], springs["mid_area"]
-    told = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
+    constants = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
     negative = min(map(np.min, areas)) < 0.0
     forms = (
         (got.membrane, got.bending) if negative or springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS} else ()
     )
     if any(np.linalg.eigvalsh(form).min() <= 0.0 for form in forms):
-        raise BadInput(f"{told}: the cell's energy is not positive")
+        raise BadInput(f"{constants}: the cell's energy is not positive")
     off = [
         f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %"
         for row in rows.values()
@@ -68,7 +68,7 @@ def report(
     if off and not springs.of.keys() & {"area", "shear"}:
         notes.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
     if negative:  # ν < 1/3
-        notes.append(f"{told}: negative area springs are admissible here, the cell's energy is positive")
+        notes.append(f"{constants}: negative area springs are admissible here, the cell's energy is positive")
     settings: dict[str, Any] = {"grading": each.grading, "cells": each.cells}
     return Calibration(method, each.grid, springs.table(), tuple(rows.values()), (*notes, *more), **settings)
 

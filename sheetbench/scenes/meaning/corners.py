@@ -92,8 +92,8 @@ def _at_corner(key: str, one: Holder, other: Holder | Chain, driven: Driven, she
     ends = sheet.edge_ends(other.edge)
     corner = next(end for end in ends if end in sheet.edge_ends(one.edge))
     if isinstance(other, Chain):
-        stands = f"{key}: the base of the chain on edge {other.edge} stands at the corner that the motion on"
-        return f"{stands} edge {one.edge} moves" if corner in [ends[end] for end in other.base_ends] else ""
+        base = f"{key}: the base of the chain on edge {other.edge} stands at the corner that the motion on"
+        return f"{base} edge {one.edge} moves" if corner in [ends[end] for end in other.base_ends] else ""
     moving = (each if isinstance(each, EdgeMotion) else each.motion for each in (one, other))
     tables = [table for table in moving if table is not None]
     if not tables and driven.keys().isdisjoint((one.edge, other.edge)):

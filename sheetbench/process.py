@@ -18,16 +18,7 @@ from time import perf_counter
 
 from sheetbench.errors import foreign
 
-ONE_THREAD = dict.fromkeys(
-    (
-        "OMP_NUM_THREADS",
-        "OPENBLAS_NUM_THREADS",
-        "MKL_NUM_THREADS",
-        "NUMBA_NUM_THREADS",
-        "RAYON_NUM_THREADS",
-    ),
-    "1",
-)
+ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "RAYON")}
 MOST = 2**24  # bytes of standard output
 TAIL = 2000  # bytes of standard error that are read
 POLL = 0.05  # s between looks at the time and at how much it has written

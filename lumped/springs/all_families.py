@@ -15,9 +15,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lumped.lattice import Lattice
+from lumped.lattice import STEPS, Cells, Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
-from lumped.rest import CellKind, Rest, rest_of
 from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
 from lumped.springs import cells, links
@@ -54,10 +53,8 @@ class SpringArrays(NamedTuple):
 Stresses = tuple[np.ndarray, ...]  # four, as `SpringArrays`
 NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 4)),))
 NO_INERTIA = np.empty(0)
-CELLS: tuple[tuple[str, CellKind, str], ...] = (  # constants, cells of the lattice, name of the energy
-    ("area", "layer_cells", "cells"),
-    ("mid_area", "mid_cells", "mid_cells"),
-)
+NAMES = tuple(dict.fromkeys(name for name, *_ in STEPS))  # of the links' families
+NUMBERS = np.array([NAMES.index(name) for name, *_ in STEPS])
 
 
 class AllFamilies:
@@ -224,47 +221,53 @@ def tangent(
 
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:
     """Central links, first and even where there are none; then those of a per-direction law."""
-    rest, names = rest_of(lattice, pattern), lattice.link_names
-    each = [springs.of_links(family.name, family.direction) for family in lattice.links]
-    components, parts = np.ones(max(k.shape[1] for k in each)), []
-    for family, k in zip(lattice.links, each, strict=True):
-        of_cells = (family.shares[:, :, None] * k[family.cells]).sum(axis=1) if len(k) > 1 else None
-        parts.append((family.weight[:, None] * k if of_cells is None else of_cells) * components)
-    k = np.concatenate(parts)
+    links = lattice.links
+    each = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
+    of_cells = each[links.step, links.cells if each.shape[1] > 1 else 0]
+    k = (links.shares[:, :, None] * of_cells).sum(axis=0)
     unequal = (k != k[:, :1]).any(axis=1)
-    yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
+
+    def family(kind: type[Links], which: np.ndarray, k: np.ndarray) -> Links:
+        nodes, number = links.nodes[which], NUMBERS[links.step[which]]
+        slots = pattern.among(nodes).reshape(-1, 4)
+        return kind(nodes, k[which], slots, links.offset[which], links.rest_length[which], number, NAMES)
+
+    yield family(Links, ~unequal & (k[:, 0] > 0.0), k[:, 0])
     if unequal.any():
-        yield _links(DirectionalLinks, rest, unequal, k, names)
+        yield family(DirectionalLinks, unequal, k)
 
 
-def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, names: tuple[str, ...]) -> Links:
-    nodes, slots, offset, rest_length, number = rest.links(which)
-    return kind(nodes, k[which], slots, offset, rest_length, number, names)
+def _cells(at_rest: Cells, pattern: MassPattern, stiffness: np.ndarray, *law: Any) -> SpringCells:
+    nodes, sides, area = at_rest
+    slots = pattern.among(nodes.reshape(len(nodes), -1))
+    return SpringCells(nodes, stiffness, slots, sides, area, *law)
 
 
 def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
     edges = of_edge_cells(springs, lattice.grid, lattice.twisting)
-    layers, rest, shape = lattice.grid[2], rest_of(lattice, pattern), lattice.cell_areas.shape
+    layers, shape = lattice.grid[2], lattice.cell_areas.shape
 
     def kept_cells(values: np.ndarray) -> np.ndarray:
         spread = np.broadcast_to(values, (*shape, *values.shape[2:]))
         return spread.reshape(-1, *values.shape[2:])[lattice.kept]
 
-    for of_cells, kind, name in CELLS:
-        nodes, slots, sides, area = rest.cells(kind)
-        every = layers if of_cells == "area" else 1
+    kinds = (
+        ("area", lattice.layer_cells, "cells", layers),
+        ("mid_area", lattice.middle_cells, "mid_cells", 1),
+    )
+    for of_cells, at_rest, name, every in kinds:
         if of_cells == "area" and springs.rubber:
-            every_sides, every_area = (part[: len(part) // every] for part in (sides, area))
-            squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
-            found = of_rubber(springs, squares, every_area, twist, kept_cells)
+            sides, area = (part[: len(part) // every] for part in at_rest[1:])
+            squares, twist = (sides**2).sum(axis=2), edges[lattice.kept, 2]
+            found = of_rubber(springs, squares, area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield SpringCells(nodes, stiffness, slots, sides, area, "rubber", RUBBER, others)
+            yield _cells(at_rest, pattern, stiffness, "rubber", RUBBER, others)
             continue
         strains = kept_cells(springs.strains(of_cells))
         strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]
         stiffness = np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])
-        made = SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, name)
+        made = _cells(at_rest, pattern, np.concatenate([stiffness] * every), name)
         yield made if stiffness.any() else NO_CELLS
 
 
@@ -272,15 +275,15 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     """On the upright faces between the layers, against their shear."""
     if not springs.of.keys() & FACES:
         return NO_CELLS
-    faces, (nodes, slots, sides, area) = lattice.faces, rest_of(lattice, pattern).cells("faces")
+    faces, area = lattice.faces, lattice.faces.at_rest.area
     along = [springs.along("face_shear", axis) for axis in (0, 1)]
     over, one = (springs.along(name, 0) for name in FACES[1:])
     each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
-    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis[:, None], faces.cells]
-    stiffness = np.zeros((len(nodes), 4))
-    stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
+    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis, faces.cells]
+    stiffness = np.zeros((len(area), 4))
+    stiffness[:, 3] = (faces.shares * stored).sum(axis=0) / area
     others = stiffness[:, 3:] / area[:, None]
-    return SpringCells(nodes, stiffness, slots, sides, area, "face_shear", FACE, others)
+    return _cells(faces.at_rest, pattern, stiffness, "face_shear", FACE, others)
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)

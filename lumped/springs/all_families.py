@@ -24,7 +24,6 @@ from lumped.springs.cell_laws import FACE, RUBBER, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
-from lumped.springs.survey import Survey, survey
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.typed import njit, typed
@@ -43,6 +42,15 @@ class SpringArrays(NamedTuple):
     blocks: int
     mirror: np.ndarray
     diagonal: np.ndarray
+
+
+class Survey(NamedTuple):
+    """energies: of the springs under each name in the spring set [J]; strain: the largest relative change of
+    length of the links in a layer; stretch: of their energy that of the layers' mean stretch [J]."""
+
+    energies: dict[str, float]
+    strain: float
+    stretch: float
 
 
 Stresses = tuple[np.ndarray, ...]  # four, of the springs of `SpringArrays`
@@ -203,6 +211,28 @@ def tangent(
             for r in range(3):
                 above[q, r] = below[r, q]
     return blocks
+
+
+@njit(cache=True, nogil=True)
+def survey(
+    u: np.ndarray, springs: SpringArrays, kind: np.ndarray, kinds: int, layers: int
+) -> tuple[np.ndarray, float, float]:
+    """Return the energies of the links by kind (m,) and of the cells of the layers, of the mid-surface and of
+    upright faces, (kinds + 3,) [J], and the rest of a `Survey`."""
+    along, energies, stretch, summed, met = springs.links, np.zeros(kinds + 3), 0.0, 0.0, 0
+    for m in range(len(along.nodes)):
+        change, square, length, _ = links.measure(u, along, m)
+        half, e = 0.5 * along.constants[m], change / (np.sqrt(square) + length)
+        energies[kind[m]] += half * (e * e)
+        if along.offset[m, 2] == 0.0:
+            # links between the same columns follow each other, layer by layer, and are as stiff as each other
+            summed, met = summed + e, met + 1
+            if met % layers == 0:
+                stretch, summed = stretch + half * (summed * summed) / layers, 0.0
+    energies[kinds] = np.sum(cells.energies(u, springs.layers))
+    energies[kinds + 1] = np.sum(cells.energies(u, springs.middle))
+    energies[kinds + 2] = np.sum(cells.energies(u, springs.faces))
+    return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
 
 
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:

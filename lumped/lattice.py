@@ -26,7 +26,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from lumped.grid_lines import Lines, grid_lines
-from lumped.pattern import SHARED_UP_TO
+from lumped.pattern import SHARED_UP_TO, cells_of
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import frozen, kept
 from sheetbench.scenes import Sheet
@@ -217,9 +217,7 @@ def build(
     offset = DIRECTIONS[step] * np.stack(widths, axis=1)
     frozen((cells, shares))
 
-    columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
-    corners = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
-    corners = corners.reshape(-1, 4, layers)
+    corners = cells_of(np.arange(nx * ny * layers).reshape(ny, nx, layers))
     if present is not None:
         corners = corners[present.ravel()]
     x_share, y_share = (side.tributary / side.mean for side in lines)

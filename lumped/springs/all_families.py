@@ -136,7 +136,7 @@ class AllFamilies:
     ) -> np.ndarray:
         """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
         springs' own where there are none, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
-        extrapolated: whether the stresses are those that `advance` predicts."""
+        extrapolated: whether the stresses are those that `extrapolated` predicts."""
         blocks: np.ndarray = tangent(
             np.ascontiguousarray(u),
             stress or NO_STRESSES,
@@ -165,23 +165,14 @@ def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
 
 
 @njit(cache=True, nogil=True, inline="always")
-def advance(
-    u: np.ndarray, step: np.ndarray, springs: SpringArrays
-) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
-    """Return where a step (n, 3) [m] leads, how far at most [m], the internal force (n, 3) [N] there, and the
-    stresses that the linearisation at u predicts there."""
-    after, length = np.empty_like(u), 0.0
-    for i in range(len(u)):
-        for q in range(3):
-            after[i, q] = u[i, q] + step[i, q]
-            length = max(length, abs(step[i, q]))
-    stresses = (
+def extrapolated(u: np.ndarray, step: np.ndarray, springs: SpringArrays) -> Stresses:
+    """Return the stresses that the linearisation at u predicts after a step (n, 3) [m]."""
+    return (
         links.extrapolated(u, step, springs.links, measures(springs.layers.law) == 3),
         cells.extrapolated(u, step, springs.layers),
         cells.extrapolated(u, step, springs.middle),
         cells.extrapolated(u, step, springs.faces),
     )
-    return after, length, force(after, springs)[1], stresses
 
 
 @njit(cache=True, nogil=True)

@@ -87,7 +87,8 @@ class Static(Creeping[StaticState, Forces]):
         sheet, shape = self.sheet, self.shape(state, load_factor)
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
-        size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
+        on_held = sheet.displacement(residual).ravel()[sheet.held]
+        size = sheet.measured(external, sheet.scale) + sheet.measured(on_held)
         if sheet.natural is not None:  # often all that loads it
             pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.at(load_factor)))
             size += sheet.measured(sheet.scatter(pull), sheet.scale)

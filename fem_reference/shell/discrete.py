@@ -71,6 +71,7 @@ class DiscreteShell(DiscreteElements):
     ):
         super().__init__(scene, moving)
         self.plan = plan = plan_of(mesh)
+        self.sites = self.both
         self.element, self.natural = self.elements_of(section, law)
         self.any_strain = LAWS[law].stands_any_strain
         n = self.nodes
@@ -93,10 +94,8 @@ class DiscreteShell(DiscreteElements):
         ]
         unknowns = (np.concatenate(each, axis=1) for each in (of_sheet, on_rod))
         self.pattern = pattern_of(self.places(bound), *unknowns, size=int(every.sum()))
-        self.unknowns, self.size = self.pattern.size, 6 * n + bound.own.size
-        self.scale = np.full(self.size, self.lever)
-        self.scale[: 3 * n] = 1.0
-        self.per_vector = np.repeat([1.0, 1.0 / self.lever], 9)
+        self.unknowns, self.size, self.first_director = self.pattern.size, 6 * n + bound.own.size, 3 * n
+        self.held = supports.position.ravel()
         self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.own])
         turns = np.concatenate([supports.director, bound.held])
         self._held = np.concatenate([supports.position, np.tile(turns, (3, 1)).T])
@@ -239,21 +238,6 @@ class DiscreteShell(DiscreteElements):
 
     # forces
 
-    def gather(self, q: np.ndarray) -> np.ndarray:
-        """At the nodes of the elements (m, 18, 3): positions, then directors."""
-        return q.reshape(-1, 3).take(self.both, axis=0)
-
-    @cached_property
-    def _components(self) -> np.ndarray:
-        """Their components (54 m,) among all (6n,)."""
-        return (3 * self.both.ravel()[:, None] + np.arange(3)).ravel()
-
-    def scatter(self, pull: np.ndarray) -> np.ndarray:
-        return np.bincount(self._components, pull.ravel(), self.size)
-
-    def of_held_positions(self, force: np.ndarray) -> np.ndarray:
-        return force[: self.supports.position.size][self.supports.position.ravel()]
-
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
@@ -298,9 +282,6 @@ class DiscreteShell(DiscreteElements):
 
     def stretch(self, shape: SheetShape) -> float:
         return membrane_strain(self.element, shape.strain)
-
-    def displacement(self, q: np.ndarray) -> np.ndarray:
-        return q.reshape(-1, 3)[: self.nodes]
 
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}

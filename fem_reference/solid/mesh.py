@@ -81,6 +81,11 @@ class Columns:
         level = np.rint(2.0 * ElementHex2.doflocs[:, 2]).astype(int)
         return np.array([self.levels * column + level + 2 * layer for layer in range(self.layers)])
 
+    @property
+    def bricks(self) -> np.ndarray:
+        """Nodes of all bricks (layers · m, 27), layer by layer."""
+        return self.stacks[:, self.places].swapaxes(0, 1).reshape(-1, 27)
+
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
         plan = quarters(self.plan.elements.T)

@@ -154,13 +154,6 @@ class DiscreteElements(Discrete):
                 product += body.scatter(sides @ move[body.rows][:, :, None])
         return self.pattern.with_data(data), product
 
-    def constraining(
-        self, shape: SheetShape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
-    ) -> np.ndarray:
-        """The residual (N,) that the constraints' own stiffness is of, where elements and rods have other
-        stresses than that one is of."""
-        return residual
-
     def moduli(self, shape: SheetShape, pressure: np.ndarray | None) -> np.ndarray:
         """D (m, k, k), of a law with a pressure of its own at that one."""
         return shape.moduli if pressure is None else self.element.moduli(shape.strain, pressure)

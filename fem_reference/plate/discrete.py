@@ -107,9 +107,6 @@ class DiscretePlate(DiscreteShell):
         out[0] += self.supports.shift(time)
         return share * out
 
-    def of_unit_directors(self, change: np.ndarray) -> np.ndarray:
-        return change.ravel()
-
     def surface(self, q: np.ndarray) -> Surface:
         return super().surface(np.zeros(self.size))
 

@@ -16,7 +16,6 @@ is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|².
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -172,10 +171,8 @@ class DiscreteShell(DiscreteElements):
         return np.where(self._held, target - shape.q.reshape(-1, 3), free).ravel()
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        return self.of_unit_directors((q + step).reshape(-1, 3))
-
-    def of_unit_directors(self, change: np.ndarray) -> np.ndarray:
-        """q (N,) of changes (2 n + p, 3) with those directors that are free brought to unit length."""
+        """q (N,) with those directors that are free brought to unit length."""
+        change = (q + step).reshape(-1, 3)
         turns = change[self.nodes :]
         directors = turns + self._upright
         unit = directors / np.linalg.norm(directors, axis=1)[:, None] - self._upright
@@ -250,14 +247,6 @@ class DiscreteShell(DiscreteElements):
             blocks = self.fold(shape, np.arange(len(self.plan.elements)), self._inertia)
             add_blocks(data, self.pattern.slots[0], by_a * blocks)
         return data
-
-    def constraining(
-        self, shape: SheetShape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
-    ) -> np.ndarray:
-        out = residual + self.scatter(self.element.forces(shape.operator, stress - shape.elastic))
-        for body, own in zip(self.bodies, on_rods, strict=True):
-            out += body.scatter(body.pull(shape.q, own - body.stress(shape)))
-        return out
 
     def fold(self, shape: SheetShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
         return projected(tangent, shape.frame[self.plan.elements[on]])

@@ -113,9 +113,9 @@ class Static(Creeping[StaticState, Forces]):
     ) -> tuple[csr_matrix, np.ndarray]:
         sheet, shape, residual = self.sheet, forces.shape, forces.residual
         stress, on_rods, pressure = shape.elastic, forces.on_rods, None
-        # the constraints' own stiffness is of the residual with these stresses
         if mixed and state.stress is not None:
             stress, on_rods, pressure = state.stress, state.on_rods, state.pressure
+            # of constraints: under the residual that these stresses leave
             residual = residual + sheet.scatter(sheet.element.forces(shape.operator, stress - shape.elastic))
             for body, own, now in zip(sheet.bodies, on_rods, forces.on_rods, strict=True):
                 residual += body.scatter(body.pull(shape.q, own - now))

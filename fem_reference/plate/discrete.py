@@ -30,7 +30,6 @@ from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
 from fem_reference.plate.validity import buckling_load, strained
-from fem_reference.shell.directors import projected
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS
@@ -85,13 +84,6 @@ class DiscretePlate(DiscreteShell):
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright
 
-    def frame(self, q: np.ndarray, at: float) -> np.ndarray:
-        return self._frame
-
-    @cached_property
-    def _frame(self) -> np.ndarray:
-        return super().frame(np.zeros(self.size), 0.0)
-
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         return self._constant_basis
 
@@ -127,9 +119,8 @@ class DiscretePlate(DiscreteShell):
 
     def folded(self, blocks: np.ndarray) -> csr_matrix:
         """The sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""
-        return self.pattern.matrix(
-            projected(blocks.reshape(-1, 18, 3, 18, 3), self._frame[self.plan.elements])
-        )
+        flat, every = self.shape(np.zeros(self.size), 0.0), np.arange(len(blocks))
+        return self.pattern.matrix(self.fold(flat, every, blocks.reshape(-1, 18, 3, 18, 3)))
 
     # when a state means nothing
 

@@ -170,10 +170,6 @@ class Discrete(ABC):
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """u̇ (N,) with what is prescribed from a time on, tangential to the constraints."""
 
-    def frame(self, q: np.ndarray, at: float) -> Any:
-        """What Z is made of, beside what is held."""
-        return None
-
     @abstractmethod
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         """Z (N, unknowns)."""

@@ -22,7 +22,7 @@ from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, built
 from fem_reference.shell.laws import Law, Response, outer
 from fem_reference.shell.slant import linear, slant
 from fem_reference.surface.biquadratic import integrated
-from fem_reference.surface.materials import section_of, transverse_shear_stiffness
+from fem_reference.surface.materials import section_of
 from sheetbench.scenes import Material
 
 _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
@@ -123,8 +123,7 @@ class HyperelasticElement(Element):
     @property
     def _shear(self) -> np.ndarray:
         """κ G h times the points' areas (m, 9) [N m]."""
-        stiffness = transverse_shear_stiffness(self.material, float(self.weights.sum()))
-        return self.areas * stiffness[0, 0]
+        return self.areas * section_of(self.material, float(self.weights.sum())).shear[0, 0]
 
     @property
     def _volumes(self) -> np.ndarray:

@@ -134,8 +134,8 @@ class Discrete(ABC):
     @property
     def symmetric(self) -> bool:
         """Whether the tangent is: loads that follow the sheet make it unsymmetric, unless they have a
-        potential."""
-        return all(item.conservative for item in self.items)
+        potential or the sheet is linear."""
+        return self.linear or all(item.conservative for item in self.items)
 
     @property
     @abstractmethod

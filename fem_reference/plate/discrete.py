@@ -52,7 +52,7 @@ class DiscretePlate(DiscreteShell):
     linear: ClassVar[bool] = True
     creeps: ClassVar[bool] = False
     element: PlateElements
-    moved, centripetal = Discrete.moved, Discrete.centripetal
+    moved, centripetal, inside_out = Discrete.moved, Discrete.centripetal, Discrete.inside_out
 
     def __init__(
         self,
@@ -76,10 +76,6 @@ class DiscretePlate(DiscreteShell):
         for name in self._hard_edges:
             found.tilt[self.plan.on_boundary(name), EDGES[name].along_axis] = True
         return replace(found, director=found.director | found.tilt.all(axis=1))
-
-    @property
-    def symmetric(self) -> bool:
-        return True
 
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright
@@ -129,9 +125,6 @@ class DiscretePlate(DiscreteShell):
         if share is None or share >= 1.0:
             return None
         return Fault(Status.UNSTABLE, f"its in-plane forces buckle it at {100.0 * share:.3g} % of the load")
-
-    def inside_out(self, q: np.ndarray) -> str:
-        return ""
 
     def stretch(self, shape: SheetShape) -> float:
         return strained(self.element, shape.change, shape.strain)

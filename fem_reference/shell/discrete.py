@@ -199,7 +199,7 @@ class DiscreteShell(DiscreteElements):
 
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         couple = np.einsum("nc,nck->nk", force[3 * self.nodes :].reshape(-1, 3), shape.frame)
-        return self._of_unknowns(force[: 3 * self.nodes], couple)
+        return np.append(force[: 3 * self.nodes], couple)[self._free]
 
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         every, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
@@ -207,18 +207,13 @@ class DiscreteShell(DiscreteElements):
         turned = np.einsum("nck,nk->nc", shape.frame, every[3 * n :].reshape(-1, 2))
         return np.concatenate([every[: 3 * n], turned.ravel()])
 
-    def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
-        """Values (n, 3) of displacements and (n + p, 2) of rotations, of the free ones (unknowns,)."""
-        found: np.ndarray = np.concatenate([positions.ravel(), turns.ravel()])[self._free]
-        return found
-
     # forces
 
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
         along = multiplier(self.directors(shape.q), residual[3 * self.nodes :].reshape(-1, 3))
-        on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
+        on_turns = np.append(np.zeros(3 * self.nodes), np.repeat(along, 2))[self._free]
         data, slots, on = self.pattern.zeros(on_turns), self.pattern.slots[0], self.plan.elements
         forms, coupled = (stress @ OF_POSITIONS).reshape(-1, 9, 18), self.element.coupled
         add_tangents(shape.operator, moduli, coupled, forms, shape.frame, on, TABLES, slots, data)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from comparisons.models.keys_page import markdown
 from comparisons.scoring.suite import Suite
-from sheetbench.scenes.reference import markdown
 from studies.codes.answer import codes
 from studies.pages import kept
 from studies.promises.answer import Promises

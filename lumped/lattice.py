@@ -26,7 +26,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from lumped.grid_lines import Lines, grid_lines
-from lumped.pattern import SHARED_UP_TO
+from lumped.pattern import SHARED_UP_TO, cells_of
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import frozen, kept
 from sheetbench.scenes import Sheet
@@ -36,38 +36,33 @@ from sheetbench.scenes.objects.grid import Grid
 Weights = Literal["tributary", "full"]
 
 
-@dataclass(frozen=True)
-class LinkFamily:
-    """The links of one family and direction.
+class GridLinks(NamedTuple):
+    """The links of a lattice by STEPS: nodes (m, 2) masses; offset (m, 3) [m] rest vectors from the first to
+    the second; rest_length (m,) [m]; step (m,) rows of STEPS; cells (4, m) the plan cells that each link lies
+    in or between, one as often as it counts; shares (4, m) of their stiffness."""
 
-    nodes: (m, 2) mass numbers; offset: (m, 3) [m] rest vector from the first to the second; cells: (m, q)
-    numbers of the plan cells that each link lies in or between; shares: (m, q) of their stiffness.
-    """
-
-    name: str
-    direction: str
     nodes: np.ndarray
     offset: np.ndarray
+    rest_length: np.ndarray
+    step: np.ndarray
     cells: np.ndarray
     shares: np.ndarray
 
-    @cached_property
-    def weight(self) -> np.ndarray:
-        """Share of the family's stiffness that each link carries where all cells are alike, (m,)."""
-        weight: np.ndarray = self.shares.sum(axis=1)
-        return weight
 
-    @property
-    def rest_length(self) -> np.ndarray:
-        """Rest lengths, (m,) [m]."""
-        return np.linalg.norm(self.offset, axis=1)
+class Cells(NamedTuple):
+    """Cells at rest: nodes (c, 4, p), the masses whose mean each corner is, in turn; sides (c, 2, 3) [m], the
+    means of opposite ones; area (c,) [m²]."""
+
+    nodes: np.ndarray
+    sides: np.ndarray
+    area: np.ndarray
 
 
 class Faces(NamedTuple):
-    """nodes (m, 4, 1) masses; cells, shares (m, q): the plan cells beside each and their shares; axis: (m,) 0
-    along x, 1 along y, 2 over diagonals along x and y, 3 over the others."""
+    """at_rest: the faces as cells; cells, shares (4, m): the plan cells beside each and their shares; axis:
+    (m,) 0 along x, 1 along y, 2 over diagonals along x and y, 3 over the others."""
 
-    nodes: np.ndarray
+    at_rest: Cells
     cells: np.ndarray
     shares: np.ndarray
     axis: np.ndarray
@@ -85,7 +80,7 @@ class Lattice:
     lines: tuple[Lines, Lines]
     layer_distance: float
     positions: np.ndarray
-    links: tuple[LinkFamily, ...]
+    links: GridLinks
     mid_cells: np.ndarray
     share: np.ndarray
     twisting: frozenset[str] = frozenset()
@@ -105,33 +100,29 @@ class Lattice:
         return np.flatnonzero(~there)
 
     @cached_property
-    def joined(self) -> tuple[np.ndarray, ...]:
-        """Nodes, offsets and rest lengths of the links of all families, and numbers of their names among
-        `link_names`."""
-        parts = [
-            (f.nodes, f.offset, f.rest_length, np.full(len(f.nodes), self.link_names.index(f.name)))
-            for f in self.links
-        ]
-        return tuple(np.concatenate(part) for part in zip(*parts, strict=True))
-
-    @cached_property
-    def link_names(self) -> tuple[str, ...]:
-        """The names of the families of links, once each."""
-        return tuple(dict.fromkeys(family.name for family in self.links))
-
-    @cached_property
     def faces(self) -> Faces:
         """The faces between layers above links along x, along y, and over the cells' diagonals."""
-        layers, parts = self.grid[2], []
-        for axis, family in enumerate(f for f in self.links if f.name in ("axial", "diagonal")):
-            low = family.nodes[:, 0] % layers < layers - 1
-            a, b = family.nodes[low].T
-            nodes = np.stack([a, b, b + 1, a + 1], axis=1)[:, :, None]
-            cells, shares = family.cells[low], family.shares[low]
-            if axis > 1:  # of one cell each
-                cells, shares = np.repeat(cells, 2, axis=1), 0.5 * np.repeat(shares, 2, axis=1)
-            parts.append((nodes, cells, shares, np.full(len(a), axis)))
-        return Faces(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+        links, layers = self.links, self.grid[2]
+        low = (links.step < 4) & (links.nodes[:, 0] % layers < layers - 1)
+        a, b = links.nodes[low].T
+        nodes = np.stack([a, b, b + 1, a + 1], axis=1)[:, :, None]
+        return Faces(self._at_rest(nodes), links.cells[:, low], links.shares[:, low], links.step[low])
+
+    @cached_property
+    def layer_cells(self) -> Cells:
+        """The cells of the layers, one layer after the other."""
+        return self._at_rest(np.moveaxis(self.mid_cells, 2, 0).reshape(-1, 4, 1))
+
+    @cached_property
+    def middle_cells(self) -> Cells:
+        """The cells of the mid-surface."""
+        return self._at_rest(self.mid_cells)
+
+    def _at_rest(self, nodes: np.ndarray) -> Cells:
+        corners = self.positions[nodes].mean(axis=2)
+        across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+        sides = 0.5 * np.stack([across - along, across + along], axis=1)
+        return Cells(nodes, sides, np.sqrt((np.cross(sides[:, 0], sides[:, 1]) ** 2).sum(axis=1)))
 
     @property
     def mass_count(self) -> int:
@@ -154,11 +145,6 @@ class Lattice:
     def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Masses by plan position, positions at rest, and areas of the cells."""
         return self.columns(), self.positions, self.cell_areas
-
-    @property
-    def layer_cells(self) -> np.ndarray:
-        """The masses at the corners of the layers' cells (layers × c, 4, 1)."""
-        return np.moveaxis(self.mid_cells, 2, 0).reshape(-1, 4, 1)
 
     def columns(self) -> np.ndarray:
         """Mass numbers by plan position, (ny, nx, layers)."""
@@ -187,6 +173,7 @@ STEPS: tuple[tuple[str, str, tuple[int, int, int]], ...] = (
     ("cross_diagonal", "", (1, -1, 1)),
     ("cross_diagonal", "", (-1, -1, 1)),
 )
+DIRECTIONS = np.array([step for *_, step in STEPS])
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda sheet, grid, *_, **__: math.prod(grid))
@@ -214,26 +201,23 @@ def build(
         raise BadInput(f"weights = 'full': equal masses are for equal cells, not for grading = {grading:g}")
     present = None if per_area is None else per_area > 0.0
     lines = across_x, across_y = grid_lines(sheet, grid, grading)
-    j, i, k = _indices(grid)
+    j, i, k = np.indices((ny, nx, layers)).reshape(3, -1)
     heights = (k - (layers - 1) / 2) * layer_distance
     positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)
 
-    families = []
-    for (name, direction, step), (nodes, cells, shares) in zip(STEPS, _steps(grid), strict=True):
-        if present is not None:
-            shares = shares * present.ravel()[cells]
-            there = shares.any(axis=1)
-            nodes, cells, shares = nodes[there], cells[there], shares[there]
-        if weights == "full":
-            shares = shares / shares.sum(axis=1, keepdims=True)
-        row, column = j[nodes].min(axis=1).clip(max=ny - 2), i[nodes].min(axis=1).clip(max=nx - 2)
-        widths = across_x.widths[column], across_y.widths[row], np.full(len(nodes), layer_distance)
-        offset = np.array(step) * np.stack(widths, axis=1)
-        families.append(LinkFamily(name, direction, nodes, *frozen((offset, cells, shares))))
+    nodes, step, cells, shares = _links(grid)
+    if present is not None:
+        shares = shares * present.ravel()[cells]
+    there = shares.any(axis=0)
+    nodes, step, cells, shares = nodes[there], step[there], cells[:, there], shares[:, there]
+    if weights == "full":
+        shares = shares / shares.sum(axis=0)
+    row, column = (np.minimum(*of[nodes.T]).clip(max=cells - 2) for of, cells in ((j, ny), (i, nx)))
+    widths = across_x.widths[column], across_y.widths[row], np.full(len(nodes), layer_distance)
+    offset = DIRECTIONS[step] * np.stack(widths, axis=1)
+    frozen((cells, shares))
 
-    columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
-    corners = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
-    corners = corners.reshape(-1, 4, layers)
+    corners = cells_of(np.arange(nx * ny * layers).reshape(ny, nx, layers))
     if present is not None:
         corners = corners[present.ravel()]
     x_share, y_share = (side.tributary / side.mean for side in lines)
@@ -246,7 +230,7 @@ def build(
         lines=lines,
         layer_distance=layer_distance,
         positions=positions,
-        links=tuple(families),
+        links=GridLinks(nodes, offset, np.linalg.norm(offset, axis=1), step, cells, shares),
         mid_cells=corners,
         share=share,
         twisting=twisting,
@@ -255,40 +239,23 @@ def build(
     )
 
 
-def _indices(grid: Grid) -> tuple[np.ndarray, ...]:
-    """Row, column and layer of every mass."""
-    nx, ny, layers = grid
-    return tuple(
-        a.ravel() for a in np.meshgrid(np.arange(ny), np.arange(nx), np.arange(layers), indexing="ij")
-    )
-
-
 @kept(last=16, most=SHARED_UP_TO, size=math.prod)
-def _steps(grid: Grid) -> tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]:
-    """The nodes, cells and shares, as `LinkFamily` has them, of the links of each row of STEPS on a grid."""
+def _links(grid: Grid) -> tuple[np.ndarray, ...]:
+    """The nodes, steps, cells and shares, as `GridLinks` has them, of the links on a grid without holes; a
+    cell beyond the sheet has no share."""
     nx, ny, layers = grid
-    j, i, k = _indices(grid)
+    j, i, k = np.indices((ny, nx, layers)).reshape(3, -1)
     found = []
-    for _, _, (di, dj, dk) in STEPS:
+    for number, (di, dj, dk) in enumerate(DIRECTIONS.tolist()):
         inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
         first = np.flatnonzero(inside)
         nodes = np.stack([first, first + (dj * nx + di) * layers + dk], axis=1)
-        found.append((nodes, *_cells_of_links(i[first], j[first], (di, dj), (nx, ny))))
-    return tuple(found)
-
-
-def _cells_of_links(
-    i: np.ndarray, j: np.ndarray, step: tuple[int, int], masses: tuple[int, int]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers (m, q) of the plan cells that links from masses (i, j) on by a step lie in or between, and
-    their shares; a cell beyond the sheet has none."""
-    sides = []  # along x and along y: the cell that the link crosses, or the two beside its line
-    for start, by in zip((i, j), step, strict=True):
-        sides.append([np.minimum(start, start + by)] if by else [start - 1, start])
-    cells, shares = [], []
-    for column in sides[0]:
-        for row in sides[1]:
-            inside = (column >= 0) & (column < masses[0] - 1) & (row >= 0) & (row < masses[1] - 1)
-            cells.append(np.where(inside, row * (masses[0] - 1) + column, 0))
-            shares.append(inside / (len(sides[0]) * len(sides[1])))
-    return np.stack(cells, axis=1), np.stack(shares, axis=1)
+        # along x and along y the cell that the link crosses, twice, or the two beside its line
+        column, row = i[first] + min(di, 0), j[first] + min(dj, 0)
+        columns = np.stack(2 * [column - (di == 0), column])
+        rows = np.repeat([row - (dj == 0), row], 2, axis=0)
+        there = (columns >= 0) & (columns < nx - 1) & (rows >= 0) & (rows < ny - 1)
+        cells = np.where(there, rows * (nx - 1) + columns, 0)
+        found.append((nodes.T, np.full(len(first), number), cells, 0.25 * there))
+    nodes, *others = (np.concatenate(part, axis=-1) for part in zip(*found, strict=True))
+    return nodes.T, *others

@@ -40,7 +40,10 @@ def with_natural(
             raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
         if isinstance(family, Links):
             sides, stiffness = np.stack(2 * [family.offset[:, None]]), family.stiffness  # (2, m, p, 3)
-            cells, shares = _cells_of(lattice, family)
+            grid_links = lattice.links
+            every, own = (nodes @ [lattice.mass_count, 1] for nodes in (grid_links.nodes, family.nodes))
+            cells, shares = (part[:, np.isin(every, own)].T for part in (grid_links.cells, grid_links.shares))
+            shares = shares / shares.sum(axis=1, keepdims=True)
         elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and len(family):
             sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
             cells = np.arange(lattice.cell_areas.size)[lattice.kept]
@@ -72,15 +75,3 @@ def with_natural(
 
     makers = [maker(family) for family in families]
     return lambda *forms: [make(*forms) for make in makers]
-
-
-def _cells_of(lattice: Lattice, links: Links) -> tuple[np.ndarray, np.ndarray]:
-    """The cells (m, 4) that each link lies in or between, and their shares in it."""
-    cells, shares = (
-        np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1]))) for part in parts])
-        for parts in zip(*((f.cells, f.shares) for f in lattice.links), strict=True)
-    )
-    every, own = (n[:, 0] * lattice.mass_count + n[:, 1] for n in (lattice.joined[0], links.nodes))
-    order = np.argsort(every)
-    place = order[np.searchsorted(every[order], own)]
-    return cells[place], shares[place] / shares[place].sum(axis=1, keepdims=True)

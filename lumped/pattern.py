@@ -74,7 +74,7 @@ def of_grid(grid: Grid, present: np.ndarray | None = None) -> MassPattern:
     the same object every time."""
     nx, ny, layers = grid
     columns = np.arange(nx * ny * layers).reshape(ny, nx, layers)
-    masses = _of_cells(columns)
+    masses = cells_of(columns).reshape(-1, 4 * layers)
     number, rest = np.arange(len(masses)), np.empty(0, dtype=int)
     if present is not None:
         number = np.flatnonzero(present)
@@ -89,7 +89,7 @@ def of_grid(grid: Grid, present: np.ndarray | None = None) -> MassPattern:
 def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Ordered pairs of masses that may act on each other: any two in the four columns of one cell of the
     plan, columns: (ny, nx, layers)."""
-    return _pairs(_of_cells(columns))
+    return _pairs(cells_of(columns).reshape(-1, 4 * columns.shape[2]))
 
 
 def _pairs(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -97,7 +97,7 @@ def _pairs(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.repeat(nodes, p, axis=1).ravel(), np.tile(nodes, (1, p)).ravel()
 
 
-def _of_cells(columns: np.ndarray) -> np.ndarray:
-    """The masses of the four columns of every cell of the plan, (cells, 4 layers)."""
+def cells_of(columns: np.ndarray) -> np.ndarray:
+    """The four columns of masses, in turn, of every cell of the plan, (cells, 4, layers)."""
     around = np.stack([columns[:-1, :-1], columns[:-1, 1:], columns[1:, 1:], columns[1:, :-1]], axis=2)
-    return around.reshape(-1, 4 * columns.shape[2])
+    return around.reshape(-1, 4, columns.shape[2])

@@ -2,11 +2,12 @@
 
     F_a = p ∫ N_a x,ξ × x,η dξ dη = p Σ_b M_ab c_b,     c_b = (x_{b+1} − x_b) × (x_{b−1} − x_b),
 
-with M_ab = ∫ N_a N_b over the unit square, 4/36 for a = b, 2/36 for neighbours, 1/36 across: exact. A cell's
-forces sum up to p ½ d₁ × d₂ of its diagonals. Each corner is the mean of a column of masses and shares its
-force equally among them. Where the edges sweep no area (`scenes.encloses_volume`) these are the derivatives
-of p V, V = ∫ z (x,ξ × x,η)·e_z = Σ z_a F_a·e_z/p the volume over the plan, and the tangent is symmetric;
-else the edges add to it what is not (Schweizerhof and Ramm 1984).
+with M_ab = ∫ N_a N_b over the unit square, 4/36 for a = b, 2/36 for neighbours, 1/36 across: exact. Of the
+diagonals d = x₂ − x₀ and e = x₃ − x₁, d × e = c₀ + c₂ = c₁ + c₃: so F_a = p (c_a + d × e)/12, and a cell's
+forces sum up to p ½ d × e. Each corner is the mean of a column of masses and shares its force equally among
+them. Where the edges sweep no area (`scenes.encloses_volume`) these are the derivatives of p V,
+V = ∫ z (x,ξ × x,η)·e_z = Σ z_a F_a·e_z/p the volume over the plan, and the tangent is symmetric; else the
+edges add to it what is not (Schweizerhof and Ramm 1984).
 """
 
 from __future__ import annotations
@@ -19,47 +20,55 @@ WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M by how many corners farther
 
 
 @njit(cache=True, error_model="numpy")
-def _means(x: np.ndarray, columns: np.ndarray, out: np.ndarray) -> None:
-    """The means (4, 3) of columns of masses (4 or fewer, p)."""
-    out[:] = 0.0
-    for a in range(len(columns)):
-        for mass in columns[a]:
-            for q in range(3):
-                out[a, q] += x[mass, q] / columns.shape[1]
+def _middle(x: np.ndarray, p: int) -> np.ndarray:
+    """The mean of every column of p masses, in the row of its first, (n, 3)."""
+    out = np.zeros_like(x)
+    for mass in range(len(x)):
+        for q in range(3):
+            out[mass - mass % p, q] += x[mass, q] / p
+    return out
 
 
 @njit(cache=True, error_model="numpy")
 def add_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np.ndarray) -> None:
     """Add the force at positions x (n, 3) [m] on cells (c, 4, p) under pressure (c,) [Pa] to `force` (n, 3)
     [N]."""
-    corners, turned = np.empty((4, 3)), np.empty((4, 3))
+    p, on_middle = cells.shape[2], np.zeros_like(x)
+    add_surface_forces(_middle(x, p), cells[:, :, 0], pressure, on_middle)
+    for mass in range(len(x)):
+        for q in range(3):
+            force[mass, q] += on_middle[mass - mass % p, q] / p
+
+
+@njit(cache=True, error_model="numpy")
+def add_surface_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np.ndarray) -> None:
+    """Add the force at points x (m, 3) [m] of the mid-surface on cells (c, 4) under pressure (c,) [Pa] to
+    `force` (m, 3) [N]."""
     for c in range(len(cells)):
-        columns = cells[c]
-        _means(x, columns, corners)
-        for b in range(4):
-            after, before = (b + 1) % 4, (b + 3) % 4
-            for q, r, s in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-                turned[b, q] = (corners[after, r] - corners[b, r]) * (corners[before, s] - corners[b, s])
-                turned[b, q] -= (corners[after, s] - corners[b, s]) * (corners[before, r] - corners[b, r])
-        for a in range(4):
-            for q in range(3):
-                share = 0.0
-                for b in range(4):
-                    share += WEIGHTS[(b - a) % 4] * turned[b, q]
-                for mass in columns[a]:
-                    force[mass, q] += pressure[c] * share / columns.shape[1]
+        i, j, k, m = cells[c]
+        share = pressure[c] / 12.0
+        for q, r, s in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            dr, ds, er, es = x[k, r] - x[i, r], x[k, s] - x[i, s], x[m, r] - x[j, r], x[m, s] - x[j, s]
+            fr, fs = x[j, r] - x[i, r], x[j, s] - x[i, s]
+            both = share * (dr * es - ds * er)
+            first, second = share * (fr * es - fs * er), share * (fr * ds - fs * dr)  # c₀ and c₁
+            force[i, q] += both + first
+            force[j, q] += both + second
+            force[k, q] += 2.0 * both - first
+            force[m, q] += 2.0 * both - second
 
 
 @njit(cache=True, error_model="numpy")
 def add_couples(x: np.ndarray, columns: np.ndarray, moments: np.ndarray, force: np.ndarray) -> None:
     """Add couples (e,) [N·m] at positions x (n, 3) [m] to `force` (n, 3) [N], each on the outer layers of its
     column of masses about the chord of its neighbours': columns (e, 3, p), its own and those."""
-    means, along, across = np.empty((3, 3)), np.empty(3), np.empty(3)
+    along, across = np.empty(3), np.empty(3)
     for e in range(len(columns)):
-        _means(x, columns[e], means)
         top, bottom, length, square = columns[e, 0, -1], columns[e, 0, 0], 0.0, 0.0
         for q in range(3):
-            along[q], across[q] = means[2, q] - means[1, q], x[top, q] - x[bottom, q]
+            along[q], across[q] = 0.0, x[top, q] - x[bottom, q]
+            for k in range(columns.shape[2]):
+                along[q] += x[columns[e, 2, k], q] - x[columns[e, 1, k], q]
             length, square = length + along[q] ** 2, square + across[q] ** 2
         scale = moments[e] / (np.sqrt(length) * square)
         for q, r, s in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
@@ -75,9 +84,9 @@ def add_tangent(
     """Add the derivative of the force to the blocks (b, 3, 3) [N/m] at the slots (c, 4 p, 4 p) of the cells'
     masses. δc = [r]× δs − [s]× δr with r, s the two sides from a corner."""
     p = cells.shape[2]
-    corners, by = np.empty((4, 3)), np.empty((4, 4, 3))
+    middle, by = _middle(x, p), np.empty((4, 4, 3))
     for c in range(len(cells)):
-        _means(x, cells[c], corners)
+        corners = middle[cells[c, :, 0]]
         by[:] = 0.0
         for b in range(4):
             after, before = (b + 1) % 4, (b + 3) % 4

@@ -24,42 +24,18 @@ from sheetbench.scenes.objects.grid import Grid
 from sheetbench.scenes.objects.quantities import LARGEST
 from sheetbench.scenes.objects.springs import CONSTANTS, LATTICE, DamperSet, Either
 
-EDGES_OWN = (
-    "edge_shear",
-    "strip_shear",
-    "edge_coupling",
-    "far_edge_shear",
-    "far_strip_shear",
-    "far_edge_coupling",
-)
-RIMS_OWN = (  # in the order of `Springs.strains`
-    "rim_stretch_x",
-    "rim_stretch_y",
-    "rim_shear",
-    "rim_coupling_xy",
-    "rim_coupling_x",
-    "rim_coupling_y",
-)
-RUBBER_CONSTANTS = (
-    "neo_hookean_shear",
-    "neo_hookean_volume",
-    "mooney_rivlin",
-    "yeoh_square",
-    "yeoh_cube",
-    "gent_limit",
-)
+NEAR_EDGES = ("edge_shear", "strip_shear", "edge_coupling")
+EDGES_OWN = (*NEAR_EDGES, *(f"far_{name}" for name in NEAR_EDGES))
 COUPLINGS = ("coupling_xy", "coupling_x", "coupling_y")
+MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
+RIMS_OWN = tuple(f"rim_{name}" for name in ("stretch_x", "stretch_y", "shear", *COUPLINGS))
+RUBBER_CONSTANTS = tuple(name for name in CONSTANTS if name.startswith(("neo_", "mooney_", "yeoh_", "gent_")))
 STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε1 ε2, ε1 γ and ε2 γ
-    cells: tuple(
-        (f"{middle}{name}", axis)
-        for name, axis in (("stretch", 0), ("stretch", 1), ("shear", 0), *((k, 0) for k in COUPLINGS))
-    )
-    for cells, middle in (("area", ""), ("mid_area", "mid_"))
-} | {
+    "area": (("stretch", 0), ("stretch", 1), ("shear", 0), *((name, 0) for name in COUPLINGS)),
     "rims": tuple((name, 0) for name in RIMS_OWN),
 }
+STRAINS["mid_area"] = tuple((f"mid_{name}", axis) for name, axis in STRAINS["area"])
 FACES = ("face_shear", "face_diagonal_shear", "face_coupling")
-MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
 SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN, "face_coupling")
 ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
 REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
@@ -260,10 +236,8 @@ def of_faces(springs: Springs, squares: np.ndarray) -> tuple[np.ndarray, np.ndar
     sides, those over their diagonals, (rows, columns, 2) each. squares: of the sides (lx, ly) [m²], the
     same."""
     beside = np.stack([springs.along("face_shear", axis) for axis in (0, 1)], axis=-1)
-    over = (springs.along("face_diagonal_shear", 0) + 0.5 * np.abs(springs.along("face_coupling", 0)))[
-        ..., None
-    ]
-    return beside, 2.0 * over * squares / squares.sum(axis=-1, keepdims=True)
+    over = springs.along("face_diagonal_shear", 0) + 0.5 * np.abs(springs.along("face_coupling", 0))
+    return beside, 2.0 * over[..., None] * squares / squares.sum(axis=-1, keepdims=True)
 
 
 def rank_one(stiffness: Any, *strain: Any) -> np.ndarray:

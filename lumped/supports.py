@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -46,6 +46,7 @@ class Constraints:
     held: np.ndarray
     fixed: np.ndarray
     coupling: Coupling | None = None
+    _reduced: dict[tuple[MassPattern, bool], ReducedSystem] = field(default_factory=dict)
 
     def prescribed(self, load_factor: float) -> np.ndarray:
         """g (n, 3) [m] in statics, which take the end of supports' motions."""
@@ -77,10 +78,6 @@ class Constraints:
         if found is None:
             found = self._reduced[pattern, symmetric] = reduced(pattern, self.transform, symmetric)
         return found
-
-    @cached_property
-    def _reduced(self) -> dict[tuple[MassPattern, bool], ReducedSystem]:
-        return {}
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),
@@ -129,7 +126,7 @@ def _constrain(
     moved = np.zeros(lattice.mass_count, dtype=bool) if coupling is None else coupling.moved
     n = lattice.mass_count if coupling is None else coupling.size
     fixed = np.zeros((n, 3), dtype=bool)
-    mean_held: dict[tuple[int, int], np.ndarray] = {}  # (last mass of a column, axis) → the column
+    dependent = np.zeros((n, 3), dtype=bool)  # first the last masses of columns whose mean is held
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]] = {}
     for name, support in named(supports).items():
         masses = held_columns(lattice, support, reached, name)
@@ -137,18 +134,13 @@ def _constrain(
         axes = held_axes(support)
         holders[name] = (masses, axes)
         if holds_tilt(support):
-            fixed[masses.ravel()[:, None], list(axes)] = True
+            fixed[masses.reshape(-1, 1), list(axes)] = True
         else:
-            for axis in axes:
-                mean_held.update({(column[-1], axis): column for column in masses})
+            dependent[masses[:, -1:], list(axes)] = True
     fixed[lattice.absent_masses] = True
-    held = fixed.copy()
-    mean_held = {key: column for key, column in mean_held.items() if not fixed[key[0], key[1]]}
-    dependent = np.zeros((n, 3), dtype=bool)
-    for (last, axis), column in mean_held.items():
-        dependent[last, axis] = True
-        held[column, axis] = True
-
+    last, along = np.nonzero(dependent & ~fixed)
+    layers, held = last[:, None] + np.arange(1 - lattice.grid[2], 1), fixed.copy()
+    held[layers, along[:, None]] = True
     dependent[: lattice.mass_count][moved] = True
     bodies = coupling.bodies if coupling is not None else []
     for body in bodies:
@@ -159,7 +151,7 @@ def _constrain(
     if coupling is not None:
         fixed[lattice.mass_count :] = held[lattice.mass_count :] = ~coupling.free
     transform = sp.csr_array(sp.eye_array(3 * n, format="csc")[:, np.flatnonzero(~(fixed | dependent))])
-    maps = [_last_layers(n, mean_held)] if mean_held else []
+    maps = [_last_layers(n, 3 * layers + along[:, None])] if len(last) else []
     maps += [_link(n, tie.rows, tie.others, tie.weights) for tie in ties]
     maps += [_link(n, b.masses, b.place.start + np.arange(b.rows), b.binding) for b in bodies]
     for of_others in maps:
@@ -186,13 +178,10 @@ def _constrain(
     return Constraints(transform, turned, shift, holders, held, fixed, coupling)
 
 
-def _last_layers(n: int, mean_held: dict[tuple[int, int], np.ndarray]) -> sp.csr_array:
-    """The map (3n, 3n) of last layers that are minus the sum of the others: by last mass and axis,
-    its column."""
-    last, axes = np.array([*mean_held]).T
-    others = 3 * np.array([*mean_held.values()])[:, :-1] + axes[:, None]
-    rows = np.broadcast_to((3 * last + axes)[:, None], others.shape)
-    entries = (np.full(others.size, -1.0), (rows.ravel(), others.ravel()))
+def _last_layers(n: int, components: np.ndarray) -> sp.csr_array:
+    """The map (3n, 3n) of last layers that are minus the sum of the others, of components (c, layers)."""
+    others = components[:, :-1].ravel()
+    entries = (np.full(len(others), -1.0), (np.repeat(components[:, -1], components.shape[1] - 1), others))
     return sp.csr_array(sp.coo_array(entries, shape=(3 * n, 3 * n)))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import subprocess
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,16 +18,7 @@ from time import perf_counter
 
 from sheetbench.errors import foreign
 
-ONE_THREAD = dict.fromkeys(
-    (
-        "OMP_NUM_THREADS",
-        "OPENBLAS_NUM_THREADS",
-        "MKL_NUM_THREADS",
-        "NUMBA_NUM_THREADS",
-        "RAYON_NUM_THREADS",
-    ),
-    "1",
-)
+ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "RAYON")}
 MOST = 2**24  # bytes of standard output
 TAIL = 2000  # bytes of standard error that are read
 POLL = 0.05  # s between looks at the time and at how much it has written
@@ -54,10 +45,6 @@ class Ended:
     def fault(self) -> str:
         """The same with the program's last words."""
         return f"{self.reason}: {self.complaint}" if self.reason and self.complaint else self.reason
-
-
-class Failed(Exception):
-    """The program has no answer; the message says in a clause what happened."""
 
 
 def run(
@@ -110,20 +97,3 @@ def run(
         lines = complaint.read().decode("utf-8", "replace").strip().splitlines()
         said = foreign(lines[-1]) if lines else ""
         return Ended(process.returncode, answer.read(most), said, stopped, took)
-
-
-def output_of(command: Sequence[str], folder: Path, limit: float, fine: Collection[int] = (0,)) -> str:
-    """Return what a program prints, run in a folder on one thread.
-
-    Raises Failed where it takes longer than `limit` [s], cannot be started, or ends with an exit status that
-    is not `fine`, with the last line that speaks of an error.
-    """
-    try:
-        ended = run(command, b"", limit, folder=folder, variables=ONE_THREAD)
-    except OSError as error:
-        raise Failed(f"cannot be started: {error.strerror}") from None
-    output = f"{ended.answer.decode('utf-8', errors='replace')}\n{ended.complaint}"
-    if not ended.stopped and ended.code in fine:
-        return output
-    lines = [line for line in output.splitlines() if "error" in line.lower()]
-    raise Failed(f"{ended.reason}: {foreign(lines[-1])}" if lines else ended.reason)

@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 from commands import one_line, run
 
+from comparisons.models.keys_page import markdown
+from comparisons.models.template import template
 from sheetbench import scenes
 from sheetbench.scenes import (
     Chain,
@@ -25,8 +27,6 @@ from sheetbench.scenes import (
 from sheetbench.scenes.language.schema import for_editors, json_schema
 from sheetbench.scenes.language.toml import to_toml
 from sheetbench.scenes.meaning.words import in_words
-from sheetbench.scenes.reference import markdown
-from sheetbench.scenes.template import template
 
 DOCS = Path(__file__).parent.parent / "docs"
 SHEET, MATERIAL = Sheet(0.3, 0.2, 0.002), Material(1.2e6, 0.45, 1100.0)

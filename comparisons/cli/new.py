@@ -30,13 +30,13 @@ def command(
     """
     from comparisons.cli import console
     from comparisons.models.quantities import checked
+    from comparisons.models.template import SCHEMA, template
     from sheetbench.answers.files import to_json, write_text
     from sheetbench.errors import BadInput, require_choice
     from sheetbench.files import require_file
     from sheetbench.scenes import EDGES, Material, Scene, Sheet
     from sheetbench.scenes.language.schema import for_editors
     from sheetbench.scenes.meaning.plausibility import slips
-    from sheetbench.scenes.template import SCHEMA, template
 
     require_file(file)
     if file.exists() and not overwrite:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from comparisons.models.keys_page import markdown
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene, catalogue, load
 from sheetbench.scenes.language.schema import for_editors
-from sheetbench.scenes.reference import markdown
 
 
 class Catalogue(Answer):

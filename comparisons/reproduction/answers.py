@@ -26,7 +26,7 @@ from comparisons.models.context import context
 from comparisons.models.grids import Elements
 from comparisons.models.spec import Lattice
 from comparisons.pictures.work import Work
-from sheetbench.answers.habibi import PROBES, published_displacements, published_inputs
+from comparisons.reproduction.published import PROBES, published_displacements, published_inputs
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.parameters import put

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from comparisons.reproduction.answers import COMPONENTS, SOURCES, ReproducedTest, published
+from comparisons.reproduction.published import PROBES
 from sheetbench.answers.figure_style import FigureStyle
-from sheetbench.answers.habibi import PROBES
 from sheetbench.answers.style import DARK, GREY, SERIES
 
 PUBLISHED = {"published model": ("s", DARK), "published experiment": ("D", GREY)}

@@ -16,7 +16,7 @@ import numpy as np
 
 from comparisons.reproduction.answers import COMPONENTS, printed
 from comparisons.reproduction.findings import Finding
-from sheetbench.answers.habibi import PROBES, published_errors, published_inputs
+from comparisons.reproduction.published import PROBES, published_errors, published_inputs
 from sheetbench.answers.table import PERCENT, Column, Table, percent
 
 TEXT = (

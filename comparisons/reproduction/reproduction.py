@@ -28,10 +28,10 @@ from comparisons.reproduction.answers import (
     scene,
 )
 from comparisons.reproduction.findings import Finding
+from comparisons.reproduction.published import KNOWN_FAULTS, PROBES, published_inputs
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.habibi import KNOWN_FAULTS, PROBES, published_inputs
 from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Table, percent

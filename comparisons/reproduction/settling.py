@@ -21,7 +21,7 @@ from comparisons.reproduction.answers import (
     published_lattice,
     published_springs,
 )
-from sheetbench.answers.habibi import published_inputs
+from comparisons.reproduction.published import published_inputs
 from sheetbench.answers.history import History
 from sheetbench.scenes import Scene, load
 

@@ -15,9 +15,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lumped.lattice import Lattice
+from lumped.lattice import STEPS, Cells, Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
-from lumped.rest import CellKind, Rest, rest_of
 from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
 from lumped.springs import cells, links
@@ -25,7 +24,6 @@ from lumped.springs.cell_laws import FACE, RUBBER, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
-from lumped.springs.survey import Survey, survey
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.typed import njit, typed
@@ -33,31 +31,33 @@ from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
 
-class Blocks(NamedTuple):
-    """Where a tangent's blocks are: their number; `Pattern.mirror`; each mass's block with itself (n,)."""
-
-    total: int
-    mirror: np.ndarray
-    diagonal: np.ndarray
-
-
 class SpringArrays(NamedTuple):
-    """The springs of a lattice that have an energy, and where their tangent's blocks are."""
+    """The springs of a lattice that have an energy, and where their tangent's blocks are: their number;
+    `MassPattern.mirror`; each mass's block with itself (n,)."""
 
     links: LinkArrays
     layers: CellArrays
     middle: CellArrays
     faces: CellArrays
-    where: Blocks
+    blocks: int
+    mirror: np.ndarray
+    diagonal: np.ndarray
 
 
-Stresses = tuple[np.ndarray, ...]  # four, as `SpringArrays`
+class Survey(NamedTuple):
+    """energies: of the springs under each name in the spring set [J]; strain: the largest relative change of
+    length of the links in a layer; stretch: of their energy that of the layers' mean stretch [J]."""
+
+    energies: dict[str, float]
+    strain: float
+    stretch: float
+
+
+Stresses = tuple[np.ndarray, ...]  # four, of the springs of `SpringArrays`
 NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 4)),))
 NO_INERTIA = np.empty(0)
-CELLS: tuple[tuple[str, CellKind, str], ...] = (  # constants, cells of the lattice, name of the energy
-    ("area", "layer_cells", "cells"),
-    ("mid_area", "mid_cells", "mid_cells"),
-)
+NAMES = tuple(dict.fromkeys(name for name, *_ in STEPS))  # of the links' families
+NUMBERS = np.array([NAMES.index(name) for name, *_ in STEPS])
 
 
 class AllFamilies:
@@ -69,8 +69,9 @@ class AllFamilies:
         self.families = (*families, *[NO_CELLS] * (4 - len(families)))
         self._central: tuple[Any, ...] = self.families[:4]
         self._others = [family for family in self.families if isinstance(family, DirectionalLinks)]
-        where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
-        self.springs = typed(SpringArrays._make([*(family.arrays for family in self._central), where]))
+        arrays = [family.arrays for family in self._central]
+        where = pattern.blocks, pattern.mirror, pattern.diagonal
+        self.springs = typed(SpringArrays._make([*arrays, *where]))
         self.all_links = [family for family in self.families if isinstance(family, Links)]
         self.links, self._pattern, self.conservative = self.all_links[0], pattern, not self._others
         self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
@@ -139,7 +140,7 @@ class AllFamilies:
     ) -> np.ndarray:
         """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
         springs' own where there are none, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
-        extrapolated: whether the stresses are those that `advance` predicts."""
+        extrapolated: whether the stresses are those that `extrapolated` predicts."""
         blocks: np.ndarray = tangent(
             np.ascontiguousarray(u),
             stress or NO_STRESSES,
@@ -168,23 +169,14 @@ def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
 
 
 @njit(cache=True, nogil=True, inline="always")
-def advance(
-    u: np.ndarray, step: np.ndarray, springs: SpringArrays
-) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
-    """Return where a step (n, 3) [m] leads, how far at most [m], the internal force (n, 3) [N] there, and the
-    stresses that the linearisation at u predicts there."""
-    after, length = np.empty_like(u), 0.0
-    for i in range(len(u)):
-        for q in range(3):
-            after[i, q] = u[i, q] + step[i, q]
-            length = max(length, abs(step[i, q]))
-    stresses = (
+def extrapolated(u: np.ndarray, step: np.ndarray, springs: SpringArrays) -> Stresses:
+    """Return the stresses that the linearisation at u predicts after a step (n, 3) [m]."""
+    return (
         links.extrapolated(u, step, springs.links, measures(springs.layers.law) == 3),
         cells.extrapolated(u, step, springs.layers),
         cells.extrapolated(u, step, springs.middle),
         cells.extrapolated(u, step, springs.faces),
     )
-    return after, length, force(after, springs)[1], stresses
 
 
 @njit(cache=True, nogil=True)
@@ -200,8 +192,7 @@ def tangent(
     """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
     springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
     It is symmetric: what is above the diagonal is copied."""
-    where = springs.where
-    blocks = np.zeros((where.total, 3, 3))
+    blocks = np.zeros((springs.blocks, 3, 3))
     strain = extrapolated and measures(springs.layers.law) == 3
     links.add_tangent(u, springs.links, stress[0], strain, share, blocks)
     cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, blocks)
@@ -213,58 +204,86 @@ def tangent(
             entries[e] *= scale
     for i in range(len(inertia)):
         for q in range(3):
-            blocks[where.diagonal[i], q, q] += inertia[i]
-    for k in range(len(where.mirror)):
-        below, above = blocks[np.uint64(where.mirror[k, 0])], blocks[np.uint64(where.mirror[k, 1])]
+            blocks[springs.diagonal[i], q, q] += inertia[i]
+    for k in range(len(springs.mirror)):
+        below, above = blocks[np.uint64(springs.mirror[k, 0])], blocks[np.uint64(springs.mirror[k, 1])]
         for q in range(3):
             for r in range(3):
                 above[q, r] = below[r, q]
     return blocks
 
 
+@njit(cache=True, nogil=True)
+def survey(
+    u: np.ndarray, springs: SpringArrays, kind: np.ndarray, kinds: int, layers: int
+) -> tuple[np.ndarray, float, float]:
+    """Return the energies of the links by kind (m,) and of the cells of the layers, of the mid-surface and of
+    upright faces, (kinds + 3,) [J], and the rest of a `Survey`."""
+    along, energies, stretch, summed, met = springs.links, np.zeros(kinds + 3), 0.0, 0.0, 0
+    for m in range(len(along.nodes)):
+        change, square, length, _ = links.measure(u, along, m)
+        half, e = 0.5 * along.constants[m], change / (np.sqrt(square) + length)
+        energies[kind[m]] += half * (e * e)
+        if along.offset[m, 2] == 0.0:
+            # links between the same columns follow each other, layer by layer, and are as stiff as each other
+            summed, met = summed + e, met + 1
+            if met % layers == 0:
+                stretch, summed = stretch + half * (summed * summed) / layers, 0.0
+    energies[kinds] = np.sum(cells.energies(u, springs.layers))
+    energies[kinds + 1] = np.sum(cells.energies(u, springs.middle))
+    energies[kinds + 2] = np.sum(cells.energies(u, springs.faces))
+    return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
+
+
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:
     """Central links, first and even where there are none; then those of a per-direction law."""
-    rest, names = rest_of(lattice, pattern), lattice.link_names
-    each = [springs.of_links(family.name, family.direction) for family in lattice.links]
-    components, parts = np.ones(max(k.shape[1] for k in each)), []
-    for family, k in zip(lattice.links, each, strict=True):
-        of_cells = (family.shares[:, :, None] * k[family.cells]).sum(axis=1) if len(k) > 1 else None
-        parts.append((family.weight[:, None] * k if of_cells is None else of_cells) * components)
-    k = np.concatenate(parts)
+    links = lattice.links
+    each = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
+    of_cells = each[links.step, links.cells if each.shape[1] > 1 else 0]
+    k = (links.shares[:, :, None] * of_cells).sum(axis=0)
     unequal = (k != k[:, :1]).any(axis=1)
-    yield _links(Links, rest, ~unequal & (k[:, 0] > 0.0), k[:, 0], names)
+
+    def family(kind: type[Links], which: np.ndarray, k: np.ndarray) -> Links:
+        nodes, number = links.nodes[which], NUMBERS[links.step[which]]
+        slots = pattern.among(nodes).reshape(-1, 4)
+        return kind(nodes, k[which], slots, links.offset[which], links.rest_length[which], number, NAMES)
+
+    yield family(Links, ~unequal & (k[:, 0] > 0.0), k[:, 0])
     if unequal.any():
-        yield _links(DirectionalLinks, rest, unequal, k, names)
+        yield family(DirectionalLinks, unequal, k)
 
 
-def _links(kind: type[Links], rest: Rest, which: np.ndarray, k: np.ndarray, names: tuple[str, ...]) -> Links:
-    nodes, slots, offset, rest_length, number = rest.links(which)
-    return kind(nodes, k[which], slots, offset, rest_length, number, names)
+def _cells(at_rest: Cells, pattern: MassPattern, stiffness: np.ndarray, *law: Any) -> SpringCells:
+    nodes, sides, area = at_rest
+    slots = pattern.among(nodes.reshape(len(nodes), -1))
+    return SpringCells(nodes, stiffness, slots, sides, area, *law)
 
 
 def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
     """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
     edges = of_edge_cells(springs, lattice.grid, lattice.twisting)
-    layers, rest, shape = lattice.grid[2], rest_of(lattice, pattern), lattice.cell_areas.shape
+    layers, shape = lattice.grid[2], lattice.cell_areas.shape
 
     def kept_cells(values: np.ndarray) -> np.ndarray:
         spread = np.broadcast_to(values, (*shape, *values.shape[2:]))
         return spread.reshape(-1, *values.shape[2:])[lattice.kept]
 
-    for of_cells, kind, name in CELLS:
-        nodes, slots, sides, area = rest.cells(kind)
-        every = layers if of_cells == "area" else 1
+    kinds = (
+        ("area", lattice.layer_cells, "cells", layers),
+        ("mid_area", lattice.middle_cells, "mid_cells", 1),
+    )
+    for of_cells, at_rest, name, every in kinds:
         if of_cells == "area" and springs.rubber:
-            every_sides, every_area = (part[: len(part) // every] for part in (sides, area))
-            squares, twist = (every_sides**2).sum(axis=2), edges[lattice.kept, 2]
-            found = of_rubber(springs, squares, every_area, twist, kept_cells)
+            sides, area = (part[: len(part) // every] for part in at_rest[1:])
+            squares, twist = (sides**2).sum(axis=2), edges[lattice.kept, 2]
+            found = of_rubber(springs, squares, area, twist, kept_cells)
             stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield SpringCells(nodes, stiffness, slots, sides, area, "rubber", RUBBER, others)
+            yield _cells(at_rest, pattern, stiffness, "rubber", RUBBER, others)
             continue
         strains = kept_cells(springs.strains(of_cells))
         strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]
         stiffness = np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])
-        made = SpringCells(nodes, np.concatenate([stiffness] * every), slots, sides, area, name)
+        made = _cells(at_rest, pattern, np.concatenate([stiffness] * every), name)
         yield made if stiffness.any() else NO_CELLS
 
 
@@ -272,15 +291,15 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     """On the upright faces between the layers, against their shear."""
     if not springs.of.keys() & FACES:
         return NO_CELLS
-    faces, (nodes, slots, sides, area) = lattice.faces, rest_of(lattice, pattern).cells("faces")
+    faces, area = lattice.faces, lattice.faces.at_rest.area
     along = [springs.along("face_shear", axis) for axis in (0, 1)]
     over, one = (springs.along(name, 0) for name in FACES[1:])
     each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
-    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis[:, None], faces.cells]
-    stiffness = np.zeros((len(nodes), 4))
-    stiffness[:, 3] = (faces.shares * stored).sum(axis=1) / area
+    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis, faces.cells]
+    stiffness = np.zeros((len(area), 4))
+    stiffness[:, 3] = (faces.shares * stored).sum(axis=0) / area
     others = stiffness[:, 3:] / area[:, None]
-    return SpringCells(nodes, stiffness, slots, sides, area, "face_shear", FACE, others)
+    return _cells(faces.at_rest, pattern, stiffness, "face_shear", FACE, others)
 
 
 @kept(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)

@@ -154,11 +154,13 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
     else:
         assert isinstance(family, SpringCells)
         a, b = family.sides[:, 0], family.sides[:, 1]
-        rest = (*a.T, *b.T, *((x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))), family.area)
+        rest = (*a.T, *b.T, *(np.einsum("ij,ij->i", *pair) for pair in ((a, a), (b, b), (a, b))), family.area)
         constants = family.constants.T
         first = 10 if damped else LAW
-    data[: len(rest), at] = rest
-    data[first : first + len(constants), at] += constants
+    for row, values in zip(data, rest, strict=False):
+        row[at] = values
+    for row, values in zip(data[first:], constants, strict=False):
+        row[at] += values
 
 
 @kept(last=PATTERN_CACHE, most=SHARED_UP_TO, size=lambda grid, *_: math.prod(grid))
@@ -205,9 +207,13 @@ def _tables(kind: int, topology: Topology, data: np.ndarray) -> tuple[np.ndarray
     those of the springs (rows, s): runs that are alike have one table."""
     absent = np.zeros((len(data), STRIDE))
     absent[: len(ABSENT_SPRING[kind])] = np.array(ABSENT_SPRING[kind])[:, None]
-    begins, found, data = [], dict[bytes, int](), data + 0.0  # no negative zeros
-    for first, last in pairwise(np.searchsorted(topology.run, np.arange(len(topology.runs) + 1))):
-        table = absent.copy()
-        table[:, topology.place[first:last]] = data[:, first:last]
-        begins.append(found.setdefault(table.tobytes(), table.size * len(found)))
-    return np.array(begins), np.frombuffer(b"".join(found))
+    begins, tables, found = [], [], dict[bytes, int]()
+    data = np.vstack([data, topology.place]) + 0.0  # no negative zeros
+    ends = np.searchsorted(topology.run, np.arange(len(topology.runs) + 1))
+    for first, last in pairwise(ends.tolist()):
+        own = data[:, first:last]
+        begins.append(found.setdefault(own.tobytes(), len(found)))
+        if begins[-1] == len(tables):
+            tables.append(absent.copy())
+            tables[-1][:, topology.place[first:last]] = own[:-1]
+    return absent.size * np.array(begins), np.concatenate(tables).ravel()

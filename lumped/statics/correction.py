@@ -14,12 +14,16 @@ from sheetbench.numerics.maps import Rows, product, transposed_product
 from sheetbench.numerics.typed import njit
 
 
-class Unknowns(NamedTuple):
-    """held: (n, 3) bool, what supports hold; free: T; band: where the reduced matrix goes, if in a band."""
+class Equations(NamedTuple):
+    """held: (n, 3) bool, what supports hold; free: T; band: where the reduced matrix goes, if in a band;
+    load: f of dead loads (n, 3) [N]; driving: norm of the forces [N]
+    of the natural state on the flat sheet."""
 
     held: np.ndarray
     free: Rows
     band: banded.Band
+    load: np.ndarray
+    driving: float
 
 
 @njit(cache=True, nogil=True)
@@ -27,19 +31,24 @@ def advance(
     u: np.ndarray,
     step: np.ndarray,
     moved: np.ndarray,
-    load: np.ndarray,
-    driving: float,
     load_factor: float,
-    unknowns: Unknowns,
+    equations: Equations,
     springs: SpringArrays,
 ) -> tuple[np.ndarray, float, np.ndarray, Stresses, tuple[np.ndarray, np.ndarray, float, float]]:
-    """Return what `all_families.advance` does of a step (m,) [m] of the unknowns with what is `moved` (n, 3)
-    [m] beside, if anything, and `unbalanced_force` there."""
-    move = product(unknowns.free, step).reshape(u.shape)
+    """Return where a step (m,) [m] of the unknowns leads with what is `moved` (n, 3) [m] beside, if anything,
+    how far at most [m], the internal force (n, 3) [N] there, the stresses that the linearisation at u
+    predicts there, and `unbalanced_force`."""
+    move = product(equations.free, step).reshape(u.shape)
     if len(moved):
         move += moved
-    after, length, internal, stresses = all_families.advance(u, move, springs)
-    residual = unbalanced_force(internal, load, driving, load_factor, unknowns, len(step))
+    after, length = np.empty_like(u), 0.0
+    for i in range(len(u)):
+        for q in range(3):
+            after[i, q] = u[i, q] + move[i, q]
+            length = max(length, abs(move[i, q]))
+    stresses = all_families.extrapolated(u, move, springs)
+    internal = all_families.force(after, springs)[1]
+    residual = unbalanced_force(internal, equations.load, load_factor, equations, len(step))
     return after, length, internal, stresses, residual
 
 
@@ -48,32 +57,25 @@ def correct(
     u: np.ndarray,
     stresses: Stresses,
     rows: np.ndarray,
-    load: np.ndarray,
-    driving: float,
     load_factor: float,
-    unknowns: Unknowns,
+    equations: Equations,
     springs: SpringArrays,
 ) -> tuple[np.ndarray, np.ndarray, bool, np.ndarray, Any]:
     """Return the tangent's blocks, factors in a band, whether they are such and give a finite step, that step
     from u and what `advance` makes of it."""
-    none, band = np.empty(0), unknowns.band
+    none, band = np.empty(0), equations.band
     predicted = len(stresses[0]) + len(stresses[1]) > 0
     blocks = all_families.tangent(u, stresses, predicted, 1.0, 1.0, none, springs)
     factors, definite = banded.factored(blocks, band)
     step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else np.zeros(len(rows))
     definite = definite and np.isfinite(np.sum(step))
-    found = advance(u, step, np.empty((0, 3)), load, driving, load_factor, unknowns, springs)
+    found = advance(u, step, np.empty((0, 3)), load_factor, equations, springs)
     return blocks, factors, definite, step, found
 
 
 @njit(cache=True, nogil=True)
 def unbalanced_force(
-    internal: np.ndarray,
-    load: np.ndarray,
-    driving: float,
-    load_factor: float,
-    unknowns: Unknowns,
-    n: int,
+    internal: np.ndarray, load: np.ndarray, load_factor: float, equations: Equations, n: int
 ) -> tuple[np.ndarray, np.ndarray, float, float]:
     """Return load_factor × load less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the
     external forces plus those of the supports' and, driving, of a natural state [N]."""
@@ -84,9 +86,10 @@ def unbalanced_force(
             external = load_factor * load[i, q]
             out[i, q] = external - internal[i, q]
             loads += external**2
-            if unknowns.held[i, q]:
+            if equations.held[i, q]:
                 supports += internal[i, q] ** 2
-    reduced = transposed_product(unknowns.free, out.ravel(), n)
+    reduced = transposed_product(equations.free, out.ravel(), n)
     for value in reduced:
         total += value * value
-    return out, reduced, np.sqrt(total), np.sqrt(loads) + np.sqrt(supports) + abs(load_factor) * driving
+    size = np.sqrt(loads) + np.sqrt(supports) + abs(load_factor) * equations.driving
+    return out, reduced, np.sqrt(total), size

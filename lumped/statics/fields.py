@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.lattice import Lattice
 from lumped.springs import cells
 from lumped.springs.cell_laws import FACE
 from lumped.springs.families import SpringCells
@@ -54,14 +53,16 @@ def field_mesh(
     part = SMALL if linear else 1.0
     assembly = assembly.at(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice
-    layer_cells = lattice.layer_cells[:, :, 0]
+    layer_cells = lattice.layer_cells.nodes[:, :, 0]
     quads, masses = len(layer_cells), lattice.mass_count
     cell_energy = np.zeros(quads)
     for family in assembly.springs:
         if isinstance(family, SpringCells) and len(family):
             energy = cells.energies(small, family.arrays) / part**2
             if family.law is FACE:
-                energy = _links_by_cell(lattice, family.nodes[:, ::2, 0], energy)  # from corner to corner
+                faces, count = lattice.faces, lattice.cell_areas.size
+                stored = faces.shares * (energy / faces.shares.sum(axis=0))
+                energy = np.bincount(faces.cells.ravel(), stored.ravel(), count)[lattice.kept]
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
     elongation = links.stretched(small)[2] / part
@@ -81,20 +82,3 @@ def field_mesh(
             "elastic_energy": [0.5 * links.stiffness * elongation**2, cell_energy],
         },
     )
-
-
-def _links_by_cell(lattice: Lattice, nodes: np.ndarray, energy: np.ndarray) -> np.ndarray:
-    """Energy of links (m, 2) summed over the plan cells that hold them, (cells,) [J]."""
-    nx, ny, _ = lattice.grid
-    middle = lattice.positions[nodes].mean(axis=1)
-    (i, x), (j, y) = (lines.index(middle[:, axis]) for axis, lines in enumerate(lattice.lines))
-    beside = []
-    for side_x in (-1e-6, 1e-6):
-        for side_y in (-1e-6, 1e-6):
-            column = np.clip(i + np.floor(x + side_x).astype(int), 0, nx - 2)
-            row = np.clip(j + np.floor(y + side_y).astype(int), 0, ny - 2)
-            beside.append(row * (nx - 1) + column)
-    there = lattice.cell_areas.ravel()[beside] > 0.0
-    shares = np.where(there, energy / there.sum(axis=0), 0.0)
-    stored = np.bincount(np.ravel(beside), shares.ravel(), minlength=lattice.cell_areas.size)
-    return np.asarray(stored[lattice.kept])

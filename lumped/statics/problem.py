@@ -20,9 +20,8 @@ from lumped.assembly import Assembly
 from lumped.contact import Contact
 from lumped.items import LatticeItem, Placed
 from lumped.loads import Loads
-from lumped.springs.all_families import NO_STRESSES, Stresses
-from lumped.springs.survey import Survey
-from lumped.statics.correction import Unknowns, advance, correct, unbalanced_force
+from lumped.springs.all_families import NO_STRESSES, Stresses, Survey
+from lumped.statics.correction import Equations, advance, correct, unbalanced_force
 from lumped.statics.faults import inspect
 from lumped.supports import Constraints
 from sheetbench.numerics import banded
@@ -86,8 +85,7 @@ class Problem(Structure[LatticeState, Residual]):
     factors of blocks (b, 3, 3).
 
     size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`); symmetric: whether
-    all forces have a potential; driving: norm of the forces [N] of the natural state on the flat sheet, often
-    the only ones; descends: whether stable equilibria are minima of an energy of the free
+    all forces have a potential; descends: whether stable equilibria are minima of an energy of the free
     unknowns.
     """
 
@@ -103,9 +101,9 @@ class Problem(Structure[LatticeState, Residual]):
         self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
         self.contacts = [item for item in items if isinstance(item, Contact)]
         self.symmetric = self.conservative = assembly.conservative and loads.conservative
-        self.prestrained, self.driving = assembly.natural is not None, 0.0
-        if self.prestrained:
-            self.driving = float(np.linalg.norm(assembly.force(np.zeros_like(loads.dead))[1]))
+        self.prestrained, driving = assembly.natural is not None, 0.0
+        if self.prestrained:  # often the only load
+            driving = float(np.linalg.norm(assembly.force(np.zeros_like(loads.dead))[1]))
         coupling, transform = assembly.coupling, constraints.transform
         self.multipliers = 0 if coupling is None else coupling.multipliers
         self.descends = self.symmetric and self.multipliers == 0
@@ -117,7 +115,7 @@ class Problem(Structure[LatticeState, Residual]):
             multipliers = abs(transform).T @ coupling.algebraic.ravel() > 0.0
             self.system = ReducedSystem(assembly.pattern, transform, self.symmetric, multipliers)
         band = self.system.band or banded.NO_BAND
-        self._unknowns = typed(Unknowns(constraints.held, self._free, band))
+        self._equations = typed(Equations(constraints.held, self._free, band, loads.last_dead, driving))
         self._moves = bool(self.prescribed(1.0).any())
         self._iterates = self.descends and self.system.unknowns > ITERATED
         self.factor = self.system.factor
@@ -200,7 +198,7 @@ class Problem(Structure[LatticeState, Residual]):
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
         load, n = self.loads.force(u), self.system.unknowns
-        return Residual(*unbalanced_force(internal, load, self.driving, load_factor, self._unknowns, n))
+        return Residual(*unbalanced_force(internal, load, load_factor, self._equations, n))
 
     def rest(self) -> LatticeState:
         return LatticeState(np.zeros(self.loads.dead.shape), 0.0)
@@ -258,9 +256,9 @@ class Problem(Structure[LatticeState, Residual]):
         self, state: LatticeState, forces: Residual | None, load_factor: float, step: np.ndarray
     ) -> LatticeState:
         springs, moved = self.assembly.at(load_factor).all_families, forces and forces.moved
-        moved, external = NOTHING if moved is None else moved, (self.loads.last_dead, self.driving)
+        moved = NOTHING if moved is None else moved
         after, length, internal, stresses, residual = advance(
-            state.u, step, moved, *external, load_factor, self._unknowns, springs.springs
+            state.u, step, moved, load_factor, self._equations, springs.springs
         )
         if self._others or not springs.conservative:
             internal = springs.beside(after, internal)
@@ -277,15 +275,9 @@ class Problem(Structure[LatticeState, Residual]):
         if others or band is None or self._iterates:
             return None
         count()
+        given = load_factor, self._equations, springs.springs
         blocks, factors, definite, step, (after, length, _, stresses, residual) = correct(
-            state.u,
-            state.stresses or NO_STRESSES,
-            rows,
-            self.loads.last_dead,
-            self.driving,
-            load_factor,
-            self._unknowns,
-            springs.springs,
+            state.u, state.stresses or NO_STRESSES, rows, *given
         )
         if definite:
             reached = LatticeState(after, load_factor, Residual(*residual), stresses, state.u, length)

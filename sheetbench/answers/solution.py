@@ -31,42 +31,38 @@ if TYPE_CHECKING:
 About = Literal["flat", "deformed"]  # what oscillations are about: the sheet at rest, or its equilibrium
 
 
-class Status(StrEnum):
-    """How a solve ended. `advice` says what a user can do about it."""
-
-    CONVERGED = "converged"
-    UNSTABLE = "unstable"
-    SINGULAR = "singular"
-    STEP_LIMIT = "step-limit"
-    DIVERGED = "diverged"
-    NON_FINITE = "non-finite"
-    INVERTED = "inverted"
-    STRAIN_OUTSIDE_MODEL = "strain-outside-model"
-    REFUSED = "refused"
-    FAILED = "failed"
-
-    @property
-    def advice(self) -> str:
-        """One sentence: what happened and what to change."""
-        return _ADVICE[self]
-
-
 _FINER = "more masses (--lumped) or elements (--elements) may help, or a lighter load"
-_ADVICE = {
-    Status.CONVERGED: "a stable equilibrium",
-    Status.UNSTABLE: (
+_KEPT = f"{_FINER}; the last converged load is kept"
+
+
+class Status(StrEnum):
+    """How a solve ended, each with a sentence, its `advice`: what happened and what a user can change."""
+
+    advice: str
+
+    def __new__(cls, text: str, advice: str = "") -> Self:
+        """Return the status of a text."""
+        status = str.__new__(cls, text)
+        status._value_, status.advice = text, advice
+        return status
+
+    CONVERGED = "converged", "a stable equilibrium"
+    UNSTABLE = (
+        "unstable",
         "an equilibrium, but not a stable one: a disturbed sheet moves on to another, which "
-        "`compare --branch buckled` seeks"
-    ),
-    Status.SINGULAR: "the tangent is singular: a limit point, a bifurcation or an unresisted motion",
-    Status.STEP_LIMIT: f"no equilibrium within the steps allowed: {_FINER}; the last converged load is kept",
-    Status.DIVERGED: f"no equilibrium found: {_FINER}; the last converged load is kept",
-    Status.NON_FINITE: "a number overflowed: check the magnitudes of loads and stiffnesses",
-    Status.INVERTED: f"a cell or an element turned inside out: {_FINER}",
-    Status.STRAIN_OUTSIDE_MODEL: "strains or turns beyond what the model means: not physical",
-    Status.REFUSED: "the model does not support what the scene asks",
-    Status.FAILED: "a program of your own ended without an answer",
-}
+        "`compare --branch buckled` seeks",
+    )
+    SINGULAR = "singular", "the tangent is singular: a limit point, a bifurcation or an unresisted motion"
+    STEP_LIMIT = "step-limit", f"no equilibrium within the steps allowed: {_KEPT}"
+    DIVERGED = "diverged", f"no equilibrium found: {_KEPT}"
+    NON_FINITE = "non-finite", "a number overflowed: check the magnitudes of loads and stiffnesses"
+    INVERTED = "inverted", f"a cell or an element turned inside out: {_FINER}"
+    STRAIN_OUTSIDE_MODEL = (
+        "strain-outside-model",
+        "strains or turns beyond what the model means: not physical",
+    )
+    REFUSED = "refused", "the model does not support what the scene asks"
+    FAILED = "failed", "a program of your own ended without an answer"
 
 
 def comparable(status: str, load_factor: float) -> bool:

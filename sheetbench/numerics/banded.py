@@ -64,11 +64,6 @@ def ordered(rows: np.ndarray, columns: np.ndarray, n: int) -> tuple[np.ndarray, 
     return (other, narrower) if narrower < width else (order, width)
 
 
-def cost(n: int, width: int) -> float:
-    """Multiplications of one factorisation, nearly."""
-    return float(n) * (width + 1.0) ** 2
-
-
 def band_of(
     source: np.ndarray,
     rows: np.ndarray,

@@ -35,9 +35,8 @@ Matrix = Any  # by rows or, where it is symmetric or so by pattern, by columns
 Solve = Callable[[np.ndarray], np.ndarray]
 Count = Callable[[], None]
 
-CHOLESKY = (
-    1e-14  # backward error of a positive definite matrix's factors, which need no pivots (Higham 2002, 10.1)
-)
+# backward error of a positive definite matrix's factors, which need no pivots (Higham 2002, 10.1)
+CHOLESKY = 1e-14
 ITERATION_ACCURACY = 1e-4  # residual over the right-hand side: Newton's corrections gain few digits more
 ITERATIONS = 20  # each costs a solution with the factors
 
@@ -159,8 +158,7 @@ class DirectSolver:
         if self._transposed is None:
             places = sp.csc_array((np.arange(len(matrix.data)), matrix.indices, matrix.indptr), matrix.shape)
             self._transposed = places.T.tocsc().data
-        part: np.ndarray = 0.5 * (matrix.data + matrix.data[self._transposed])
-        return part
+        return np.asarray(0.5 * (matrix.data + matrix.data[self._transposed]))
 
     def _by_library(self, matrix: Matrix, more: Count) -> Factor:
         if not np.isfinite(matrix.data).all():

@@ -22,14 +22,14 @@ def lowest_modes(
     count: int,
     shift: float = 0.0,
     factor: Callable[[], Factor] | None = None,
-    dense: int | None = None,
+    dense: int = DENSE,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the lowest eigenvalues (count,), rising, and their eigenvectors (n, count), φᵀ M φ = 1.
 
     stiffness, mass: sparse (n, n); count: at most n; shift: σ below the spectrum, or 0 for a positive
     definite K: Lanczos goes on (K − σM)⁻¹; factor: what makes its factors, where that is better than
-    `DirectSolver` without fronts; dense: unknowns up to which dense matrices are used for several modes,
-    DENSE unless given. Raises SingularMatrixError where K − σM has no factors.
+    `DirectSolver` without fronts; dense: unknowns up to which dense matrices are used for several modes.
+    Raises SingularMatrixError where K − σM has no factors.
 
     >>> import scipy.sparse as sp
     >>> values, vectors = lowest_modes(sp.diags_array([4.0, 1.0, 9.0]), sp.eye_array(3), 2)
@@ -37,8 +37,7 @@ def lowest_modes(
     array([1., 4.])
     """
     n = stiffness.shape[0]
-    few = DENSE if dense is None else dense
-    if n <= max(few if count > 1 else few // 3, SHARE * count):
+    if n <= max(dense if count > 1 else dense // 3, SHARE * count):
         found = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), subset_by_index=[0, count - 1])
         return found[0], found[1]
     factors = factor() if factor else DirectSolver().factor(stiffness - shift * mass if shift else stiffness)

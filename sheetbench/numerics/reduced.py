@@ -31,7 +31,9 @@ from sheetbench.numerics.kept import kept
 from sheetbench.numerics.saddle_point import Saddle
 from sheetbench.numerics.typed import njit
 
-BANDED_LIMIT = 2.0e7  # n × bandwidth² below which the banded Cholesky is quicker than the sparse one
+BANDED_LIMIT = (
+    2.0e7  # multiplications, n × bandwidth², below which the banded Cholesky is quicker than the sparse one
+)
 
 
 class BlockPattern(Protocol):
@@ -106,7 +108,7 @@ class ReducedSystem:
             return None
         found = self._reduction
         order, width = banded.ordered(found.rows, found.columns(), self.unknowns)
-        if banded.cost(self.unknowns, width) >= BANDED_LIMIT:
+        if self.unknowns * (width + 1.0) ** 2 >= BANDED_LIMIT:
             return None
         entries = found.entries()
         rows, columns = np.repeat(found.rows, entries), np.repeat(found.columns(), entries)

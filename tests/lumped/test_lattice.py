@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from cases import SHEET
 
-from lumped.lattice import build
+from lumped.lattice import STEPS, build
 from sheetbench.scenes import Sheet
 
 pytestmark = pytest.mark.smoke
@@ -14,9 +14,23 @@ OBLONG = Sheet(length_x=0.2, length_y=0.3, thickness=0.003)
 
 def neighbours(lattice):
     count = np.zeros(lattice.mass_count, int)
-    for family in lattice.links:
-        np.add.at(count, family.nodes.ravel(), 1)
+    np.add.at(count, lattice.links.nodes.ravel(), 1)
     return count
+
+
+def families(lattice):
+    """Name, direction, nodes, offsets, rest lengths and weights of the links of each row of STEPS."""
+    links = lattice.links
+    for number, (name, direction, _) in enumerate(STEPS):
+        of = links.step == number
+        yield (
+            name,
+            direction,
+            links.nodes[of],
+            links.offset[of],
+            links.rest_length[of],
+            links.shares[:, of].sum(axis=0),
+        )
 
 
 def test_neighbour_counts_of_the_seed():
@@ -47,25 +61,25 @@ def test_spacing_and_rest_lengths_of_an_oblong_grid():
         ("cross", "y"): np.hypot(ly, lz),
         ("cross_diagonal", ""): np.sqrt(lx**2 + ly**2 + lz**2),
     }
-    for family in lattice.links:
-        ends = lattice.positions[family.nodes]
-        assert np.allclose(ends[:, 1] - ends[:, 0], family.offset, atol=1e-15)
-        assert np.allclose(family.rest_length, expected[family.name, family.direction])
+    for name, direction, nodes, offset, rest_length, _ in families(lattice):
+        ends = lattice.positions[nodes]
+        assert np.allclose(ends[:, 1] - ends[:, 0], offset, atol=1e-15)
+        assert np.allclose(rest_length, expected[name, direction])
 
 
 def test_tributary_weights():
     lattice = build(SHEET, (5, 5, 2), 0.003)
     assert lattice.share.sum() == pytest.approx(16 * 2)  # cells × layers
-    for family in lattice.links:
-        if family.name in ("diagonal", "cross_diagonal"):
-            assert (family.weight == 1.0).all()
-        elif family.name == "vertical":
-            assert sorted(set(family.weight)) == [0.25, 0.5, 1.0]
+    for name, direction, nodes, _, _, weight in families(lattice):
+        if name in ("diagonal", "cross_diagonal"):
+            assert (weight == 1.0).all()
+        elif name == "vertical":
+            assert sorted(set(weight)) == [0.25, 0.5, 1.0]
         else:
-            along = 1 if family.direction == "x" else 0  # boundary lines of x links are at the ends of y
-            line = lattice.positions[family.nodes[:, 0], along]
+            along = 1 if direction == "x" else 0  # boundary lines of x links are at the ends of y
+            line = lattice.positions[nodes[:, 0], along]
             outer = np.isclose(line, 0.0) | np.isclose(line, 0.188)
-            assert (family.weight == np.where(outer, 0.5, 1.0)).all()
+            assert (weight == np.where(outer, 0.5, 1.0)).all()
 
 
 def test_full_weights_are_the_seeds_equal_masses():
@@ -73,7 +87,7 @@ def test_full_weights_are_the_seeds_equal_masses():
     assert np.ptp(lattice.share) == 0.0
     mass = 1678.0 * 0.188**2 * 0.003 / 2 / 64 * lattice.share[0]
     assert mass == pytest.approx(0.0010982, rel=1e-4)
-    assert all((family.weight == 1.0).all() for family in lattice.links)
+    assert (lattice.links.shares.sum(axis=0) == 1.0).all()
 
 
 def test_too_small_a_grid_is_refused():

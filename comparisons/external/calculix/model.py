@@ -30,7 +30,7 @@ import numpy as np
 
 from comparisons.external.answer import BRICK_MOMENTS, Code, Reached, refusal
 from comparisons.external.bricks import Bricks, forces, held, materials
-from sheetbench.process import Failed, output_of
+from comparisons.external.output import Failed, output_of
 from sheetbench.scenes import Material, Pressure, Scene
 from sheetbench.scenes.objects.fields import SHAPED
 from sheetbench.scenes.objects.orthotropy import FIBRES, impossible_in_space

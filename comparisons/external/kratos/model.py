@@ -28,9 +28,9 @@ from skfem import MeshQuad
 
 from comparisons.external.answer import Code, Reached, refusal, require_count
 from comparisons.external.bricks import SITES, point_loads
+from comparisons.external.output import Failed, output_of
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import rectangle
-from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
     EDGES,
     EdgeLoad,

@@ -23,7 +23,7 @@ class FlatSystem:
         lattice, packing, parts = system.assembly.lattice, system.packing, system.problem.loads.parts
         self._system, self._parts = system, parts
         self._size, count = 3 * int(packing.size), len(packing.order)
-        self._places = np.empty((count, 3), dtype=int)
+        self._places = np.empty((count, 3), dtype=np.uint64)
         self._places[packing.order] = np.arange(count)[:, None] + np.arange(3) * int(packing.size)
         self._driven = np.argwhere(system.prescribed.components)
         free, held = _freedom(system)
@@ -32,22 +32,23 @@ class FlatSystem:
         )
         self.at_once = max(LEAST, round(CALL / (sum(map(len, system.assembly.springs)) * PER_SPRING)))
         pressure = np.stack([part.pressure for part in parts])
+        cells = count + self._places[lattice.mid_cells[:, :, 0], 0]
         self.arrays = ExplicitArrays(
             packing,
             ExplicitLoads(
                 np.stack([self._flat(part.dead) for part in parts]),
-                lattice.positions,
-                lattice.mid_cells if pressure.any() else lattice.mid_cells[:0],
+                self._flat(lattice.positions),
+                cells if pressure.any() else cells[:0],
                 pressure,
-                np.concatenate([part.columns for part in parts]),
+                self._places[np.concatenate([part.columns for part in parts]), 0],
                 np.concatenate([part.moments for part in parts]),
                 np.repeat(np.arange(len(parts)), [len(part.moments) for part in parts]),
             ),
             mass,
             np.divide(1.0, mass, out=np.zeros_like(mass), where=self._flat(free) > 0.0),
             rate if rate.any() else np.empty(0),
-            self._places.ravel()[held].astype(np.uint64),
-            self._places[tuple(self._driven.T)].astype(np.uint64),
+            self._places.ravel()[held],
+            self._places[tuple(self._driven.T)],
             system.damping.present,
             system.working,
         )

@@ -15,18 +15,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lumped.pressure import add_couples
-from lumped.pressure import add_forces as add_pressure
-from lumped.springs.all_forces import add_from_places, at_places, lay_out
+from lumped.pressure import add_couples, add_surface_forces
+from lumped.springs.all_forces import THREE, at_places, average, share_out
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_FALSE, NUMBA_TRUE, OPTIONS
 from sheetbench.numerics.typed import inner, njit
 
 
 class ExplicitLoads(NamedTuple):
-    """dead: (parts, 3 s) [N], to be scaled by each history, the first by none; positions: at rest (n, 3)
-    [m]; cells: (c, 4, layers) masses of cells under pressure: (parts, c) [Pa]; columns: (e, 3, layers) of
-    moments (e,) [N·m], as `lumped.pressure.add_couples` has them; owners: (e,) parts of those."""
+    """dead: (parts, 3 s) [N], to be scaled by each history, the first by none; positions: at rest (3 s,) [m];
+    cells: (c, 4) places on the mid-surface of cells under pressure: (parts, c) [Pa]; columns: places
+    (e, 3, layers) of moments (e,) [N·m], as `lumped.pressure.add_couples` has them; owners: (e,) parts of
+    those."""
 
     dead: np.ndarray
     positions: np.ndarray
@@ -72,11 +72,12 @@ def march(
     Whether no number overflowed, else u, v and a are spoilt; the steps before that; the energy that dampers
     took and the work done [J].
     """
+    size, count = arrays.packing.size, arrays.packing.layers * arrays.packing.plane
     packing, driven, rate, exerted = arrays.packing, arrays.driven, arrays.rate, np.zeros(len(arrays.driven))
     w, d, force, resisting = np.zeros_like(u), np.zeros_like(u), np.zeros_like(u), np.zeros_like(u)
     tile, load = np.zeros(packing.length), np.zeros_like(u)
     now, again = Scratch(u, w, force, tile), Scratch(u, d, resisting, tile)
-    taken = work = power = 0.0
+    before, taken, work, power = np.zeros_like(u), 0.0, 0.0, 0.0
     add_loads(arrays, factors[0], u, load)
     if arrays.damped or len(driven):
         w[:] = v
@@ -85,19 +86,21 @@ def march(
         for i in range(len(driven)):
             exerted[i] = _exerted(arrays, driven[i], a, force, load)
     for n in range(steps):
-        for i in range(len(u)):
-            w[i] = v[i] + h * a[i]
-            v[i] += 0.5 * h * a[i]
-            d[i] = h * v[i]
+        for q in range(THREE):
+            for i in range(q * size, q * size + count):
+                w[i] = v[i] + h * a[i]
+                v[i] += 0.5 * h * a[i]
+                d[i] = h * v[i]
+            for i in range(q * size, q * size + count):
+                u[i] += d[i]
         for i in range(len(driven)):
-            d[driven[i]] += place[n + 1, i] - place[n, i] - h * place_rate[n, i]
-            v[driven[i]] += place_rate[n + 1, i] - place_rate[n, i]
-        for i in range(len(u)):
-            u[i] += d[i]
+            p, jump = driven[i], place[n + 1, i] - place[n, i] - h * place_rate[n, i]
+            d[p], u[p] = d[p] + jump, u[p] + jump
+            v[p] += place_rate[n + 1, i] - place_rate[n, i]
         if arrays.working:
-            work += 0.5 * _work_of_loads(arrays.loads.dead[0], load, d)
+            load, before = before, load
             add_loads(arrays, factors[n + 1], u, load)
-            work += 0.5 * _work_of_loads(arrays.loads.dead[0], load, d)
+            work += _work_of_loads(arrays.loads.dead[0], before, load, d)
         taking = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, now)[1]
         taking += _resist(rate, w, force)
         if not _accelerate(0.5 * h, arrays, load, force, a, v):
@@ -118,9 +121,9 @@ def march(
             if not _accelerate(0.0, arrays, load, force, a, v):
                 return False, n, taken, work
         for i in range(len(driven)):  # by the trapezoidal rule, and what the masses gain by their rates
-            p, before = driven[i], exerted[i]
+            p, last = driven[i], exerted[i]
             exerted[i] = _exerted(arrays, p, a, force, load)
-            work += 0.5 * (before + exerted[i]) * (place[n + 1, i] - place[n, i])
+            work += 0.5 * (last + exerted[i]) * (place[n + 1, i] - place[n, i])
             work += 0.5 * arrays.mass[p] * (place_rate[n + 1, i] ** 2 - place_rate[n, i] ** 2)
     return True, steps, taken, work
 
@@ -140,12 +143,13 @@ def _accelerate(
     half: float, arrays: ExplicitArrays, load: np.ndarray, force: np.ndarray, a: np.ndarray, v: np.ndarray
 ) -> bool:
     """a = T M⁻¹ Tᵀ (load − force), and v by half a step [s] of it; whether all is finite."""
-    inverse, lost = arrays.inverse_mass, 0.0
-    for i in range(len(a)):
-        gained = (load[i] - force[i]) * inverse[i]
-        a[i] = gained
-        v[i] += half * gained
-        lost += 0.0 * gained  # not a number if any is not finite
+    inverse, lost, size = arrays.inverse_mass, 0.0, arrays.packing.size
+    for q in range(THREE):
+        for i in range(q * size, q * size + arrays.packing.layers * arrays.packing.plane):
+            gained = (load[i] - force[i]) * inverse[i]
+            a[i] = gained
+            v[i] += half * gained
+            lost += 0.0 * gained  # not a number if any is not finite
     for c in range(len(arrays.held)):
         mean = weight = 0.0
         for p in arrays.held[c]:
@@ -168,27 +172,27 @@ def _exerted(arrays: ExplicitArrays, p: int, a: np.ndarray, force: np.ndarray, l
 def add_loads(arrays: ExplicitArrays, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
     """Put the loads at displacement u, scaled by the factors of their histories, in `load` [N]."""
     packing, loads = arrays.packing, arrays.loads
+    load[:] = loads.dead[0]
+    for part in range(1, len(factors)):
+        for i in range(len(load)):
+            load[i] += factors[part] * loads.dead[part, i]
     if len(loads.cells) or len(loads.moments):
-        x, following = loads.positions.copy(), np.zeros_like(loads.positions)
-        add_from_places(u, packing, x)
-        pressure = np.zeros(len(loads.cells))
+        displaced, pressure = loads.positions + u, np.zeros(len(loads.cells))
+        x, following = displaced.reshape(3, -1).T, load.reshape(3, -1).T
+        add_couples(x, loads.columns, factors[loads.owners] * loads.moments, following)
         for part in range(len(factors)):
             for c in range(len(pressure)):
                 pressure[c] += factors[part] * loads.pressure[part, c]
-        add_pressure(x, loads.cells, pressure, following)
-        add_couples(x, loads.columns, factors[loads.owners] * loads.moments, following)
-        lay_out(following, packing, load)
-    else:
-        load[:] = 0.0
-    for part in range(len(factors)):
-        for i in range(len(load)):
-            load[i] += factors[part] * loads.dead[part, i]
+        if len(pressure):
+            average(packing, displaced)
+            add_surface_forces(x, loads.cells, pressure, following)
+            share_out(packing, load)
 
 
 @njit(**OPTIONS)
-def _work_of_loads(still: np.ndarray, load: np.ndarray, moved: np.ndarray) -> float:
-    """Work [J] of what loads are beyond those without a history."""
+def _work_of_loads(still: np.ndarray, before: np.ndarray, after: np.ndarray, moved: np.ndarray) -> float:
+    """Work [J] of what loads are beyond those without a history, by the trapezoidal rule."""
     work = 0.0
     for i in range(len(moved)):
-        work += (load[i] - still[i]) * moved[i]
+        work += (0.5 * (before[i] + after[i]) - still[i]) * moved[i]
     return work

@@ -27,64 +27,60 @@ STALE = 0.1  # of a residual: factors whose correction leaves more are too old
 @dataclass(frozen=True)
 class Start(Generic[State]):
     """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
-    that has led to it."""
+    that has led to it; factor: of the tangent where a linear step from a path's last equilibrium began."""
 
     state: State
     target: float
     length: float
     work: float
+    factor: Factor | None = None
 
 
-class Predictor(Generic[State, Forces]):
-    """The first linear step from a path's last equilibrium towards a load, no longer than `reach`.
+def predicted(path: Path[State, Forces], target: float, reach: float, factor: Factor | None) -> Start[State]:
+    """Return where the first linear step from a path's last equilibrium towards a load leads, no longer than
+    `reach`. factor: of the tangent there, where it is at hand; it serves where that does not depend on the
+    load. Raises LoadStepFailed."""
+    first = _linear_step(path, target, factor)
+    if reach < first.length < np.inf:
+        target = path.load_factor + (target - path.load_factor) * reach / first.length
+        first = _linear_step(path, target, first.factor)
+    if not first.length < path.limits.farthest:
+        raise LoadStepFailed(Status.DIVERGED, "the first step has no end", path.limits.first_reach)
+    return first
 
-    factor: of the tangent there, where it is at hand; it serves where that does not depend on the load.
-    target: the load factor that the step is for.
-    """
 
-    def __init__(self, path: Path[State, Forces], target: float, reach: float, factor: Factor | None):
-        self.target, self.factor = target, factor
-        self._aim(path)
-        if reach < self.length < np.inf:
-            self.target = path.load_factor + (target - path.load_factor) * reach / self.length
-            self._aim(path)
-        if not self.length < path.limits.farthest:
-            raise LoadStepFailed(Status.DIVERGED, "the first step has no end", path.limits.first_reach)
-
-    def _aim(self, path: Path[State, Forces]) -> None:
-        structure = path.structure
-        forces = structure.forces(path.state, self.target)
-        try:
-            rows = None if self.factor is None else structure.rows(path.state, forces, self.target)
-            fresh = self.factor is None and not structure.prestrained
-            once = structure.correct(path.state, forces, self.target, path.count) if fresh else None
-            if once is not None:
-                self.factor, step, rows, self.state = once
-            elif rows is None:
-                matrix, rows = structure.linearised(path.state, forces, self.target)
+def _linear_step(path: Path[State, Forces], target: float, factor: Factor | None) -> Start[State]:
+    structure = path.structure
+    forces = structure.forces(path.state, target)
+    try:
+        rows = None if factor is None else structure.rows(path.state, forces, target)
+        fresh = factor is None and not structure.prestrained
+        once = structure.correct(path.state, forces, target, path.count) if fresh else None
+        if once is not None:
+            factor, step, rows, state = once
+        else:
+            if rows is None:
+                matrix, rows = structure.linearised(path.state, forces, target)
                 if structure.prestrained:  # the tangent would be of stresses at the target, nothing moved yet
                     matrix = path.tangent(path.state, path.load_factor)
-                if self.factor is None or not structure.symmetric:
-                    self.factor = path.factored(matrix)
-            assert self.factor is not None
-            if once is None:
-                step = self.factor.solve(rows, SOLVED)
-                self.state = structure.advance(path.state, forces, self.target, step)
-        except SingularMatrixError as error:
-            raise LoadStepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
-        self.length = structure.length(path.state, self.state)
-        self.work = abs(float(step @ rows))
+                if factor is None or not structure.symmetric:
+                    factor = path.factored(matrix)
+            assert factor is not None
+            step = factor.solve(rows, SOLVED)
+            state = structure.advance(path.state, forces, target, step)
+    except SingularMatrixError as error:
+        raise LoadStepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
+    length = structure.length(path.state, state)
+    return Start(state, target, length, abs(float(step @ rows)), factor)
 
 
-def newton(
-    path: Path[State, Forces], first: Start[State] | Predictor[State, Forces], close: float = 0.0
-) -> tuple[State, Factor | None]:
+def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -> tuple[State, Factor | None]:
     """The equilibrium at the load factor of a start, and the factors of its tangent where those at hand are,
     which next to nothing has changed since. close: a residual that is good enough. Raises
     StepFailed."""
     structure, limits = path.structure, path.limits
     state, target, before = first.state, first.target, np.inf
-    factor = first.factor if structure.linear and isinstance(first, Predictor) else None
+    factor = first.factor if structure.linear else None
     off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
     works, lengths = [first.work], [first.length]
     for _ in range(limits.corrections):

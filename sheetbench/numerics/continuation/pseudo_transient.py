@@ -44,9 +44,8 @@ NEARLY = 1e-5  # residual, relative to the forces that balance, below which Newt
 FURTHER = 0.1  # by which the residual must fall where it has failed
 ROUNDING = 1e-12  # of the energies that balance
 PUSH, SMALLEST_PUSH = 1e-2, 1e-6  # sizes of the sheet that a saddle is left by
-INVERSE_STEPS = (
-    40  # with 12 the mode of a held, heated plate still had more of what is stiff than of what buckles
-)
+# with 12 the mode of a held, heated plate still had more of what is stiff than of what buckles
+INVERSE_STEPS = 40
 
 
 def relax(path: Path[State, Forces], load_factor: float) -> State:

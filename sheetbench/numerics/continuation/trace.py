@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.newton import Predictor, Start, newton
+from sheetbench.numerics.continuation.newton import Start, newton, predicted
 from sheetbench.numerics.continuation.path import (
     Fault,
     Inspect,
@@ -72,7 +72,17 @@ def trace_path(
             ended = stiffened(path, lambda path, inspect: _traced(path, inspect, settle), inspect, settle)
         else:
             ended = _traced(path, inspect, settle, near)
-        conclude(path, ended, settle, buckled)
+        path.fault = ended
+        path.status, note = ended or stability(path)
+        if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
+            try:
+                path.limit = path.factorisations + path.limits.factorisations
+                path.state, path.factor = settle(path, 1.0), None
+                path.notes.append("begun along the buckling mode of an unstable equilibrium")
+                path.status, note = stability(path)
+            except LoadStepFailed as failure:
+                note = f"{note}; beside it {failure}"
+        path.notes.extend([note] if note else [])
         return path
 
 
@@ -130,27 +140,6 @@ def _traced(
     return ended
 
 
-def conclude(
-    path: Path[State, Forces],
-    ended: Fault | None,
-    settle: Settle[State, Forces] | None,
-    buckled: bool,
-) -> None:
-    """Give a path at its end its status, with what has ended it early, and lead one that ends at an unstable
-    equilibrium on to a stable one where it is to be `buckled`."""
-    path.fault = ended
-    path.status, note = ended or stability(path)
-    if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
-        try:
-            path.limit = path.factorisations + path.limits.factorisations
-            path.state, path.factor = settle(path, 1.0), None
-            path.notes.append("begun along the buckling mode of an unstable equilibrium")
-            path.status, note = stability(path)
-        except LoadStepFailed as failure:
-            note = f"{note}; beside it {failure}"
-    path.notes.extend([note] if note else [])
-
-
 def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: Start[State]) -> bool:
     """Whether a path is at a stable equilibrium close to a start; if not, it is where it was."""
     before = path.state, path.load_factor, path.factor
@@ -178,7 +167,7 @@ def _follow(
     while path.load_factor < 1.0:
         before = path.factorisations
         try:
-            first = Predictor(path, min(1.0, path.load_factor + size), reach, factor)
+            first = predicted(path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if path.structure.symmetric else None
             close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, found = newton(path, first, close)
@@ -279,7 +268,7 @@ def _negatives(factor: Factor | None) -> int:
 
 def _continuous(
     path: Path[State, Forces],
-    first: Predictor[State, Forces],
+    first: Start[State],
     state: State,
     negative: int,
     found: Factor | None,

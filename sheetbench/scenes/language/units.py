@@ -16,7 +16,7 @@ from typing import Any
 
 from sheetbench.errors import BadInput
 
-Dimension = tuple[int, int, int, int, int]  # powers of m, kg, s, rad and K
+Dimension = tuple[int, ...]  # powers of m, kg, s, rad and K
 
 # exact, so that 1.2 g/cm³ is 1200 kg/m³ to the last digit
 UNITS: dict[str, tuple[Fraction, Dimension]] = {
@@ -88,8 +88,7 @@ def quantity(text: str, unit: str) -> float:
         match, text = None, f"{text[:LONGEST]}…"
     if match is None or "," in text:
         why = "with a decimal point" if match else f"[{unit}], or with a unit: {example}"
-        why = f"write a number {why}"
-        raise BadInput(f"'{text}' is no quantity; {why}")
+        raise BadInput(f"'{text}' is no quantity; write a number {why}")
     value = Fraction(match[1].replace("−", "-"))
     if match[2]:
         size, dimension = _unit(match[2])
@@ -152,8 +151,7 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
         sign = 1
     if sign < 0:
         raise BadInput(f"'{text}' is no unit: nothing stands after the last /")
-    m, kg, s, rad, kelvin = dimension
-    return size, (m, kg, s, rad, kelvin)
+    return size, tuple(dimension)
 
 
 def _named(dimension: Dimension, unit: str) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,9 +22,6 @@ from sheetbench.scenes.objects.loads import AreaLoad, PointLoad
 from sheetbench.scenes.objects.orthotropy import in_own_axes
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.shapes import COINCIDENT, straight_sides
-
-if TYPE_CHECKING:
-    pass
 
 FINE = 33  # lines between which a taper is taken for its mean
 LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding

@@ -94,14 +94,14 @@ class MovedEdge:
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement (k, 3) [m] and change of director (3,), to first order in the load factor, at 1."""
-        cross = _cross(self._rotation.at())
+        cross = cross_matrix(self._rotation.at())
         return self._displacement.at() + (points - self._middle) @ cross[:, :2].T, cross[:, 2]
 
     def velocity(self, points: np.ndarray, height: np.ndarray, time: float) -> np.ndarray:
         """Velocity (k, 3) [m/s], from a time [s] on, of what lies at heights (k,) [m] on the directors."""
         rotation, rate = self._rotation.at(time), self._rotation.slope(time)
         arms = np.column_stack([points - self._middle, height])
-        turning = _cross(_angular_velocity(rotation, rate)) @ (np.eye(3) + _turn(rotation))
+        turning = cross_matrix(_angular_velocity(rotation, rate)) @ (np.eye(3) + _turn(rotation))
         return np.asarray(self._displacement.slope(time) + arms @ turning.T)
 
 
@@ -140,14 +140,14 @@ def _middle(rod: Curved | Clamped, supports: tuple[AnySupport, ...], sheet: Shee
     return sheet.lengths[along] / 2.0
 
 
-def _cross(rotation: np.ndarray) -> np.ndarray:
+def cross_matrix(rotation: np.ndarray) -> np.ndarray:
     """[θ]× of vectors (…, 3), (…, 3, 3)."""
     return (rotation @ _CROSS).reshape(*rotation.shape, 3)
 
 
 def _turn(rotation: np.ndarray) -> np.ndarray:
     """R(θ) − I = sin θ/θ [θ]× + (1 − cos θ)/θ² [θ]×² of rotation vectors (…, 3), (…, 3, 3)."""
-    cross = _cross(rotation)
+    cross = cross_matrix(rotation)
     sine, versine = (c[..., None, None] for c in _coefficients(rotation))
     return np.asarray(sine * cross + versine * (cross @ cross))
 
@@ -156,7 +156,7 @@ def _angular_velocity(rotation: np.ndarray, rate: np.ndarray) -> np.ndarray:
     """ω (3,) [rad/s] of a rotation vector (3,) and its rate."""
     sine, versine = _coefficients(rotation)
     along = (1.0 - sine) / max(rotation @ rotation, np.finfo(float).tiny) * (rotation @ rate)
-    return np.asarray(sine * rate + versine * (_cross(rotation) @ rate) + along * rotation)
+    return np.asarray(sine * rate + versine * (cross_matrix(rotation) @ rate) + along * rotation)
 
 
 def _coefficients(rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

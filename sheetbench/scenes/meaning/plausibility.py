@@ -108,7 +108,7 @@ def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> I
     given."""
     ratio = distance / sheet.thickness
     if not 1.0 / LAYERS <= ratio <= LAYERS:
-        times = f"{_three_digits(ratio)} times the thickness, {sheet.thickness:g} m"
+        times = f"{few(ratio, 3)} times the thickness, {sheet.thickness:g} m"
         yield f"{key} = {distance:g} m is {times}; lengths are in metres"
 
 
@@ -118,7 +118,7 @@ def _strains(scene: SceneFields) -> Iterator[str]:
     heaviest, strongest = (WEIGHT_LIMIT, STRETCH_LIMIT) if law is None else (RUBBER, RUBBER)
     if (weight := weight_strain(scene)) > heaviest:
         yield (
-            f"the weight alone stretches the sheet: ρ g a/E = {_three_digits(weight)}, and above "
+            f"the weight alone stretches the sheet: ρ g a/E = {few(weight, 3)}, and above "
             f"{heaviest:g} {'no linear model means anything' if law is None else 'rubber tears'}"
         )
     acting = (*scene.loads, *weights(scene))
@@ -126,13 +126,9 @@ def _strains(scene: SceneFields) -> Iterator[str]:
     pull = whole / (young * sheet.thickness * min(sheet.lengths))
     if pull > strongest:
         yield (
-            f"the loads are {_three_digits(pull)} times E · thickness · shorter side and would tear the "
+            f"the loads are {few(pull, 3)} times E · thickness · shorter side and would tear the "
             "sheet; forces are in N, forces per length in N/m, pressures in Pa"
         )
-
-
-def _three_digits(value: float) -> str:
-    return f"{float(format(value, '.3g')):g}"  # 1000, not 1e+03
 
 
 def _gravity(gravity: Gravity | None) -> Iterator[str]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from sheetbench.errors import SceneError
 from sheetbench.scenes.meaning.distances import require_frictionless, require_no_obstacles
+from sheetbench.scenes.meaning.kinematics import UP, cross_matrix
 from sheetbench.scenes.objects.actuators import Chain
 from sheetbench.scenes.objects.cutouts import Cutout, common, region
 from sheetbench.scenes.objects.fields import SceneFields
@@ -49,10 +50,12 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
 
             ends = shapely.get_coordinates(common(plan, shape.area).convex_hull)
         arms = (np.column_stack([ends, np.zeros(len(ends))]) - centre) / scale
-        velocities = np.concatenate([np.broadcast_to(np.eye(3), (len(arms), 3, 3)), _turned(arms)], axis=2)
+        velocities = np.concatenate(
+            [np.broadcast_to(np.eye(3), (len(arms), 3, 3)), -cross_matrix(arms)], axis=2
+        )
         rows.append(velocities[:, axes].reshape(-1, 6))
         if holds_tilt(support):
-            rows.append(np.hstack([np.zeros((3, 3)), _turned(np.array([0.0, 0.0, 1.0]))])[axes])
+            rows.append(np.hstack([np.zeros((3, 3)), -cross_matrix(UP)])[axes])
     _, singular, motions = np.linalg.svd(np.concatenate(rows), full_matrices=False)
     rank = int(np.sum(singular > ROUND_OFF))
     free = motions[rank:]
@@ -92,8 +95,3 @@ def require_static(scene: SceneFields, linear: str = "") -> None:
             f"scene '{scene.name}': support: nothing stops {', '.join(free)}; a static answer needs supports "
             'that stop every rigid motion (for instance kind = "clamped" on one edge)'
         )
-
-
-def _turned(arm: np.ndarray) -> np.ndarray:
-    """Matrices (…, 3, 3) of θ ↦ θ × arm (…, 3)."""
-    return np.cross(np.eye(3), arm[..., None, :], axisa=-1, axisb=-1, axisc=-1).swapaxes(-1, -2)

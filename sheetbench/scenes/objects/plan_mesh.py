@@ -36,13 +36,7 @@ FORMATS = {  # meshio's names by the endings of files: those that hold meshes of
     ".inp": "abaqus",
     **dict.fromkeys((".mesh", ".meshb"), "medit"),
     ".msh": "gmsh",
-    ".obj": "obj",
-    ".off": "off",
-    ".ply": "ply",
-    ".stl": "stl",
-    ".su2": "su2",
-    ".vtk": "vtk",
-    ".vtu": "vtu",
+    **{f".{name}": name for name in ("obj", "off", "ply", "stl", "su2", "vtk", "vtu")},
 }
 SECONDS, PER_MB = 20.0, 2.0  # s that reading may take, and more a megabyte of the file
 MEMORY_MB = 2048

@@ -18,13 +18,13 @@ from comparisons.external.calculix.model import MODEL as CALCULIX
 from comparisons.external.calculix.model import deck
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.model import Triangles, problem
+from comparisons.external.output import Failed, output_of
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import plan_of
 from fem_reference.verification.strain_laws import RUBBERS
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.face import solve
-from sheetbench.process import Failed, output_of
 from sheetbench.scenes import (
     Chain,
     Clamped,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import lumped
-from lumped import lattice, pattern, rest, supports
+from lumped import lattice, pattern, supports
 from lumped.springs import all_families
 from sheetbench.scenes import Clamped, Pressure, load
 
@@ -35,7 +35,6 @@ def test_what_is_kept_is_what_would_be_found(name):
         for shared in (
             lattice.build,
             pattern.of_grid,
-            rest.rest_of,
             supports._constrain,
             all_families.springs_of,
         ):
@@ -60,7 +59,7 @@ def test_what_is_shared_between_solves_cannot_be_written_to():
     problem = lumped.build_problem(scene, springs)
     built, loads = problem.assembly.lattice, problem.loads
     flat = np.zeros_like(loads.dead)
-    shared = [built.positions, built.share, built.links[0].cells, problem.constraints.fixed]
+    shared = [built.positions, built.share, built.links.cells, problem.constraints.fixed]
     for array in [*shared, loads.dead, loads.force(flat)]:  # constant loads: the force is the dead one itself
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0

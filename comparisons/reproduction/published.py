@@ -1,7 +1,7 @@
 """What Habibi et al. published, as data: inputs and displacements in SI units, printed errors, known faults.
 
 Source: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation continuum
-surfaces. See answers/published/README.md.
+surfaces. See data/README.md.
 """
 
 from __future__ import annotations
@@ -54,5 +54,5 @@ def published_errors() -> dict[tuple[int, str, str], float]:
 
 
 def _rows(name: str) -> list[dict[str, str]]:
-    text = (resources.files("sheetbench.answers") / "published" / name).read_text(encoding="utf-8")
+    text = (resources.files("comparisons.reproduction") / "data" / name).read_text(encoding="utf-8")
     return list(csv.DictReader(text.splitlines()))

@@ -98,7 +98,7 @@ class Discrete(ABC):
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
         scene, moving = self.scene, self.moving
         self.rods = rods = Rods(scene, bound, self.size, self._commands, places, self.linear)
-        self.bodies = [rods] if rods else []
+        self.bodies = [rods] if bound.rods else []
         for alone, factor in loads_of(scene, moving):
             nodal, followers = loads.of_scene(alone, self.plan)
             dead = self.on_coordinates(nodal)

@@ -20,8 +20,8 @@ from skfem import ElementQuad2
 
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.shell.discrete import UP, DiscreteShell
-from fem_reference.shell.element import GRIDS, MEMBRANE
-from fem_reference.shell.natural import AT_SITES, sampled
+from fem_reference.shell.element import AT_SITES, GRIDS, MEMBRANE
+from fem_reference.shell.natural import sampled
 from fem_reference.surface.biquadratic import interpolation, jacobians, shape
 from fem_reference.surface.location import interpolate
 from sheetbench.answers.solution import Status

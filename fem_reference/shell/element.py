@@ -64,26 +64,26 @@ ROUNDED = 1e-14  # of an element's size, below which its sides' slant is roundin
 
 
 def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """a and b (21, 9), v (12, 9) of `fem_reference.shell.sampling`."""
+    """a and b (21, 9) of `fem_reference.shell.sampling`, and the shape functions' values there (21, 9)."""
     first, second, values = [], [], []
-    for name, (a, b) in {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}.items():
-        value, slope = shape(*product_grid(*GRIDS[name]))
+    for grid, (a, b) in zip(GRIDS.values(), IN_PLANE, strict=True):
+        value, slope = shape(*product_grid(*grid))
         first.append(slope[a])
         second.append(slope[b])
-        if a == b:
-            values.append(value)
+        values.append(value)
     return np.concatenate(first), np.concatenate(second), np.concatenate(values)
 
 
-TABLES = np.ascontiguousarray(np.concatenate(_tables()).T)
+_A, _B, AT_SITES = _tables()
+_V = AT_SITES[: SHEAR.stop - SHEAR.start]  # where shear is sampled
+TABLES = np.ascontiguousarray(np.concatenate([_A, _B, _V]).T)
 
 
 def _strain_forms() -> np.ndarray:
     """H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
-    a, b, v = _tables()
     forms = np.zeros((STRAINS, 18, 18))
     phi, director = slice(0, 9), slice(9, 18)
-    product, slant = a[:, :, None] * b[:, None, :], a[: len(v), :, None] * v[:, None, :]
+    product, slant = _A[:, :, None] * _B[:, None, :], _A[: len(_V), :, None] * _V[:, None, :]
     even = 0.5 * (product + product.transpose(0, 2, 1))
     forms[MEMBRANE, phi, phi] = forms[BENDING, phi, director] = forms[BENDING, director, phi] = even
     forms[SHEAR, phi, director] = slant

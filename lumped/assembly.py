@@ -13,9 +13,8 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice, Weights, build
 from lumped.natural import with_natural
 from lumped.pattern import MassPattern, neighbours, of_grid
-from lumped.springs.all_families import AllFamilies, springs_of
+from lumped.springs.all_families import AllFamilies, Survey, springs_of
 from lumped.springs.families import Family
-from lumped.springs.survey import Survey
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.meaning.natural_state import NaturalState

@@ -44,9 +44,8 @@ def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.n
     share = shares_of(part, *places)
     pieces = shapely.intersection(part, boxes_of(*places)[share > 0.0])
     middle = shapely.get_coordinates(shapely.centroid(pieces))
-    return MidSurface(lattice, middle, order=1).shared(shapely.area(pieces)[:, None], lattice.mass_count)[
-        :, 0
-    ]
+    area = shapely.area(pieces)[:, None]
+    return MidSurface(lattice, middle, order=1).shared(area, lattice.mass_count)[:, 0]
 
 
 def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
@@ -115,9 +114,8 @@ def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) ->
     beside = length > COINCIDENT * size
     cell, side, length = cell[beside], side[beside], length[beside]
     rows, columns = (part[cell] for part in np.nonzero(near))
-    part = (
-        np.minimum(near[rows, columns] / share[rows, columns], 1.0) * length / np.bincount(cell, length)[cell]
-    )
+    length /= np.bincount(cell, length)[cell]
+    part = np.minimum(near[rows, columns] / share[rows, columns], 1.0) * length
     normal = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
     return ObliqueRims(rows, columns, part, normal[side])
 

@@ -201,7 +201,7 @@ def build(
         raise BadInput(f"weights = 'full': equal masses are for equal cells, not for grading = {grading:g}")
     present = None if per_area is None else per_area > 0.0
     lines = across_x, across_y = grid_lines(sheet, grid, grading)
-    j, i, k = _indices(grid)
+    j, i, k = np.indices((ny, nx, layers)).reshape(3, -1)
     heights = (k - (layers - 1) / 2) * layer_distance
     positions = np.stack([across_x.at[i], across_y.at[j], heights], axis=1)
 
@@ -239,20 +239,12 @@ def build(
     )
 
 
-def _indices(grid: Grid) -> tuple[np.ndarray, ...]:
-    """Row, column and layer of every mass."""
-    nx, ny, layers = grid
-    return tuple(
-        a.ravel() for a in np.meshgrid(np.arange(ny), np.arange(nx), np.arange(layers), indexing="ij")
-    )
-
-
 @kept(last=16, most=SHARED_UP_TO, size=math.prod)
 def _links(grid: Grid) -> tuple[np.ndarray, ...]:
     """The nodes, steps, cells and shares, as `GridLinks` has them, of the links on a grid without holes; a
     cell beyond the sheet has no share."""
     nx, ny, layers = grid
-    j, i, k = _indices(grid)
+    j, i, k = np.indices((ny, nx, layers)).reshape(3, -1)
     found = []
     for number, (di, dj, dk) in enumerate(DIRECTIONS.tolist()):
         inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)

@@ -148,7 +148,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     probes = MidSurface(problem.assembly.lattice, scene.probe_points())
     outputs = [(name, axis) for name in scene.probes for axis in range(3)]
     picked = probes.matrix(len(u)).toarray()
-    inputs, forces, rates_of, placed = _inputs(scene, calibration, problem, system, u, picked, (spring, drag))
+    inputs, forces, rates_of, placed = _inputs(calibration, problem, u, picked, spring, drag)
     return Linear(
         mass=mass,
         damping=damping,
@@ -181,16 +181,15 @@ def _allowed(system: System, u: np.ndarray) -> sp.csr_array:
 
 
 def _inputs(
-    scene: Scene,
     calibration: Calibration,
     problem: Problem,
-    system: System,
     u: np.ndarray,
     picked: np.ndarray,
-    tangents: tuple[sp.csr_array, sp.csr_array],
+    spring: sp.csr_array,
+    drag: sp.csr_array,
 ) -> tuple[tuple[str, ...], np.ndarray, np.ndarray, np.ndarray]:
     """Names; force, force by rate, and place g per input, (3 size, inputs) each."""
-    spring, drag = tangents
+    scene = problem.scene
     columns: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]] = []
     nothing = np.zeros(u.size)
     for name, part in _loads(scene):
@@ -199,7 +198,7 @@ def _inputs(
         probe = list(scene.probes)[number // 3]
         columns.append((f"{probe} f{'xyz'[number % 3]}", row, nothing, nothing))
     for edge in _bent(scene):
-        force, moved = rates(scene, calibration, problem, u, f"curvature_{edge}")
+        force, moved = rates(calibration, problem, u, f"curvature_{edge}")
         columns.append((f"{edge} curvature", force.ravel(), -drag @ moved.ravel(), moved.ravel()))
     for name, support in named(scene.supports).items():
         rows, axes = problem.constraints.holders[name]
@@ -211,7 +210,7 @@ def _inputs(
             columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
     bent = [of for of in scene.natural_states if of != "temperature"]
     for name in (f"{of}.{key}" for of in bent for key in ("kxx", "kyy", "kxy")):
-        pull, _ = rates(scene, calibration, problem, u, name)
+        pull, _ = rates(calibration, problem, u, name)
         columns.append((name, pull.ravel(), nothing, nothing))
     names, *values = zip(*columns, strict=True)
     force, rate, place = (np.stack(value, axis=1) for value in values)

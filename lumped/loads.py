@@ -194,13 +194,11 @@ class Loads:
         )
         projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) / length[:, None, None]
         by_chord = -scale * _spin(director) @ projector / columns.shape[2]
-        slots = self._assembly.pattern.slots
+        moved = np.column_stack([top, bottom, after, before])  # masses by which the couple changes, and how
+        layers = columns.shape[2]
+        by = np.stack([by_director, -by_director, *layers * [by_chord], *layers * [-by_chord]], axis=1)
         for row, sign in ((top, -1.0), (bottom, 1.0)):
-            for column, part in ((top, by_director), (bottom, -by_director)):
-                np.add.at(blocks, slots(row, column), sign * part)
-            for layer in range(columns.shape[2]):
-                for column, part in ((after, by_chord), (before, -by_chord)):
-                    np.add.at(blocks, slots(row, column[:, layer]), sign * part)
+            np.add.at(blocks, self._assembly.pattern.slots(row[:, None], moved), sign * by)
 
 
 def _lengths(scene: Scene, lattice: Lattice, load: EdgeLoad) -> np.ndarray:

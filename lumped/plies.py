@@ -60,10 +60,8 @@ def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
 
 def _shear_compliance(ply: Ply) -> np.ndarray:
     """Of transverse shear along x and y (…, 2, 2) [1/Pa]."""
-    mean, half_difference = (
-        0.5 * (1.0 / ply.shear_13 + 1.0 / ply.shear_23),
-        0.5 * (1.0 / ply.shear_13 - 1.0 / ply.shear_23),
-    )
+    mean = 0.5 * (1.0 / ply.shear_13 + 1.0 / ply.shear_23)
+    half_difference = 0.5 * (1.0 / ply.shear_13 - 1.0 / ply.shear_23)
     once, mixed = half_difference * np.cos(2.0 * ply.angle), half_difference * np.sin(2.0 * ply.angle)
     return _matrix(((mean + once, mixed), (mixed, mean - once)))
 

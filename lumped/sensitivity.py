@@ -72,22 +72,18 @@ def sensitivity(
         at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
         derivatives = {}
         for name in parameters:
-            rate, moved = rates(scene, calibration, problem, state.u, name, calibrate)
+            rate, moved = rates(calibration, problem, state.u, name, calibrate)
             step = problem.expand(factor.solve(problem.reduce(rate))) + moved
             derivatives[name] = at.of(step)
         return Sensitivity(at.of(state.u), derivatives)
 
 
 def rates(
-    scene: Scene,
-    calibration: Calibration,
-    problem: Problem,
-    u: np.ndarray,
-    name: str,
-    calibrate: Calibrate | None = None,
+    calibration: Calibration, problem: Problem, u: np.ndarray, name: str, calibrate: Calibrate | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """The derivative of the unbalanced force by a parameter at free unknowns that stay as at u (n, 3),
     supports' movement included, and dg/dθ (n, 3)."""
+    scene = problem.scene
     if of_scene := name in (*CALIBRATED_FROM, "density") or name.startswith((*STEP_OF, PATCH, PAYLOAD)):
         found = parameter(scene, name)
         value, low, high = found.value, found.low, found.high

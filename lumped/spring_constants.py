@@ -236,10 +236,8 @@ def of_faces(springs: Springs, squares: np.ndarray) -> tuple[np.ndarray, np.ndar
     sides, those over their diagonals, (rows, columns, 2) each. squares: of the sides (lx, ly) [m²], the
     same."""
     beside = np.stack([springs.along("face_shear", axis) for axis in (0, 1)], axis=-1)
-    over = (springs.along("face_diagonal_shear", 0) + 0.5 * np.abs(springs.along("face_coupling", 0)))[
-        ..., None
-    ]
-    return beside, 2.0 * over * squares / squares.sum(axis=-1, keepdims=True)
+    over = springs.along("face_diagonal_shear", 0) + 0.5 * np.abs(springs.along("face_coupling", 0))
+    return beside, 2.0 * over[..., None] * squares / squares.sum(axis=-1, keepdims=True)
 
 
 def rank_one(stiffness: Any, *strain: Any) -> np.ndarray:

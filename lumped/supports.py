@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -46,6 +46,7 @@ class Constraints:
     held: np.ndarray
     fixed: np.ndarray
     coupling: Coupling | None = None
+    _reduced: dict[tuple[MassPattern, bool], ReducedSystem] = field(default_factory=dict)
 
     def prescribed(self, load_factor: float) -> np.ndarray:
         """g (n, 3) [m] in statics, which take the end of supports' motions."""
@@ -77,10 +78,6 @@ class Constraints:
         if found is None:
             found = self._reduced[pattern, symmetric] = reduced(pattern, self.transform, symmetric)
         return found
-
-    @cached_property
-    def _reduced(self) -> dict[tuple[MassPattern, bool], ReducedSystem]:
-        return {}
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),

@@ -25,7 +25,6 @@ from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
-from sheetbench.scenes.objects.grading import as_settings
 
 if TYPE_CHECKING:
     from lumped import Calibration
@@ -99,8 +98,7 @@ def _lattice(model: Resolved[Lattice], count: int, about: About) -> Spectrum:
     distribution = cast("lumped.Inertia | None", model.spec.masses) or lumped.usual_masses(springs)
     modes = lumped.modes(model.scene, springs, count, distribution, about)
     seconds = now() - begin
-    settings = {"grid": list(springs.grid), "calibration": springs.method, **as_settings(springs.grading)}
-    settings |= {"masses": distribution, **model.reasons}
+    settings = springs.settings | {"masses": distribution, **model.reasons}
     return Spectrum("lumped", f"lumped {springs.title}, {distribution} masses", settings, seconds, modes)
 
 

@@ -65,6 +65,11 @@ class Calibration(Answer):
         grid = "×".join(map(str, self.grid))
         return f"{grid} {self.method}{remark(self.grading)}"
 
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What an answer says of its lattice: grid, method and grading."""
+        return {"grid": list(self.grid), "calibration": self.method, **as_settings(self.grading)}
+
     @cached_property
     def constants(self) -> Springs:
         """The springs as arrays."""

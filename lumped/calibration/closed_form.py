@@ -118,11 +118,7 @@ def closed_form(
     gap_form[:, 0, 1] = gap_form[:, 1, 0] = gap_form[:, 2, 2] = p
     along = gap - p[:, None] * ratios
 
-    stretching, shearing, oblique = (
-        bending[:, 0, 0] - bending[:, 0, 1],
-        2.0 * bending[:, 2, 2],
-        target.oblique,
-    )
+    stretching, shearing = bending[:, 0, 0] - bending[:, 0, 1], 2.0 * bending[:, 2, 2]
     unlike = np.abs(stretching - shearing) > 1e-9 * np.maximum(np.abs(stretching), np.abs(shearing))
 
     given = layer_distance is not None
@@ -134,7 +130,7 @@ def closed_form(
         lattice = layers * layer + (layers - 1) * relaxed
         by_diagonals = _by_diagonals(layer, ratios)
         axial = _own(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
-        axial, fibres = _beside_fibres(oblique, unlike, layer, axial)
+        axial, fibres = _beside_fibres(target.oblique, unlike, layer, axial)
         needed = (_own(lattice) - lattice[:, 0, 1, None]) / (_own(membrane) - membrane[:, 0, 1, None])
         needed = np.maximum(needed.max(axis=1), lattice[:, 2, 2] / membrane[:, 2, 2])
         if fibres.any():

@@ -22,10 +22,8 @@ PAIRS = ("axial", "cross", "mid_stretch")
 STRAINS = ("mid_stretch_x", "mid_stretch_y", "shear", "mid_shear")
 FREE = ("area", "mid_area")
 MATCHED = 1e-6  # weighted miss that counts as none
-PLACES, LIKE = (
-    ([0, 0, 1, 2], [0, 1, 1, 2]),
-    ([0, 0, 0, 2], [0, 0, 0, 2]),
-)  # of misses; by which divided
+PLACES = [0, 0, 1, 2], [0, 1, 1, 2]  # of misses
+LIKE = [0, 0, 0, 2], [0, 0, 0, 2]  # by which they are divided
 WEAK = 1e-4  # weight of the strain springs themselves, where they are needed
 UNKNOWNS = (
     *(f"{name}_{direction}" for name in PAIRS for direction in "xy"),

@@ -24,7 +24,6 @@ from lumped.springs.cell_laws import FACE, RUBBER, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
-from lumped.springs.survey import Survey, survey
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 from sheetbench.numerics.typed import njit, typed
@@ -32,25 +31,29 @@ from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
 
-class Blocks(NamedTuple):
-    """Where a tangent's blocks are: their number; `Pattern.mirror`; each mass's block with itself (n,)."""
-
-    total: int
-    mirror: np.ndarray
-    diagonal: np.ndarray
-
-
 class SpringArrays(NamedTuple):
-    """The springs of a lattice that have an energy, and where their tangent's blocks are."""
+    """The springs of a lattice that have an energy, and where their tangent's blocks are: their number;
+    `MassPattern.mirror`; each mass's block with itself (n,)."""
 
     links: LinkArrays
     layers: CellArrays
     middle: CellArrays
     faces: CellArrays
-    where: Blocks
+    blocks: int
+    mirror: np.ndarray
+    diagonal: np.ndarray
 
 
-Stresses = tuple[np.ndarray, ...]  # four, as `SpringArrays`
+class Survey(NamedTuple):
+    """energies: of the springs under each name in the spring set [J]; strain: the largest relative change of
+    length of the links in a layer; stretch: of their energy that of the layers' mean stretch [J]."""
+
+    energies: dict[str, float]
+    strain: float
+    stretch: float
+
+
+Stresses = tuple[np.ndarray, ...]  # four, of the springs of `SpringArrays`
 NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 4)),))
 NO_INERTIA = np.empty(0)
 NAMES = tuple(dict.fromkeys(name for name, *_ in STEPS))  # of the links' families
@@ -66,8 +69,9 @@ class AllFamilies:
         self.families = (*families, *[NO_CELLS] * (4 - len(families)))
         self._central: tuple[Any, ...] = self.families[:4]
         self._others = [family for family in self.families if isinstance(family, DirectionalLinks)]
-        where = Blocks(pattern.blocks, pattern.mirror, pattern.diagonal)
-        self.springs = typed(SpringArrays._make([*(family.arrays for family in self._central), where]))
+        arrays = [family.arrays for family in self._central]
+        where = pattern.blocks, pattern.mirror, pattern.diagonal
+        self.springs = typed(SpringArrays._make([*arrays, *where]))
         self.all_links = [family for family in self.families if isinstance(family, Links)]
         self.links, self._pattern, self.conservative = self.all_links[0], pattern, not self._others
         self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
@@ -188,8 +192,7 @@ def tangent(
     """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
     springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
     It is symmetric: what is above the diagonal is copied."""
-    where = springs.where
-    blocks = np.zeros((where.total, 3, 3))
+    blocks = np.zeros((springs.blocks, 3, 3))
     strain = extrapolated and measures(springs.layers.law) == 3
     links.add_tangent(u, springs.links, stress[0], strain, share, blocks)
     cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, blocks)
@@ -201,13 +204,35 @@ def tangent(
             entries[e] *= scale
     for i in range(len(inertia)):
         for q in range(3):
-            blocks[where.diagonal[i], q, q] += inertia[i]
-    for k in range(len(where.mirror)):
-        below, above = blocks[np.uint64(where.mirror[k, 0])], blocks[np.uint64(where.mirror[k, 1])]
+            blocks[springs.diagonal[i], q, q] += inertia[i]
+    for k in range(len(springs.mirror)):
+        below, above = blocks[np.uint64(springs.mirror[k, 0])], blocks[np.uint64(springs.mirror[k, 1])]
         for q in range(3):
             for r in range(3):
                 above[q, r] = below[r, q]
     return blocks
+
+
+@njit(cache=True, nogil=True)
+def survey(
+    u: np.ndarray, springs: SpringArrays, kind: np.ndarray, kinds: int, layers: int
+) -> tuple[np.ndarray, float, float]:
+    """Return the energies of the links by kind (m,) and of the cells of the layers, of the mid-surface and of
+    upright faces, (kinds + 3,) [J], and the rest of a `Survey`."""
+    along, energies, stretch, summed, met = springs.links, np.zeros(kinds + 3), 0.0, 0.0, 0
+    for m in range(len(along.nodes)):
+        change, square, length, _ = links.measure(u, along, m)
+        half, e = 0.5 * along.constants[m], change / (np.sqrt(square) + length)
+        energies[kind[m]] += half * (e * e)
+        if along.offset[m, 2] == 0.0:
+            # links between the same columns follow each other, layer by layer, and are as stiff as each other
+            summed, met = summed + e, met + 1
+            if met % layers == 0:
+                stretch, summed = stretch + half * (summed * summed) / layers, 0.0
+    energies[kinds] = np.sum(cells.energies(u, springs.layers))
+    energies[kinds + 1] = np.sum(cells.energies(u, springs.middle))
+    energies[kinds + 2] = np.sum(cells.energies(u, springs.faces))
+    return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
 
 
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:

@@ -15,7 +15,6 @@ from lumped.statics.balance import balance
 from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import LatticePath, LatticeState, Problem
 from sheetbench.answers.solution import Solution
-from sheetbench.scenes.objects.grading import as_settings
 
 
 def solution(
@@ -40,13 +39,10 @@ def solution(
     contacts = {item.name: item.report(at) for item in problem.contacts}
     pressure = np.sum([pressure for _, pressure in contacts.values()], axis=0)
     pressed = {"contact_pressure": pressure} if contacts else {}
-    nx, ny, layers = lattice.grid
-    settings: dict[str, Any] = {"grid": [nx, ny, layers], "calibration": calibration.method}
-    settings |= {"layer_distance": calibration.layer_distance, **as_settings(calibration.grading)}
     return Solution(
         model="lumped",
         label=f"lumped {calibration.title}" + (", linear" if linear else ""),
-        settings=settings | requested,
+        settings=calibration.settings | {"layer_distance": calibration.layer_distance} | requested,
         status=path.status,
         unknowns=problem.system.unknowns,
         iterations=path.factorisations,

@@ -11,7 +11,6 @@ from sheetbench.answers.modes import STILL, Buckling, require_flat_and_dead
 from sheetbench.clock import now
 from sheetbench.numerics.continuation.buckling import buckling_modes
 from sheetbench.scenes import AnyScene, require_static, scene_of
-from sheetbench.scenes.objects.grading import as_settings
 
 
 def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int = 1) -> Buckling:
@@ -44,11 +43,7 @@ def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int
     return Buckling(
         model="lumped",
         label=f"lumped {calibration.title}",
-        settings={
-            "grid": list(lattice.grid),
-            "calibration": calibration.method,
-            **as_settings(calibration.grading),
-        },
+        settings=calibration.settings,
         load_factors=factors,
         unknowns=problem.system.unknowns,
         seconds=now() - begin,

@@ -20,8 +20,7 @@ from lumped.assembly import Assembly
 from lumped.contact import Contact
 from lumped.items import LatticeItem, Placed
 from lumped.loads import Loads
-from lumped.springs.all_families import NO_STRESSES, Stresses
-from lumped.springs.survey import Survey
+from lumped.springs.all_families import NO_STRESSES, Stresses, Survey
 from lumped.statics.correction import Equations, advance, correct, unbalanced_force
 from lumped.statics.faults import inspect
 from lumped.supports import Constraints

@@ -29,7 +29,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.lattice import Lattice
-from lumped.springs.survey import Survey
+from lumped.springs.all_families import Survey
 from lumped.statics.faults import place
 from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.soundness import carried_by_links, sharpest_bend

@@ -158,8 +158,7 @@ class DirectSolver:
         if self._transposed is None:
             places = sp.csc_array((np.arange(len(matrix.data)), matrix.indices, matrix.indptr), matrix.shape)
             self._transposed = places.T.tocsc().data
-        part: np.ndarray = 0.5 * (matrix.data + matrix.data[self._transposed])
-        return part
+        return np.asarray(0.5 * (matrix.data + matrix.data[self._transposed]))
 
     def _by_library(self, matrix: Matrix, more: Count) -> Factor:
         if not np.isfinite(matrix.data).all():

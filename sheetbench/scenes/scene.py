@@ -4,7 +4,7 @@ A scene knows no solver. It is read from TOML (`sheetbench.scenes.files`) or bui
 once, and frozen. Its keys are in `scenes.objects.fields`; what they mean, in the other files there.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Self
@@ -18,7 +18,7 @@ from sheetbench.scenes.objects.fields import LISTS, SceneFields
 from sheetbench.scenes.objects.layers import misfit
 from sheetbench.scenes.objects.patches import mismatched, misplaced
 from sheetbench.scenes.objects.quantities import PlanPoint
-from sheetbench.scenes.objects.sheet import EDGES, Sheet
+from sheetbench.scenes.objects.sheet import EDGES
 from sheetbench.scenes.objects.supports import held_axes, place
 
 
@@ -53,10 +53,23 @@ class Scene(SceneFields, defer_build=False):
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
 
     def _usual_probes(self) -> dict[str, PlanPoint]:
-        on_edges = [support for support in self.supports if place(support) is None]
-        held = [support.edge for support in on_edges if 2 in held_axes(support)]
+        """Return centre P1, middles P2 (y side) and P3 (x side) beside P4, the corner farthest from supports.
+
+        A point on an edge that is held would tell nothing: it lies a quarter of the sheet inside.
+        """
+        sheet, (lx, ly) = self.sheet, self.sheet.lengths
+        supports = [support for support in self.supports if place(support) is None]
+        held = [support.edge for support in supports if 2 in held_axes(support)]
         held += [motion.edge for motion in self.motions().values()]
-        probes = default_probes(self.sheet, [support.edge for support in on_edges], held)
+
+        def distance(corner: PlanPoint) -> float:
+            return sum(abs(corner[EDGES[s.edge].normal_axis] - sheet.edge_at(s.edge)) for s in supports)
+
+        far = max([(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)], key=distance)  # of ties the first
+        points = {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
+        ends = [(EDGES[edge].normal_axis, sheet.edge_at(edge)) for edge in held]
+        moved = {(axis, at): 0.25 * sheet.lengths[axis] + 0.5 * at for axis, at in ends}
+        probes = {k: (moved.get((0, x), x), moved.get((1, y), y)) for k, (x, y) in points.items()}
         return {k: nearest(self.region, at) for k, at in probes.items()} if self.pierced else probes
 
     def _unnatural(self) -> str:
@@ -108,20 +121,3 @@ class Scene(SceneFields, defer_build=False):
         from sheetbench.scenes.language.toml import to_toml  # a scene that is only solved need not know how
 
         Path(path).write_text(to_toml(self), encoding="utf-8")
-
-
-def default_probes(sheet: Sheet, supported: Sequence[str], held: Sequence[str]) -> dict[str, PlanPoint]:
-    """Return centre P1, middles P2 (y side) and P3 (x side) beside P4, the corner farthest from supports.
-
-    A point on one of the edges that are `held` would tell nothing: it lies a quarter of the sheet inside.
-    """
-    lx, ly = sheet.lengths
-
-    def distance(corner: PlanPoint) -> float:
-        return sum(abs(corner[EDGES[edge].normal_axis] - sheet.edge_at(edge)) for edge in supported)
-
-    far = max([(lx, ly), (lx, 0.0), (0.0, ly), (0.0, 0.0)], key=distance)  # of ties the first
-    points = {"P1": (lx / 2, ly / 2), "P2": (lx / 2, far[1]), "P3": (far[0], ly / 2), "P4": far}
-    ends = [(EDGES[edge].normal_axis, sheet.edge_at(edge)) for edge in held]
-    moved = {(axis, at): 0.25 * sheet.lengths[axis] + 0.5 * at for axis, at in ends}
-    return {k: (moved.get((0, x), x), moved.get((1, y), y)) for k, (x, y) in points.items()}

@@ -30,7 +30,6 @@ from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.record import Recipe, parted, record
 from sheetbench.scenes import AnyScene, scene_of
 from sheetbench.scenes.meaning.motion import let_go
-from sheetbench.scenes.objects.grading import as_settings
 from sheetbench.scenes.objects.quantities import require_positive
 
 
@@ -82,14 +81,7 @@ def simulate(
     start = initial_state(system, calibration, weights, scene)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
-    nx, ny, layers = calibration.grid
-    settings: dict[str, Any] = {
-        "grid": [nx, ny, layers],
-        "calibration": calibration.method,
-        "layer_distance": calibration.layer_distance,
-        **as_settings(calibration.grading),
-        **options,
-    }
+    settings = calibration.settings | {"layer_distance": calibration.layer_distance} | options
     masses = system.assembly.lattice.mass_count
     axes = system.coupling.axes() if system.coupling is not None else {}
     drawn = np.concatenate([np.arange(masses), *(rows for rows, _ in axes.values())])

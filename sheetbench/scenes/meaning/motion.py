@@ -70,8 +70,7 @@ def _state_now(state: Loaded | None, static: bool) -> Loaded | None:
 
 
 def _placed(held: Held) -> Held:
-    moved: Held = held.replace(motion=held.motion.still()) if held.motion else held  # type: ignore[assignment]
-    return moved
+    return held.replace(motion=held.motion.still()) if held.motion else held  # type: ignore[return-value]
 
 
 def _commanded(actuator: Chain | EdgeMotion, static: bool) -> Chain | EdgeMotion:

@@ -45,10 +45,10 @@ from fem_reference.surface.biquadratic import (
     jacobians,
     product_grid,
     pulled_back,
+    require_upright,
     shape,
 )
 from fem_reference.surface.materials import Section
-from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
@@ -198,10 +198,7 @@ def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np
     # A side along an axis has no slant, not one of rounding: D couples neither rr nor ss with rs then.
     jacobian[np.abs(jacobian) < ROUNDED * np.abs(jacobian).max(axis=(1, 2, 3), keepdims=True)] = 0.0
     area = np.linalg.det(jacobian)
-    turn = np.sign(area[:, :1])  # scikit-fem numbers some meshes clockwise
-    if not np.all(area * turn > 0.0):
-        worst = int(np.argmin((area * turn).min(axis=1)))
-        raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
+    require_upright(area)
     inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
     areas = GAUSS_WEIGHTS * np.abs(area)
     pull = pulled_back(inverse, IN_PLANE) * [1.0, 1.0, 2.0]  # of rr, ss, rs

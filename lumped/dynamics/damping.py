@@ -88,7 +88,7 @@ def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.n
     """Add the forces of the masses' own damping and of the air; return the power taken [W]."""
     power = drag.add_drag(forces.drag, u, v, out)
     for i in range(len(forces.rate)):
-        for q in range(3):
+        for q in range(3 if forces.rate[i] else 0):
             resisting = forces.rate[i] * v[i, q]
             out[i, q] += resisting
             power += resisting * v[i, q]

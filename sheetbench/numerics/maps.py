@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
-from sheetbench.numerics.typed import njit, typed
+from sheetbench.numerics.typed import inner, njit, typed
 
 
 class Rows(NamedTuple):
@@ -24,13 +24,23 @@ def csr_arrays(matrix: sp.csr_array) -> Rows:
     return typed(Rows(pointers, columns, matrix.data))
 
 
+@inner()
+def add_product(matrix: Rows, share: float, q: np.ndarray, out: np.ndarray) -> None:
+    """Add share × T q, of q (m,), to `out` (n,)."""
+    e = np.uint64(0)
+    for row in range(len(out)):
+        total, end = 0.0, np.uint64(matrix.pointers[row + 1])
+        while e < end:
+            total += matrix.values[e] * q[np.uint64(matrix.columns[e])]
+            e += np.uint64(1)
+        out[row] += share * total
+
+
 @njit(cache=True, nogil=True)
 def product(matrix: Rows, q: np.ndarray) -> np.ndarray:
     """T q, (n,), of q (m,)."""
     out = np.zeros(len(matrix.pointers) - 1)
-    for row in range(len(out)):
-        for e in range(matrix.pointers[row], matrix.pointers[row + 1]):
-            out[row] += matrix.values[e] * q[matrix.columns[e]]
+    add_product(matrix, 1.0, q, out)
     return out
 
 

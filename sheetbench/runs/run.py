@@ -8,6 +8,7 @@ from nowhere end the run with the time, the place and what to change.
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from math import isfinite, isnan, nan
@@ -79,10 +80,10 @@ class Watch:
 
     def strained(self, times: np.ndarray, stretches: np.ndarray, beyond: Callable[[float], str]) -> None:
         """Note how far the sheet is strained at samples (k,); beyond: a clause where that is too far."""
-        largest = float(stretches.max(initial=-1.0))
+        largest = max(stretches.tolist(), default=-1.0)
         if largest >= self.stretch:
             self.stretch = largest
-            if np.isnan(self.since) and beyond(largest):
+            if isnan(self.since) and beyond(largest):
                 self.since = float(times[[bool(beyond(one)) for one in stretches.tolist()].index(True)])
 
     def take(self, rows: np.ndarray) -> tuple[int, float]:
@@ -188,7 +189,8 @@ class Run(Generic[AnyState]):
         if span is not None:
             goal = min(((self.samples - 1) // span + 1) * span, goal)
         kinks = self._method.kinks
-        return float(min([goal * every, *kinks[kinks > time + 1e-9 * every][:1]]))
+        after = bisect(kinks, time + 1e-9 * every)
+        return float(min([goal * every, *kinks[after : after + 1]]))
 
     def _passed(self, last: Advance[AnyState]) -> tuple[Advance[AnyState], Fault | None]:
         """Take the samples that a step passed; the step, its end at a sample's very time, and a fault."""
@@ -208,7 +210,7 @@ class Run(Generic[AnyState]):
         observer, rows = self._observer, self._observer.rows(samples)
         rows[:, 4:6] += self.spent
         count, grown = self.watch.take(rows)
-        stretches, fault = observer.inspect(samples, count + np.isfinite(grown))
+        stretches, fault = observer.inspect(samples, count + isfinite(grown))
         count = count if fault is None else len(stretches)
         self.watch.strained(rows[:count, 0], stretches[:count], observer.beyond)
         if count < len(rows):
@@ -217,7 +219,7 @@ class Run(Generic[AnyState]):
                 share = f"by {100.0 * grown:.3g} % of the largest, fastest at {where}"
                 grew = Fault(Status.DIVERGED, f"the energy has grown from nothing, {share}")
                 overflowed = Fault(Status.NON_FINITE, f"a number overflowed, first at {where}")
-                fault = grew if np.isfinite(grown) else overflowed
+                fault = grew if isfinite(grown) else overflowed
             fault = Fault(fault.status, f"at {rows[count, 0]:.6g} s {fault.message}")
         shown = fault is not None and fault.status is not Status.NON_FINITE
         self._kept.append("samples", rows[: count + shown])

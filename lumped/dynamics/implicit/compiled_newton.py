@@ -15,7 +15,7 @@ from lumped.dynamics.damping import MovingForces, add_forces
 from lumped.dynamics.system import System
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
-from sheetbench.numerics.maps import Rows, csr_arrays
+from sheetbench.numerics.maps import Rows, add_product, csr_arrays
 from sheetbench.numerics.typed import njit, typed
 
 
@@ -110,15 +110,14 @@ def correct(
     """Correct u (n, 3) in place; return the largest component of that [m], NaN if it is not finite."""
     mass_coefficient, damping_coefficient = by
     force, velocity, right = arrays.force, arrays.velocity, arrays.right
-    mass, free = arrays.mass, arrays.free
+    free = arrays.free
     moved, held, began = u.reshape(-1), base_u.reshape(-1), base_v.reshape(-1)
     pull, speed, acting = force.reshape(-1), velocity.reshape(-1), external.reshape(-1)
     for row in range(len(moved)):
-        speed[row] = began[row] + damping_coefficient * (moved[row] - held[row])
-        inertia = 0.0
-        for e in range(mass.pointers[row], mass.pointers[row + 1]):
-            inertia += mass.values[e] * (moved[mass.columns[e]] - held[mass.columns[e]])
-        pull[row] = mass_coefficient * inertia - acting[row]
+        speed[row], pull[row] = moved[row] - held[row], -acting[row]
+    add_product(arrays.mass, mass_coefficient, speed, pull)
+    for row in range(len(moved)):
+        speed[row] = began[row] + damping_coefficient * speed[row]
     add_forces(arrays.forces, u, velocity, NUMBA_TRUE, NUMBA_TRUE, force)
     right[:] = 0.0
     for row in range(len(moved)):
@@ -139,15 +138,19 @@ def correct(
 @njit(cache=True)
 def excess(
     u: np.ndarray,
-    base_u: np.ndarray,
-    base_v: np.ndarray,
+    v: np.ndarray,
+    a: np.ndarray,
     by: tuple[float, float],
     external: np.ndarray,
     arrays: Arrays,
     factors: np.ndarray,
 ) -> float:
-    """Return half the work [J] of what u (n, 3) leaves of the equation along the correction of that."""
-    corrected, work = u.copy(), 0.0
+    """Return half the work [J] of what a state (n, 3) leaves of the equation that has c₂ and c₁ along the
+    correction of that."""
+    corrected, base_u, base_v, work = u.copy(), arrays.base_u, arrays.base_v, 0.0
+    for i in range(len(u)):
+        for q in range(3):
+            base_u[i, q], base_v[i, q] = u[i, q] - a[i, q] / by[0], v[i, q] - a[i, q] / by[1]
     correct(corrected, base_u, base_v, by, external, arrays, factors)
     for i in range(len(u)):
         for q in range(3):

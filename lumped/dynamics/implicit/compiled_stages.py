@@ -126,6 +126,18 @@ def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray
 
 
 @njit(cache=True)
+def largest(weights: np.ndarray, tables: np.ndarray) -> float:
+    """Return the largest component of a weighted sum, weights (s,), of tables (s, n, 3)."""
+    found, flat = 0.0, tables.reshape(len(tables), -1)
+    for row in range(flat.shape[1]):
+        total = 0.0
+        for i in range(len(weights)):
+            total += weights[i] * flat[i, row]
+        found = max(found, abs(total))
+    return found
+
+
+@njit(cache=True)
 def polynomials(
     displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
 ) -> np.ndarray:

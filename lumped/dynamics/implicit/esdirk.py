@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lumped.dynamics.implicit.compiled_stages import Step
+from lumped.dynamics.implicit.compiled_stages import Step, largest
 from lumped.dynamics.implicit.esdirk_step import EsdirkStep
 from lumped.dynamics.implicit.newton import Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, ERRORS, GAMMA, GUESSES, STAGES
@@ -46,6 +46,7 @@ STALE = (
     1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
 )
 KEEP_FACTORS_UP_TO = 14  # corrections of a step's stages up to which the next one keeps the factors: two each
+END = np.eye(len(STAGES))[-1]  # weights of the stages at a step's end
 LENGTHEN_UP_TO = 22  # and up to which it may be longer: four each, beyond which shorter steps cost less
 
 
@@ -87,27 +88,27 @@ class Esdirk(Integrator):
         if self._largest == 0.0:
             self._begin(state)
         state, at_most = self._from_kink(state, at_most)
-        largest, began = self._largest, self._energies(state) if self.system.items else []
+        reached, began = self._largest, self._energies(state) if self.system.items else []
 
         def attempt(h: float) -> tuple[EsdirkStep, float, float]:
-            nonlocal largest
+            nonlocal reached
             step = self._solved(state, h, self._enough)
-            error = h * float(np.abs(ERRORS @ step.stages.v.reshape(len(ERRORS), -1)).max())
+            error = h * largest(ERRORS, step.stages.v)
             error = max(error, self._largest * step.error_of_branches())
-            largest = max(self._largest, float(np.abs(step.stages.u[-1]).max()))
+            reached = max(self._largest, largest(END, step.stages.u))
             if self.system.items:  # which are touched within steps
                 found = self._advance(state, step)
                 now = self._energies(found.state)
                 self._energy = max(self._energy, *map(abs, now))
                 gained = abs(sum(now) - sum(began) + found.dissipated - found.work)
-                error = max(error, largest * ENERGY * gained / (self._energy or 1.0))
-            return step, error, self._error * largest
+                error = max(error, reached * ENERGY * gained / (self._energy or 1.0))
+            return step, error, self._error * reached
 
         shortest = 1e-6 * min(self.control.step, at_most)
         step, h = self.control.take(attempt, at_most, shortest)
         if self._newton.made > LENGTHEN_UP_TO:
             self.control.step = min(self.control.step, h)
-        self._largest = largest
+        self._largest = reached
         return self._advance(state, step)
 
     def _energies(self, state: State) -> list[float]:

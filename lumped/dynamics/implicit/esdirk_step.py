@@ -22,6 +22,8 @@ from lumped.dynamics.work import kinetic_of
 from sheetbench.numerics.reduced import SingularMatrixError
 from sheetbench.numerics.time.method import StepFailed
 
+POWERS = np.arange(len(CUMULATIVE))
+
 
 class EsdirkStep:
     """A step of length h [s] from a state. stages: tables of them, the first the start; memories: what the
@@ -75,32 +77,28 @@ class EsdirkStep:
         stages, h = self.stages, self.h
         theta = (times - stages.time[0]) / h
         u, v, a = self._within(theta)
-        weights = h * (theta[:, None] ** np.arange(len(CUMULATIVE)) @ CUMULATIVE)
+        weights = h * (np.power.outer(theta, POWERS) @ CUMULATIVE)
         taken, put_in = (weights @ stages.power).T
         system, motion, start = self.system, self.system.prescribed, self.memories[0]
         memories: list[np.ndarray | None] = [None] * len(times)
         inside = [system] * len(times)
         if system.maxwell is not None:
             inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
-        c1, within = 1.0 / (GAMMA * h), len(times) - (end.time == times[-1])
-
-        def equation(i: int) -> StepEquation:
-            base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
-            return StepEquation(inside[i], float(times[i]), *base, (c1**2, c1))
-
-        i = int(np.abs(theta - 0.5).argmin())
-        if newton.excess(equation(i), u[i]) > enough:
-            for i in range(within):
+        c1, ended, i = 1.0 / (GAMMA * h), end.time == times[-1], int(np.abs(theta - 0.5).argmin())
+        if newton.excess(inside[i], State(float(times[i]), u[i], v[i], a[i]), (c1**2, c1)) > enough:
+            for i in range(len(times) - ended):
+                base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
+                equation = StepEquation(inside[i], float(times[i]), *base, (c1**2, c1))
                 try:
-                    found = newton.solve_equation(equation(i), u[i], tolerance)
+                    found = newton.solve_equation(equation, u[i], tolerance)
                 except (StepFailed, SingularMatrixError):
                     continue  # the polynomial's stays
                 a[i] += c1**2 * (found - u[i])
                 u[i] = found
-        if end.time == times[-1]:
+        if ended:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
-        for i, maxwell in enumerate(one.maxwell for one in inside if start is not None):
-            if maxwell is not None and start is not None:
+        for i, one in enumerate(inside if start is not None else ()):
+            if (maxwell := one.maxwell) is not None and start is not None:
                 memories[i] = memory = maxwell.after(u[i])
                 taken[i] -= maxwell.branches.stored(memory) - maxwell.branches.stored(start)
         if motion.moving:

@@ -16,7 +16,7 @@ import numpy as np
 
 from lumped.dynamics.implicit.compiled_newton import NewtonLimits, compiled_of, excess, iterate
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
-from lumped.dynamics.system import System
+from lumped.dynamics.system import State, System
 from sheetbench.numerics import banded
 from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.reduced import Factor
@@ -116,14 +116,15 @@ class Newton:
             return found
         return self.solve(equation.by, equation.residual, equation.blocks, guess, small)
 
-    def excess(self, equation: StepEquation, u: np.ndarray) -> float:
-        """Return the energy [J] that a state has too much by its equation, along stiff directions most: half
-        the work of what it leaves along the correction of that; infinite where no factors kept serve."""
-        if (compiled := self._compiled) is not None and self.near(equation.by[0]):
-            given = self._system.loads([equation.time])[0], compiled.arrays, self._factors
-            return excess(u, equation.base_u, equation.base_v, equation.by, *given)
-        left = self._system.problem.reduce(equation.residual(u))
-        factor = self._factor if self._key == equation.by else None
+    def excess(self, system: System, state: State, by: tuple[float, float]) -> float:
+        """Return the energy [J] that a state has too much by an equation that has c₂ and c₁, along stiff
+        directions most: half the work of what it leaves along the correction of that; infinite where no
+        factors kept serve. system: with its branches there."""
+        u, v, a = state.u, state.v, state.a
+        if (compiled := self._compiled) is not None and self.near(by[0]):
+            return excess(u, v, a, by, system.loads([state.time])[0], compiled.arrays, self._factors)
+        left = system.problem.reduce(system.momentum(a) - system.unbalanced(u, v, state.time))
+        factor = self._factor if self._key == by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:

@@ -19,7 +19,7 @@ from lumped.springs.tiles import NUMBA_TRUE
 from lumped.statics.faults import fastest, inspect
 from lumped.statics.problem import STRETCH
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.numerics.maps import Rows, csr_arrays, product
+from sheetbench.numerics.maps import Rows, add_product, csr_arrays, product
 from sheetbench.numerics.typed import njit, typed
 from sheetbench.runs.record import columns_of, width
 from sheetbench.scenes import outside_model
@@ -137,13 +137,12 @@ def observe(
         elastic, _ = add_forces(observed.forces, u[k], v[k], NUMBA_TRUE, NUMBA_TRUE, exerted)
         forces, speed, gained = exerted.ravel(), v[k].ravel(), a[k].ravel()
         place, acting = u[k].ravel(), loads[min(k, len(loads) - 1)].ravel()
-        kinetic = potential = 0.0
+        momentum, kinetic, potential = product(mass, speed), 0.0, 0.0
         for row in range(len(forces)):
             forces[row] -= acting[row]
             potential -= dead[row] * place[row]
-            for e in range(mass.pointers[row], mass.pointers[row + 1]):
-                forces[row] += mass.values[e] * gained[mass.columns[e]]
-                kinetic += 0.5 * speed[row] * mass.values[e] * speed[mass.columns[e]]
+            kinetic += 0.5 * speed[row] * momentum[row]
+        add_product(mass, 1.0, gained, forces)
         rows[k, 1], rows[k, 2], rows[k, 3] = kinetic, elastic, potential
         rows[k, first:last] = product(observed.probes, place)
         rows[k, last:] = product(observed.supports, forces)

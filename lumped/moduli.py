@@ -114,13 +114,8 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     in_layer = _of_links(layer) + _in_plane(springs, "area")
     if springs.rubber:
         each = np.broadcast_to(sides, (*shape, 2)).reshape(-1, 2)
-        strains, _ = of_rubber(
-            springs,
-            each**2,
-            each.prod(axis=1),
-            np.zeros(len(each)),
-            lambda values: np.broadcast_to(values, shape).ravel(),
-        )
+        shapes = each**2, each.prod(axis=1), np.zeros(len(each))
+        strains, _ = of_rubber(springs, *shapes, lambda values: np.broadcast_to(values, shape).ravel())
         in_layer += _form(strains[:, 1:].reshape(*shape, 3), strains[:, 0].reshape(shape))
     upright = gap[..., 2, 2, None, None]
     in_gap = _of_links(gap)
@@ -140,9 +135,8 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
 
 def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
     """Moduli of an interior patch of the lattice with these springs, alike in all cells."""
-    found = of_cells(
-        replace(Springs.read(springs), layer_distance=spacing[2]), np.array([[spacing[:2]]]), layers
-    )
+    read = replace(Springs.read(springs), layer_distance=spacing[2])
+    found = of_cells(read, np.array([[spacing[:2]]]), layers)
     return Moduli(*(part[0, 0] for part in vars(found).values()))
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from copy import copy
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
@@ -29,23 +30,29 @@ if TYPE_CHECKING:
 
 
 class DiscreteElements(Discrete):
-    """element: all elements; pattern: of the tangent, the plan's elements first and then the rods' sides;
-    per_vector: 1 of an element's positions (a,), of its directors 1 over the lever. creep: drag σ and strains
+    """element: all elements; sites: their vectors (m, a) among all; held: which coordinates of positions are;
+    pattern: of the tangent, the plan's elements first and then the rods' sides. creep: drag σ and strains
     e_n (m, k) of a step of creep, which adds σ D (e − e_n) to the stresses, of D at no strain."""
 
     element: Any
+    sites: np.ndarray
+    held: np.ndarray
     creeps: ClassVar[bool] = False
     creep: tuple[float, np.ndarray] | None = None
     pattern: Pattern
-    per_vector: np.ndarray
 
-    @abstractmethod
     def gather(self, q: np.ndarray) -> np.ndarray:
         """Changes of the elements' vectors (m, a, 3) of coordinates (N,)."""
+        return q.reshape(-1, 3).take(self.sites, axis=0)
 
-    @abstractmethod
     def scatter(self, pull: np.ndarray) -> np.ndarray:
         """Sums (N,) of what pulls at the elements' vectors (m, a, 3)."""
+        return np.bincount(self._components, pull.ravel(), self.size)
+
+    @cached_property
+    def _components(self) -> np.ndarray:
+        """The elements' coordinates (3 a m,) among all."""
+        return (3 * self.sites.ravel()[:, None] + np.arange(3)).ravel()
 
     @abstractmethod
     def stiffness(
@@ -78,10 +85,6 @@ class DiscreteElements(Discrete):
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         """Z x (N,) of a step (unknowns,)."""
         return np.asarray(self.basis(shape.q, shape.at) @ step)
-
-    @abstractmethod
-    def of_held_positions(self, force: np.ndarray) -> np.ndarray:
-        """Those of forces (N,) on what is held of positions, (N,) or fewer."""
 
     def fault(self, shape: SheetShape) -> Fault | None:
         """Why an equilibrium is given up: an element that has turned inside out."""
@@ -151,13 +154,6 @@ class DiscreteElements(Discrete):
                 product += body.scatter(sides @ move[body.rows][:, :, None])
         return self.pattern.with_data(data), product
 
-    def constraining(
-        self, shape: SheetShape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
-    ) -> np.ndarray:
-        """The residual (N,) that the constraints' own stiffness is of, where elements and rods have other
-        stresses than that one is of."""
-        return residual
-
     def moduli(self, shape: SheetShape, pressure: np.ndarray | None) -> np.ndarray:
         """D (m, k, k), of a law with a pressure of its own at that one."""
         return shape.moduli if pressure is None else self.element.moduli(shape.strain, pressure)
@@ -192,7 +188,8 @@ class DiscreteElements(Discrete):
 
     def summed(self, shape: SheetShape) -> float:
         """Σ |B| |s| [N] of elements and rods, what forces are sums of, those on directors over the lever."""
-        total = float(self.per_vector @ self.element.magnitudes(shape.operator, shape.elastic))
+        magnitudes = self.element.magnitudes(shape.operator, shape.elastic)
+        total = float((magnitudes / self.scale[3 * self.sites[0]]).sum())
         for body in self.bodies:
             sides = body.magnitudes(shape.q, body.stress(shape))
             total += float((sides / self.scale_of(body)).sum())

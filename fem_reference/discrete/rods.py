@@ -65,9 +65,6 @@ class Rods:
         self._mass = self._side_masses(scene, places)
         self._viscous = self._dampers()
 
-    def __bool__(self) -> bool:
-        return bool(self.bound.rods)
-
     def weight(self, scene: Scene) -> np.ndarray:
         """Dead forces (k, a, 3) on the sides' vectors of the chains under a scene's gravity."""
         acceleration = np.zeros(3) if scene.gravity is None else scene.gravity.last_acceleration

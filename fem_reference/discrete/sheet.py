@@ -44,13 +44,14 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class Discrete(ABC):
-    """N = `size` coordinates q [m, -] of n plan nodes, unknowns x; forces in N; at: load factor or time [s].
+    """N = `size` coordinates q [m, -] of n plan nodes, positions first, those of directors from
+    `first_director` on; unknowns x; forces in N; at: load factor or time [s].
 
     norm: order of the norm that residuals are measured in; linear: strains are linear in the coordinates, and
-    loads act on the flat sheet. any_strain: whether the law of strain is meant for
-    large strains. lever: the flat sheet's longer side [m]; scale: 1 of positions (N,), of directors the
-    lever. own: whether the mesh has an outline of its own, in place of the scene's sheet. bodies: the rods,
-    if there are any; commanded: the scene whose chains have the curvatures that commands are times of.
+    loads act on the flat sheet. any_strain: whether the law of strain is meant for large strains. lever: the
+    flat sheet's longer side [m]. own: whether the mesh has an outline of its own, in place of the scene's
+    sheet. bodies: the rods, if there are any; commanded: the scene whose chains have the curvatures that
+    commands are times of.
     """
 
     model: ClassVar[str]
@@ -63,10 +64,10 @@ class Discrete(ABC):
     natural: NaturalState | None = None
     plan: Plan
     size: int
+    first_director: int
     supports: Supports
     rods: Rods
     unknowns: int
-    scale: np.ndarray
 
     def __init__(self, scene: Scene, moving: bool = False):
         self.scene, self.moving = scene, moving
@@ -97,7 +98,7 @@ class Discrete(ABC):
         """Take up the chains and all loads, once the sheet has its plan and N coordinates."""
         scene, moving = self.scene, self.moving
         self.rods = rods = Rods(scene, bound, self.size, self._commands, places, self.linear)
-        self.bodies = [rods] if rods else []
+        self.bodies = [rods] if bound.rods else []
         for alone, factor in loads_of(scene, moving):
             nodal, followers = loads.of_scene(alone, self.plan)
             dead = self.on_coordinates(nodal)
@@ -125,11 +126,16 @@ class Discrete(ABC):
     def lever(self) -> float:
         return float(np.ptp(self.plan.nodes, axis=0).max())
 
+    @cached_property
+    def scale(self) -> np.ndarray:
+        """1 of positions (N,), of directors the lever."""
+        return np.where(np.arange(self.size) < self.first_director, 1.0, self.lever)
+
     @property
     def symmetric(self) -> bool:
         """Whether the tangent is: loads that follow the sheet make it unsymmetric, unless they have a
-        potential."""
-        return all(item.conservative for item in self.items)
+        potential or the sheet is linear."""
+        return self.linear or all(item.conservative for item in self.items)
 
     @property
     @abstractmethod
@@ -163,10 +169,6 @@ class Discrete(ABC):
     @abstractmethod
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         """u̇ (N,) with what is prescribed from a time on, tangential to the constraints."""
-
-    def frame(self, q: np.ndarray, at: float) -> Any:
-        """What Z is made of, beside what is held."""
-        return None
 
     @abstractmethod
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
@@ -252,9 +254,9 @@ class Discrete(ABC):
 
     # what is shown
 
-    @abstractmethod
     def displacement(self, q: np.ndarray) -> np.ndarray:
         """Displacements (k, 3) [m] of the nodes, a view."""
+        return q[: self.first_director].reshape(-1, 3)
 
     def middles(self, displacement: np.ndarray) -> np.ndarray:
         """Those (n, 3) [m] of the plan's nodes on the mid-surface."""

@@ -87,7 +87,8 @@ class Static(Creeping[StaticState, Forces]):
         sheet, shape = self.sheet, self.shape(state, load_factor)
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
-        size = sheet.measured(external, sheet.scale) + sheet.measured(sheet.of_held_positions(residual))
+        on_held = sheet.displacement(residual).ravel()[sheet.held]
+        size = sheet.measured(external, sheet.scale) + sheet.measured(on_held)
         if sheet.natural is not None:  # often all that loads it
             pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.at(load_factor)))
             size += sheet.measured(sheet.scatter(pull), sheet.scale)
@@ -114,7 +115,10 @@ class Static(Creeping[StaticState, Forces]):
         stress, on_rods, pressure = shape.elastic, forces.on_rods, None
         if mixed and state.stress is not None:
             stress, on_rods, pressure = state.stress, state.on_rods, state.pressure
-            residual = sheet.constraining(shape, residual, stress, on_rods)
+            # of constraints: under the residual that these stresses leave
+            residual = residual + sheet.scatter(sheet.element.forces(shape.operator, stress - shape.elastic))
+            for body, own, now in zip(sheet.bodies, on_rods, forces.on_rods, strict=True):
+                residual += body.scatter(body.pull(shape.q, own - now))
         moduli, move = sheet.moduli(shape, pressure), forces.short if forces.short.any() else None
         matrix, product = sheet.system(shape, moduli, stress, on_rods, residual, move=move)
         return matrix, -sheet.reduce(shape, forces.residual + product)

@@ -65,7 +65,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         self._first = first if step is None else step
         band = (0.95, 1.25) if self.adapts else (0.0, np.inf)  # a fixed one always counts
         self.control = Controller(3, 2.0, band, self._first)
-        self.span, self.kinks = 1 if model.rods else None, np.array(kinks(model.scene))
+        self.span, self.kinks = 1 if model.bodies else None, np.array(kinks(model.scene))
         self._before, self._taken = 0.0, 0.0  # the last step, and the one that factors are of
         self._factor: Factor | None = None
         self._solver = model.solver()

@@ -30,7 +30,6 @@ from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
 from fem_reference.plate.validity import buckling_load, strained
-from fem_reference.shell.directors import projected
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS
@@ -53,7 +52,7 @@ class DiscretePlate(DiscreteShell):
     linear: ClassVar[bool] = True
     creeps: ClassVar[bool] = False
     element: PlateElements
-    moved, centripetal = Discrete.moved, Discrete.centripetal
+    moved, centripetal, inside_out = Discrete.moved, Discrete.centripetal, Discrete.inside_out
 
     def __init__(
         self,
@@ -78,19 +77,8 @@ class DiscretePlate(DiscreteShell):
             found.tilt[self.plan.on_boundary(name), EDGES[name].along_axis] = True
         return replace(found, director=found.director | found.tilt.all(axis=1))
 
-    @property
-    def symmetric(self) -> bool:
-        return True
-
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright
-
-    def frame(self, q: np.ndarray, at: float) -> np.ndarray:
-        return self._frame
-
-    @cached_property
-    def _frame(self) -> np.ndarray:
-        return super().frame(np.zeros(self.size), 0.0)
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         return self._constant_basis
@@ -106,9 +94,6 @@ class DiscretePlate(DiscreteShell):
             out[0, driven.nodes], out[1, driven.nodes] = driven.edge.linear(driven.points)
         out[0] += self.supports.shift(time)
         return share * out
-
-    def of_unit_directors(self, change: np.ndarray) -> np.ndarray:
-        return change.ravel()
 
     def surface(self, q: np.ndarray) -> Surface:
         return super().surface(np.zeros(self.size))
@@ -130,9 +115,8 @@ class DiscretePlate(DiscreteShell):
 
     def folded(self, blocks: np.ndarray) -> csr_matrix:
         """The sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""
-        return self.pattern.matrix(
-            projected(blocks.reshape(-1, 18, 3, 18, 3), self._frame[self.plan.elements])
-        )
+        flat, every = self.shape(np.zeros(self.size), 0.0), np.arange(len(blocks))
+        return self.pattern.matrix(self.fold(flat, every, blocks.reshape(-1, 18, 3, 18, 3)))
 
     # when a state means nothing
 
@@ -141,9 +125,6 @@ class DiscretePlate(DiscreteShell):
         if share is None or share >= 1.0:
             return None
         return Fault(Status.UNSTABLE, f"its in-plane forces buckle it at {100.0 * share:.3g} % of the load")
-
-    def inside_out(self, q: np.ndarray) -> str:
-        return ""
 
     def stretch(self, shape: SheetShape) -> float:
         return strained(self.element, shape.change, shape.strain)

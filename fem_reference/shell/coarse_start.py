@@ -20,8 +20,8 @@ from skfem import ElementQuad2
 
 from fem_reference.discrete.static import Forces, Static, StaticState
 from fem_reference.shell.discrete import UP, DiscreteShell
-from fem_reference.shell.element import GRIDS, MEMBRANE
-from fem_reference.shell.natural import AT_SITES, sampled
+from fem_reference.shell.element import AT_SITES, GRIDS, MEMBRANE
+from fem_reference.shell.natural import sampled
 from fem_reference.surface.biquadratic import interpolation, jacobians, shape
 from fem_reference.surface.location import interpolate
 from sheetbench.answers.solution import Status
@@ -37,8 +37,7 @@ FINE = 8  # elements along the shorter side, from which on a coarse one saves mo
 LIMITS = Limits(factorisations=10)  # of a coarse path that leads straight; others are given up
 
 NODES = 2.0 * ElementQuad2.doflocs.T - 1.0
-ALONG = {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}  # e_αβ in the order of their samples
-_TO_NODES = {name: interpolation(*GRIDS[name], NODES) for name in ALONG}
+_TO_NODES = {name: interpolation(*grid, NODES) for name, grid in GRIDS.items()}
 _AT_NODES = shape(*NODES)[1]
 _ENDS = np.cumsum([len(points.T) for points in _TO_NODES.values()])
 

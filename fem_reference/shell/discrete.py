@@ -16,7 +16,6 @@ is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|².
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -53,8 +52,8 @@ from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
 class DiscreteShell(DiscreteElements):
-    """A scene's shell on a flat mesh, at rest unless it is moving; number: of the unknowns (n, 5) of every
-    node, turns (n + p, 2) of every director, −1 where held."""
+    """A scene's shell on a flat mesh, at rest unless it is moving; moves, turns: numbers of unknowns (n, 3)
+    of every node and (n + p, 2) of every director, −1 where held."""
 
     model = "shell"
     norm: ClassVar[int] = 1
@@ -71,35 +70,27 @@ class DiscreteShell(DiscreteElements):
     ):
         super().__init__(scene, moving)
         self.plan = plan = plan_of(mesh)
+        self.sites = self.both
         self.element, self.natural = self.elements_of(section, law)
         self.any_strain = LAWS[law].stands_any_strain
         n = self.nodes
 
         bound = self.bound_rods()
         self.supports = supports = rod.hold_bases(self.supports_of(), bound.rods)
-        free = np.concatenate([~supports.position, np.repeat(~supports.director[:, None], 2, axis=1)], axis=1)
-        free[supports.tilt.any(axis=1), 3] = False  # the first tangent of such a director is the axis held
-        free_aside = np.repeat(~bound.held[:, None], 2, axis=1)
-        every = np.concatenate([free.ravel(), free_aside.ravel()])
+        self.held, held = supports.position.ravel(), np.concatenate([supports.director, bound.held])
+        turning = np.repeat(~held[:, None], 2, axis=1)
+        turning[:n][supports.tilt.any(axis=1), 0] = False  # the first tangent there is the axis held
+        every = np.concatenate([~self.held, turning.ravel()])
         numbered = np.where(every, np.cumsum(every) - 1, -1)
-        self.number = numbered[: free.size].reshape(free.shape)
-        self.turns = np.concatenate([self.number[:, 3:], numbered[free.size :].reshape(-1, 2)])
-        m, k = len(plan.elements), len(bound.sites)
-        of_element = self.number[plan.elements]
-        of_sheet = [of_element[:, :, :3].reshape(m, 27), of_element[:, :, 3:].reshape(m, 18)]
-        on_rod = [
-            self.number[bound.sites[:, :3], :3].reshape(k, 9),
-            self.turns[bound.sites[:, 3:] - n].reshape(k, 12),
-        ]
-        unknowns = (np.concatenate(each, axis=1) for each in (of_sheet, on_rod))
-        self.pattern = pattern_of(self.places(bound), *unknowns, size=int(every.sum()))
-        self.unknowns, self.size = self.pattern.size, 6 * n + bound.own.size
-        self.scale = np.full(self.size, self.lever)
-        self.scale[: 3 * n] = 1.0
-        self.per_vector = np.repeat([1.0, 1.0 / self.lever], 9)
+        self.moves, self.turns = numbered[: 3 * n].reshape(-1, 3), numbered[3 * n :].reshape(-1, 2)
+        self._free = np.flatnonzero(every)  # among all displacements, then all rotations
+        sides, directors = np.split(bound.sites, [3], axis=1)
+        of_kinds = [(plan.elements, plan.elements), (sides, directors - n)]
+        unknowns = (np.hstack([_flat(self.moves[at]), _flat(self.turns[on])]) for at, on in of_kinds)
+        self.pattern = pattern_of(self.places(bound), *unknowns, size=len(self._free))
+        self.unknowns, self.size, self.first_director = self.pattern.size, 6 * n + bound.own.size, 3 * n
         self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.own])
-        turns = np.concatenate([supports.director, bound.held])
-        self._held = np.concatenate([supports.position, np.tile(turns, (3, 1)).T])
+        self._held = np.concatenate([supports.position, np.tile(held, (3, 1)).T])
         self.bind(bound)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[Any, NaturalState | None]:
@@ -173,10 +164,8 @@ class DiscreteShell(DiscreteElements):
         return np.where(self._held, target - shape.q.reshape(-1, 3), free).ravel()
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        return self.of_unit_directors((q + step).reshape(-1, 3))
-
-    def of_unit_directors(self, change: np.ndarray) -> np.ndarray:
-        """q (N,) of changes (2 n + p, 3) with those directors that are free brought to unit length."""
+        """q (N,) with those directors that are free brought to unit length."""
+        change = (q + step).reshape(-1, 3)
         turns = change[self.nodes :]
         directors = turns + self._upright
         unit = directors / np.linalg.norm(directors, axis=1)[:, None] - self._upright
@@ -194,29 +183,23 @@ class DiscreteShell(DiscreteElements):
         return np.where(self._held.ravel(), exerted, 0.0)
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
-        rows, starts, turning, node, tangent = self._basis
-        data = np.ones(len(rows))
-        data[turning] = self.frame(q, at)[node, :, tangent].ravel()
+        ones, rows, starts, director, tangent = self._basis
+        data = np.append(ones, self.frame(q, at)[director, :, tangent])
         return csc_matrix((data, rows, starts), (self.size, self.unknowns))
 
     @cached_property
     def _basis(self) -> tuple[np.ndarray, ...]:
-        """Rows and starts of Z's columns, one entry of a displacement, three of a rotation; which entries are
-        rotations', of which directors and tangents."""
-        n = self.nodes
-        node, field = np.nonzero(self.number >= 0)  # in the order of the unknowns
-        of_rod, tangent = np.nonzero(self.turns[n:] >= 0)
-        node, field = np.append(node, n + of_rod), np.append(field, 3 + tangent)
-        widths = np.where(field < 3, 1, 3)
-        starts = np.concatenate([[0], np.cumsum(widths)])
-        rows = np.where(field < 3, 3 * node + field, 3 * (n + node))
-        within = np.arange(starts[-1]) - np.repeat(starts[:-1], widths)
-        turning = np.repeat(field >= 3, widths)
-        return np.repeat(rows, widths) + within, starts, turning, node[field >= 3], field[field >= 3] - 3
+        """Entries of displacements in Z; rows and starts of its columns, one of a displacement, three of
+        a rotation; the directors and tangents of these."""
+        moves = np.flatnonzero(~self.held)
+        director, tangent = np.nonzero(self.turns >= 0)
+        rows = np.append(moves, 3 * (self.nodes + director[:, None]) + np.arange(3))
+        widths = np.repeat([1, 3], [len(moves), len(director)])
+        return np.ones(len(moves)), rows, np.append(0, np.cumsum(widths)), director, tangent
 
     def reduce(self, shape: SheetShape, force: np.ndarray) -> np.ndarray:
         couple = np.einsum("nc,nck->nk", force[3 * self.nodes :].reshape(-1, 3), shape.frame)
-        return self._of_unknowns(force[: 3 * self.nodes], couple)
+        return np.append(force[: 3 * self.nodes], couple)[self._free]
 
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
         every, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
@@ -224,41 +207,13 @@ class DiscreteShell(DiscreteElements):
         turned = np.einsum("nck,nk->nc", shape.frame, every[3 * n :].reshape(-1, 2))
         return np.concatenate([every[: 3 * n], turned.ravel()])
 
-    def _of_unknowns(self, positions: np.ndarray, turns: np.ndarray) -> np.ndarray:
-        """Values (n, 3) of displacements and (n + p, 2) of rotations, of the free ones (unknowns,)."""
-        found: np.ndarray = np.concatenate([positions.ravel(), turns.ravel()])[self._free]
-        return found
-
-    @cached_property
-    def _free(self) -> np.ndarray:
-        """Where the unknowns are among all displacements, then all rotations (unknowns,)."""
-        every = np.concatenate([self.number[:, :3].ravel(), self.turns.ravel()])
-        out = np.empty(self.unknowns, dtype=np.int64)
-        out[every[every >= 0]] = np.flatnonzero(every >= 0)
-        return out
-
     # forces
-
-    def gather(self, q: np.ndarray) -> np.ndarray:
-        """At the nodes of the elements (m, 18, 3): positions, then directors."""
-        return q.reshape(-1, 3).take(self.both, axis=0)
-
-    @cached_property
-    def _components(self) -> np.ndarray:
-        """Their components (54 m,) among all (6n,)."""
-        return (3 * self.both.ravel()[:, None] + np.arange(3)).ravel()
-
-    def scatter(self, pull: np.ndarray) -> np.ndarray:
-        return np.bincount(self._components, pull.ravel(), self.size)
-
-    def of_held_positions(self, force: np.ndarray) -> np.ndarray:
-        return force[: self.supports.position.size][self.supports.position.ravel()]
 
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
         along = multiplier(self.directors(shape.q), residual[3 * self.nodes :].reshape(-1, 3))
-        on_turns = self._of_unknowns(np.zeros(3 * self.nodes), np.repeat(along, 2))
+        on_turns = np.append(np.zeros(3 * self.nodes), np.repeat(along, 2))[self._free]
         data, slots, on = self.pattern.zeros(on_turns), self.pattern.slots[0], self.plan.elements
         forms, coupled = (stress @ OF_POSITIONS).reshape(-1, 9, 18), self.element.coupled
         add_tangents(shape.operator, moduli, coupled, forms, shape.frame, on, TABLES, slots, data)
@@ -266,14 +221,6 @@ class DiscreteShell(DiscreteElements):
             blocks = self.fold(shape, np.arange(len(self.plan.elements)), self._inertia)
             add_blocks(data, self.pattern.slots[0], by_a * blocks)
         return data
-
-    def constraining(
-        self, shape: SheetShape, residual: np.ndarray, stress: np.ndarray, on_rods: Sequence[np.ndarray]
-    ) -> np.ndarray:
-        out = residual + self.scatter(self.element.forces(shape.operator, stress - shape.elastic))
-        for body, own in zip(self.bodies, on_rods, strict=True):
-            out += body.scatter(body.pull(shape.q, own - body.stress(shape)))
-        return out
 
     def fold(self, shape: SheetShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
         return projected(tangent, shape.frame[self.plan.elements[on]])
@@ -299,9 +246,6 @@ class DiscreteShell(DiscreteElements):
     def stretch(self, shape: SheetShape) -> float:
         return membrane_strain(self.element, shape.strain)
 
-    def displacement(self, q: np.ndarray) -> np.ndarray:
-        return q.reshape(-1, 3)[: self.nodes]
-
     def drawn(self, q: np.ndarray, line_force: np.ndarray | None = None) -> FieldMesh:
         fields = {} if line_force is None else {"actuator_line_force": line_force}
         directors = UP + q.reshape(-1, 3)[self.nodes : 2 * self.nodes]
@@ -320,3 +264,8 @@ class DiscreteShell(DiscreteElements):
         on_nodes = np.where(self.supports.position, self.displacement(exerted), 0.0)
         across = np.einsum("nck,nk->nc", frames, couple)
         return [(self.surface(q).position, on_nodes), (self.directors(q), across)]
+
+
+def _flat(numbers: np.ndarray) -> np.ndarray:
+    """Numbers (m, k, c) by element, (m, k c)."""
+    return numbers.reshape(len(numbers), numbers.shape[1] * numbers.shape[2])

@@ -45,10 +45,10 @@ from fem_reference.surface.biquadratic import (
     jacobians,
     product_grid,
     pulled_back,
+    require_upright,
     shape,
 )
 from fem_reference.surface.materials import Section
-from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
@@ -64,26 +64,26 @@ ROUNDED = 1e-14  # of an element's size, below which its sides' slant is roundin
 
 
 def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """a and b (21, 9), v (12, 9) of `fem_reference.shell.sampling`."""
+    """a and b (21, 9) of `fem_reference.shell.sampling`, and the shape functions' values there (21, 9)."""
     first, second, values = [], [], []
-    for name, (a, b) in {"rr": (0, 0), "ss": (1, 1), "rs": (0, 1)}.items():
-        value, slope = shape(*product_grid(*GRIDS[name]))
+    for grid, (a, b) in zip(GRIDS.values(), IN_PLANE, strict=True):
+        value, slope = shape(*product_grid(*grid))
         first.append(slope[a])
         second.append(slope[b])
-        if a == b:
-            values.append(value)
+        values.append(value)
     return np.concatenate(first), np.concatenate(second), np.concatenate(values)
 
 
-TABLES = np.ascontiguousarray(np.concatenate(_tables()).T)
+_A, _B, AT_SITES = _tables()
+_V = AT_SITES[: SHEAR.stop - SHEAR.start]  # where shear is sampled
+TABLES = np.ascontiguousarray(np.concatenate([_A, _B, _V]).T)
 
 
 def _strain_forms() -> np.ndarray:
     """H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
-    a, b, v = _tables()
     forms = np.zeros((STRAINS, 18, 18))
     phi, director = slice(0, 9), slice(9, 18)
-    product, slant = a[:, :, None] * b[:, None, :], a[: len(v), :, None] * v[:, None, :]
+    product, slant = _A[:, :, None] * _B[:, None, :], _A[: len(_V), :, None] * _V[:, None, :]
     even = 0.5 * (product + product.transpose(0, 2, 1))
     forms[MEMBRANE, phi, phi] = forms[BENDING, phi, director] = forms[BENDING, director, phi] = even
     forms[SHEAR, phi, director] = slant
@@ -198,10 +198,7 @@ def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np
     # A side along an axis has no slant, not one of rounding: D couples neither rr nor ss with rs then.
     jacobian[np.abs(jacobian) < ROUNDED * np.abs(jacobian).max(axis=(1, 2, 3), keepdims=True)] = 0.0
     area = np.linalg.det(jacobian)
-    turn = np.sign(area[:, :1])  # scikit-fem numbers some meshes clockwise
-    if not np.all(area * turn > 0.0):
-        worst = int(np.argmin((area * turn).min(axis=1)))
-        raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
+    require_upright(area)
     inverse = np.linalg.inv(jacobian)  # ∂ξ_a/∂x_b
     areas = GAUSS_WEIGHTS * np.abs(area)
     pull = pulled_back(inverse, IN_PLANE) * [1.0, 1.0, 2.0]  # of rr, ss, rs

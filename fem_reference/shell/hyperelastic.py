@@ -19,10 +19,11 @@ from typing import Self
 import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, built, cartesian, weighed
-from fem_reference.shell.laws import Law, Response, outer
+from fem_reference.shell.laws import Law
 from fem_reference.shell.slant import linear, slant
 from fem_reference.surface.biquadratic import integrated
-from fem_reference.surface.materials import section_of, transverse_shear_stiffness
+from fem_reference.surface.materials import section_of
+from fem_reference.surface.triad import Triad, outer
 from sheetbench.scenes import Material
 
 _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
@@ -53,12 +54,12 @@ class HyperelasticElement(Element):
         """s (m, 54), conjugate to the sampled strains."""
         stretch, curvature = self._strains(strain)
         t, slope, _ = self.law.thickness(self.material, stretch)
-        found = self._response(stretch, t[..., None] * curvature).stress * self._volumes[..., None]
+        found = self._response(stretch, t[..., None] * curvature).first * self._volumes[..., None]
         force, moment = found.sum(axis=2), np.einsum("egza,z->ega", found, self.heights)
         force += np.sum(moment * curvature, axis=-1)[..., None] * slope
-        shear, leaning = self._shear[..., None], self._slant(stretch, strain)
-        force += shear * leaning.stress[..., :3]
-        moment, shearing = t[..., None] * moment, shear * leaning.stress[..., 3:]
+        shear, leaning = (self._shear * self.areas)[..., None], self._slant(stretch, strain)
+        force += shear * leaning.first[..., :3]
+        moment, shearing = t[..., None] * moment, shear * leaning.first[..., 3:]
         forms = (self.membrane, force), (self.bending, moment), (self.slanted, shearing)
         parts = [np.einsum("egak,ega->ek", form, found, optimize=True) for form, found in forms]
         return np.concatenate(parts, axis=1)
@@ -77,15 +78,12 @@ class HyperelasticElement(Element):
         force += np.sum(moment * curvature, axis=-1)[..., None, None] * bend
         t, areas = t[..., None, None], self.areas
         mixed = t * (mixed + outer(slope, turned)) + outer(slope, moment)
-        leaning, out = self._slant(stretch, strain), np.zeros_like(self.stiffness)
-        out[:, MEMBRANE, MEMBRANE] = integrated(self.membrane, force, areas)
-        out[:, MEMBRANE, MEMBRANE] += integrated(self.membrane, leaning.tangent[..., :3, :3], self._shear)
+        leaning, out = self._shear * self._slant(stretch, strain).second, np.zeros_like(self.stiffness)
+        out[:, MEMBRANE, MEMBRANE] = integrated(self.membrane, force + leaning[..., :3, :3], areas)
         out[:, BENDING, BENDING] = integrated(self.bending, t * t * turn, areas)
-        out[:, SHEAR, SHEAR] = integrated(self.slanted, leaning.tangent[..., 3:, 3:], self._shear)
+        out[:, SHEAR, SHEAR] = integrated(self.slanted, leaning[..., 3:, 3:], areas)
         out[:, MEMBRANE, BENDING] = integrated(self.membrane, mixed, areas, self.bending)
-        out[:, MEMBRANE, SHEAR] = integrated(
-            self.membrane, leaning.tangent[..., :3, 3:], self._shear, self.slanted
-        )
+        out[:, MEMBRANE, SHEAR] = integrated(self.membrane, leaning[..., :3, 3:], areas, self.slanted)
         for part in (BENDING, SHEAR):
             out[:, part, MEMBRANE] = out[:, MEMBRANE, part].swapaxes(1, 2)
         return out
@@ -93,11 +91,11 @@ class HyperelasticElement(Element):
     def energies(self, strain: np.ndarray) -> dict[str, float]:
         """Energy [J] of strains e (m, 54): that of the mid-surface's stretch, what bending adds, of shear."""
         stretch, curvature = self._strains(strain)
-        bent = self.law.thickness(self.material, stretch).energy[..., None] * curvature
+        bent = self.law.thickness(self.material, stretch).value[..., None] * curvature
         total, membrane = (
-            float(np.sum(self._volumes * self._response(stretch, part).energy)) for part in (bent, 0.0 * bent)
+            float(np.sum(self._volumes * self._response(stretch, part).value)) for part in (bent, 0.0 * bent)
         )
-        shear = np.sum(self._shear * self._slant(stretch, strain).energy)
+        shear = self._shear * np.sum(self.areas * self._slant(stretch, strain).value)
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
 
     def _strains(self, strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -107,13 +105,13 @@ class HyperelasticElement(Element):
             np.einsum("egak,ek->ega", self.bending, strain[:, BENDING]),
         )
 
-    def _response(self, stretch: np.ndarray, bent: np.ndarray) -> Response:
+    def _response(self, stretch: np.ndarray, bent: np.ndarray) -> Triad:
         """Return that to E and t κ through the thickness, (m, 9, 3, …)."""
         return self.law.response(
             self.material, stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
         )
 
-    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Response:
+    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Triad:
         """Return transverse shear at every element's points, linear unless the law is for large strains."""
         leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
         if not self.law.stands_any_strain:
@@ -121,10 +119,9 @@ class HyperelasticElement(Element):
         return slant(self.material.poisson, stretch, leaning)
 
     @property
-    def _shear(self) -> np.ndarray:
-        """κ G h times the points' areas (m, 9) [N m]."""
-        stiffness = transverse_shear_stiffness(self.material, float(self.weights.sum()))
-        return self.areas * stiffness[0, 0]
+    def _shear(self) -> float:
+        """κ G h [N/m]."""
+        return float(section_of(self.material, float(self.weights.sum())).shear[0, 0])
 
     @property
     def _volumes(self) -> np.ndarray:

@@ -28,8 +28,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fem_reference.surface.materials import plane_stress, shear_modulus, times
+from fem_reference.surface.materials import plane_stress, shear_modulus
 from fem_reference.surface.rubber import slopes
+from fem_reference.surface.triad import Triad, outer
 from sheetbench.scenes import Material
 from sheetbench.scenes.objects.material import WORDS, Energy
 
@@ -39,39 +40,15 @@ NEWTON_STEPS = 30
 SETTLED, NEARLY = 1e-15, 1e-12  # steps of ln c: where they end, and up to which it was found
 
 
-class Response(NamedTuple):
-    """W (…) [Pa], S = ∂W/∂E (…, 3) [Pa] and ∂S/∂E (…, 3, 3) [Pa], or any function with its derivatives."""
-
-    energy: np.ndarray
-    stress: np.ndarray
-    tangent: np.ndarray
-
-    def times(self, other: Response) -> Response:
-        """Return the product with another function."""
-        (a, a_by, a_twice), (b, b_by, b_twice) = self, other
-        both = outer(a_by, b_by)
-        twice = times(a, b_twice) + times(b, a_twice) + both + both.swapaxes(-1, -2)
-        return Response(a * b, a[..., None] * b_by + b[..., None] * a_by, twice)
-
-    def power(self, exponent: float) -> Response:
-        """Return the power; not a number of what is below zero, unless the exponent is whole."""
-        with np.errstate(invalid="ignore"):
-            value = self.energy**exponent
-        slope = exponent * value / self.energy
-        bend = (exponent - 1.0) * slope / self.energy
-        twice = times(slope, self.tangent) + times(bend, outer(self.stress, self.stress))
-        return Response(value, slope[..., None] * self.stress, twice)
-
-
-def st_venant_kirchhoff(material: Material, strain: np.ndarray) -> Response:
+def st_venant_kirchhoff(material: Material, strain: np.ndarray) -> Triad:
     """Of strains (…, 3)."""
     stiffness = plane_stress(material)
     stress = strain @ stiffness
     energy = 0.5 * np.sum(strain * stress, axis=-1)
-    return Response(energy, stress, np.broadcast_to(stiffness, (*strain.shape, 3)))
+    return Triad(energy, stress, np.broadcast_to(stiffness, (*strain.shape, 3)))
 
 
-def biot(material: Material, strain: np.ndarray) -> Response:
+def biot(material: Material, strain: np.ndarray) -> Triad:
     """Of strains (…, 3)."""
     area, by_area, second = determinant(strain).power(0.5)  # inside out: not a number, which ends the step
     area_change = _change_of_determinant(strain) / (area + 1.0)  # j − 1
@@ -88,10 +65,10 @@ def biot(material: Material, strain: np.ndarray) -> Response:
     energy = 0.5 * excess**2 - (1.0 - nu) * (area_change - excess)
     stress = excess[..., None] * slope + (1.0 - nu) * bare
     tangent = both + (excess + 1.0 - nu)[..., None, None] * curving - (1.0 - nu) * second
-    return Response(stiffness * energy, stiffness * stress, stiffness * tangent)
+    return Triad(stiffness * energy, stiffness * stress, stiffness * tangent)
 
 
-def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Response:
+def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Triad:
     """Return the response of a rubber at strains (…, 3)."""
     bulk, c01 = energy.volume(poisson), energy.c01
     at_rest = energy.c10 + 2.0 * c01  # ½ m
@@ -116,7 +93,7 @@ def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Response:
     tangent = tangent + pull[..., None, None] * of_inverse
     mixed = 2.0 * (second + c01)[..., None] * _ONE + (0.5 * bulk / c)[..., None] * inverse
     across = second + (0.25 * bulk - 0.5 * pull) / c**2
-    return Response(value, stress, tangent - outer(mixed, mixed) / across[..., None, None])
+    return Triad(value, stress, tangent - outer(mixed, mixed) / across[..., None, None])
 
 
 def _thinning(energy: Energy, bulk: float, trace: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
@@ -138,11 +115,11 @@ def _thinning(energy: Energy, bulk: float, trace: np.ndarray, logarithm: np.ndar
     return np.asarray(np.where(moved <= NEARLY, np.expm1(x), np.nan))
 
 
-def determinant(strain: np.ndarray) -> Response:
+def determinant(strain: np.ndarray) -> Triad:
     """Return j² = det C and its derivatives by the strain (…, 3)."""
     first = 2.0 * (_ONE + strain @ _COFACTOR)
     twice = np.broadcast_to(2.0 * _COFACTOR, (*strain.shape, 3))
-    return Response(1.0 + _change_of_determinant(strain), first, twice)
+    return Triad(1.0 + _change_of_determinant(strain), first, twice)
 
 
 def _change_of_determinant(strain: np.ndarray) -> np.ndarray:
@@ -151,24 +128,19 @@ def _change_of_determinant(strain: np.ndarray) -> np.ndarray:
     return np.asarray(2.0 * (xx + yy) + 4.0 * xx * yy - twice_xy**2)
 
 
-def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """a ⊗ b (…, k, l) of vectors (…, k) and (…, l)."""
-    return np.asarray(a[..., :, None] * b[..., None, :])
-
-
 class Law(NamedTuple):
     """response: of a material at strains (…, 3); stands_any_strain: whether it is meant for large ones, and
     sheets of it get thinner."""
 
-    response: Callable[[Material, np.ndarray], Response]
+    response: Callable[[Material, np.ndarray], Triad]
     stands_any_strain: bool = True
 
-    def thickness(self, material: Material, strain: np.ndarray) -> Response:
+    def thickness(self, material: Material, strain: np.ndarray) -> Triad:
         """Return the stretch of the thickness j^(−ν/(1 − ν)) (…) and its derivatives by the strain (…, 3): as
         at small strains, and at any where ν = ½; 1 of a law that is not for large strains."""
         if not self.stands_any_strain:
             none = np.zeros_like(strain)
-            return Response(1.0 + none[..., 0], none, outer(none, none))
+            return Triad(1.0 + none[..., 0], none, outer(none, none))
         return determinant(strain).power(-0.5 * material.poisson / (1.0 - material.poisson))
 
 

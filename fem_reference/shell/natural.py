@@ -5,13 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.element import BENDING, GRIDS, MEMBRANE, STRAINS, TABLES
-from fem_reference.surface.biquadratic import AT_GAUSS, IN_PLANE, product_grid, pulled_back, shape
+from fem_reference.shell.element import AT_SITES, BENDING, MEMBRANE, STRAINS, TABLES
+from fem_reference.surface.biquadratic import AT_GAUSS, IN_PLANE, pulled_back
 from fem_reference.surface.materials import Section, green
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
-
-AT_SITES = np.concatenate([shape(*product_grid(*GRIDS[name]))[0] for name in ("rr", "ss", "rs")])
 
 
 def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:

@@ -16,12 +16,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.laws import Response, determinant
+from fem_reference.shell.laws import determinant
+from fem_reference.surface.triad import Triad
 
 _ADJUGATE = np.array([[[0.0, 0.0], [0.0, 2.0]], [[2.0, 0.0], [0.0, 0.0]], [[0.0, -1.0], [-1.0, 0.0]]])  # by E
 
 
-def slant(poisson: float, strain: np.ndarray, leaning: np.ndarray) -> Response:
+def slant(poisson: float, strain: np.ndarray, leaning: np.ndarray) -> Triad:
     """Return W and its derivatives by E and γ (…, 5), of E (…, 3) and γ (…, 2); the thickness is that of
     `laws.Law.thickness`."""
     area, by_area, areas = determinant(strain)
@@ -29,19 +30,19 @@ def slant(poisson: float, strain: np.ndarray, leaning: np.ndarray) -> Response:
     mixed = 2.0 * np.einsum("kij,...j->...ki", _ADJUGATE, leaning)
     turned = np.einsum("...ij,...j->...i", form, leaning)
     by_strain = 0.5 * np.einsum("...ki,...i->...k", mixed, leaning)
-    square = Response(area, np.append(by_area, 0.0 * turned, -1), _symmetric(areas, 0.0 * mixed, 0.0 * form))
+    square = Triad(area, np.append(by_area, 0.0 * turned, -1), _symmetric(areas, 0.0 * mixed, 0.0 * form))
     by_both, both = np.append(by_strain, 2.0 * turned, -1), _symmetric(0.0 * areas, mixed, 2.0 * form)
-    of_leaning = Response(np.sum(leaning * turned, axis=-1), by_both, both)  # Q
-    left = Response(*(2.0 * (a - q) for a, q in zip(square, of_leaning, strict=True)))  # 2 j² cos² φ
-    left = left._replace(energy=np.where(left.energy > 0.0, left.energy, np.nan))
+    of_leaning = Triad(np.sum(leaning * turned, axis=-1), by_both, both)  # Q
+    left = Triad(*(2.0 * (a - q) for a, q in zip(square, of_leaning, strict=True)))  # 2 j² cos² φ
+    left = left._replace(value=np.where(left.value > 0.0, left.value, np.nan))
     return square.power(-poisson / (1.0 - poisson)).times(of_leaning).times(left.power(-1.0))
 
 
-def linear(leaning: np.ndarray) -> Response:
+def linear(leaning: np.ndarray) -> Triad:
     """Return ½ γ² and its derivatives by E and γ (…, 5)."""
     first, twice = np.zeros((*leaning.shape[:-1], 5)), np.zeros((*leaning.shape[:-1], 5, 5))
     first[..., 3:], twice[..., 3:, 3:] = leaning, np.eye(2)
-    return Response(0.5 * np.sum(leaning**2, axis=-1), first, twice)
+    return Triad(0.5 * np.sum(leaning**2, axis=-1), first, twice)
 
 
 def _symmetric(strains: np.ndarray, mixed: np.ndarray, slants: np.ndarray) -> np.ndarray:

@@ -76,26 +76,23 @@ class DiscreteSolid(DiscreteElements):
         columns, material = columns_of(mesh, scene, layers, law)
         self.columns, self.plan = columns, columns.plan
         self.any_strain = not LAWS[law].quadratic
-        stacks = columns.positions.reshape(-1, 3)[columns.stacks]
-        positions = np.concatenate([stacks[:, place] for place in columns.places])
+        self.sites = columns.bricks
+        positions = columns.positions.reshape(-1, 3)[self.sites]
         self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
         self._products = plain.products
-        self.per_vector = np.ones(27)
 
         bound = self.bound_rods()
         self.column_supports = of_scene(scene, columns, clamp, bound.rods)
         self.supports = self.column_supports.line
-        self.free = ~self.column_supports.held
+        self.held = self.column_supports.held.ravel()
         self._turned = self.column_supports.turned[columns.plan.elements].any(axis=1)
         self._held_aside = np.repeat(bound.held, 3)
-        every = np.concatenate([self.free.ravel(), ~self._held_aside])
+        every = ~np.concatenate([self.held, self._held_aside])
         self._free = np.flatnonzero(every)
         number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
         kinds = (number[s].reshape(len(s), 3 * s.shape[1]) for s in (columns.stacks, bound.sites))
         self.pattern = pattern_of(self.places(bound), *kinds, size=len(self._free))
-        self.unknowns, self.size, self._cut = len(self._free), every.size, columns.positions.size
-        self.scale = np.ones(self.size)
-        self.scale[self._cut :] = self.lever
+        self.unknowns, self.size, self.first_director = len(self._free), every.size, len(self.held)
         levels = columns.levels
         places = np.concatenate([levels * np.arange(3) + columns.layers, 3 * levels + np.arange(6)])
         self.bind(bound, places)
@@ -148,30 +145,14 @@ class DiscreteSolid(DiscreteElements):
     def _to_supports(self, bases: np.ndarray, q: np.ndarray, target: np.ndarray) -> np.ndarray:
         """The step (N,) of q (N,) to the held components of a target (n, levels, 3)."""
         gap = applied(np.linalg.inv(bases), target - self._on_columns(q))
-        step = applied(bases, np.where(self.free, 0.0, gap))
-        return np.append(step, np.where(self._held_aside, -q[self._cut :], 0.0))
+        step = applied(bases, np.where(self.column_supports.held, gap, 0.0))
+        return np.append(step, np.where(self._held_aside, -q[self.first_director :], 0.0))
 
     def _on_columns(self, q: np.ndarray) -> np.ndarray:
         """The columns' part (n, levels, 3)."""
-        return q[: self._cut].reshape(self.columns.positions.shape)
+        return self.displacement(q).reshape(self.columns.positions.shape)
 
     # forces
-
-    def gather(self, q: np.ndarray) -> np.ndarray:
-        """At the nodes of the bricks, (layers · m, 27, 3)."""
-        stacks = q[: self._cut].reshape(-1, 3)[self.columns.stacks]
-        return np.concatenate([stacks[:, place] for place in self.columns.places])
-
-    def scatter(self, pull: np.ndarray) -> np.ndarray:
-        m, s = self.columns.stacks.shape
-        stacks = np.zeros((m, s, 3))
-        for place, bricks in zip(self.columns.places, np.split(pull, self.columns.layers), strict=True):
-            stacks[:, place] += bricks
-        where = (3 * self.columns.stacks[:, :, None] + np.arange(3)).ravel()
-        return np.bincount(where, stacks.ravel(), self.size)
-
-    def of_held_positions(self, force: np.ndarray) -> np.ndarray:
-        return np.where(self.free.ravel(), 0.0, force[: self._cut])
 
     def pressure(self, shape: SheetShape, by: np.ndarray) -> np.ndarray | None:
         return None if self.element.law.quadratic else self.element.pressure(shape.strain, by)
@@ -225,14 +206,14 @@ class DiscreteSolid(DiscreteElements):
     @cached_property
     def onto_surface(self) -> csr_matrix:
         """Means and directors of columns."""
-        n, aside = len(self.plan.nodes), self.size - self._cut
+        n, aside = self.nodes, self.size - self.first_director
         rows = (np.kron(weights, np.eye(3)) for weights in self.columns.averages[:, None])
         of_columns = vstack([kron(eye_array(n), row) for row in rows])
         return hstack([of_columns, csr_matrix((6 * n, aside))], format="csr")
 
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:
         columns = self.column_supports.spread(np.array([displacement, turn]))
-        return np.pad(columns.ravel(), (0, self.size - self._cut))
+        return np.pad(columns.ravel(), (0, self.size - self.first_director))
 
     # what is shown
 
@@ -247,9 +228,6 @@ class DiscreteSolid(DiscreteElements):
         rest, now = (np.sum(np.einsum("agi,eic->aegc", AT_GAUSS[1], at) ** 2, axis=3) for at in places)
         mean = (now / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()  # 2 E, of both sides of every element
         return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + mean, 0.0)) - 1.0)))
-
-    def displacement(self, q: np.ndarray) -> np.ndarray:
-        return self._on_columns(q).reshape(-1, 3)
 
     def middles(self, displacement: np.ndarray) -> np.ndarray:
         return displacement.reshape(self.columns.positions.shape)[:, self.columns.layers]
@@ -268,9 +246,9 @@ class DiscreteSolid(DiscreteElements):
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         turned = self.frame(q, at).swapaxes(1, 2)
-        held = np.where(self.free, 0.0, applied(turned, self._on_columns(exerted)))
-        aside = np.where(self._held_aside, exerted[self._cut :], 0.0).reshape(-1, 3)
+        held = np.where(self.column_supports.held, applied(turned, self._on_columns(exerted)), 0.0)
+        aside = np.where(self._held_aside, exerted[self.first_director :], 0.0).reshape(-1, 3)
         return [
             (self.columns.positions + self._on_columns(q), applied(np.linalg.inv(turned), held)),
-            (q[self._cut :].reshape(-1, 3) + self.rods.bound.own, aside),
+            (q[self.first_director :].reshape(-1, 3) + self.rods.bound.own, aside),
         ]

@@ -21,26 +21,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from fem_reference.surface.biquadratic import IN_SPACE, pulled_back
 from fem_reference.surface.plies import in_space
 from fem_reference.surface.rubber import slopes
+from fem_reference.surface.triad import Triad
 from sheetbench.scenes import Constants, Material
 from sheetbench.scenes.objects.material import WORDS, Energy
 
 _TRACE = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 _DOUBLE = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
-
-
-class Triad(NamedTuple):
-    """A function of strain (…, 6) and its first and second derivative: (…), (…, 6), (…, 6, 6)."""
-
-    value: np.ndarray
-    first: np.ndarray
-    second: np.ndarray
 
 
 @dataclass(frozen=True)

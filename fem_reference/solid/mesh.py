@@ -19,6 +19,7 @@ import numpy as np
 from skfem import ElementHex2, ElementQuad2, MeshQuad
 
 from fem_reference.solid.materials import LAWS
+from fem_reference.surface.biquadratic import AT_GAUSS, jacobians, require_upright
 from fem_reference.surface.mesh import Plan, plan_of, quarters
 from fem_reference.surface.rubber import require_law
 from sheetbench.answers.solution import FieldMesh
@@ -80,6 +81,11 @@ class Columns:
         column = np.array([flat[tuple(site[:2])] for site in ElementHex2.doflocs])
         level = np.rint(2.0 * ElementHex2.doflocs[:, 2]).astype(int)
         return np.array([self.levels * column + level + 2 * layer for layer in range(self.layers)])
+
+    @property
+    def bricks(self) -> np.ndarray:
+        """Nodes of all bricks (layers · m, 27), layer by layer."""
+        return self.stacks[:, self.places].swapaxes(0, 1).reshape(-1, 27)
 
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
         """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
@@ -150,13 +156,13 @@ def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Cons
 
 def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
     """The columns of a scene's solid over a mesh, and what its bricks are made of."""
-    _require_upright(mesh)
+    plan, sheet, taper = plan_of(mesh), scene.sheet, np.ones(())
+    require_upright(np.linalg.det(jacobians(plan.corners, AT_GAUSS[1])))
     require_law(law, LAWS, scene)
     if layers < 1:
         raise BadInput(f"layers = {layers}: at least one through the thickness")
     _require_meshable(scene, law)
     layers = bricks_through(scene, layers)
-    plan, sheet, taper = plan_of(mesh), scene.sheet, np.ones(())
     if sheet.taper_x or sheet.taper_y:
         taper = sheet.thickness_at(*plan.nodes.T) / sheet.thickness
     columns = Columns(plan, sheet.thickness, layers, taper)
@@ -164,14 +170,3 @@ def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Col
         return columns, scene.material
     middles = np.tile(columns.plan.corners.mean(axis=1), (layers, 1))[:, None]
     return columns, _constants_of_bricks(scene, middles, layers)
-
-
-def _require_upright(mesh: MeshQuad) -> None:
-    """Raises BadInput where the corners of an element do not all turn one way, as in a folded one."""
-    corners = mesh.p[:, mesh.t]  # (2, 4, m)
-    along = np.roll(corners, -1, axis=1) - corners
-    back = np.roll(corners, 1, axis=1) - corners
-    turn = along[0] * back[1] - along[1] * back[0]  # (4, m) [m²]
-    upright = np.all(turn * np.sign(turn[0]) > 0.0, axis=0)
-    if not upright.all():
-        raise BadInput(f"element {int(np.argmin(upright))} of the mesh is inverted or degenerate")

@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -42,14 +43,18 @@ CLAMPS = ("shell-like", "mean", "full")
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """held: (n, levels, 3) of the components q; edges: name → held components of its own; by_mean: (n,),
-    columns of which the mean is held."""
+    """edges: name → components q that it holds (n, levels, 3); by_mean: (n,), columns of which the mean is
+    held."""
 
     line: Supports
     columns: Columns
-    held: np.ndarray
     edges: dict[str, np.ndarray]
     by_mean: np.ndarray
+
+    @cached_property
+    def held(self) -> np.ndarray:
+        """Components q that anything holds (n, levels, 3)."""
+        return sum(self.edges.values(), np.zeros(self.columns.positions.shape, dtype=bool))
 
     def spread(self, change: np.ndarray) -> np.ndarray:
         """Displacement (n, levels, 3) [m] of columns whose middles and directors change so (2, n, 3)."""
@@ -60,7 +65,7 @@ class ColumnSupports:
     def bases(self, load_factor: float) -> np.ndarray:
         """Z (n, 3 levels, 3 levels) of every column."""
         levels, middle = self.columns.levels, self.columns.layers
-        axes = np.tile(np.eye(3), (len(self.held), 1, 1))
+        axes = np.tile(np.eye(3), (len(self.by_mean), 1, 1))
         for driven in self.line.driven:
             axes[driven.nodes] = np.eye(3) + driven.edge.placed(driven.points, load_factor).turn
         with_mean = np.eye(levels)
@@ -100,17 +105,16 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     require_choice("clamp", clamp, CLAMPS)
     line = hold_bases(supports.of_scene(scene, columns.plan), rods)
     kinds, edges = named(scene.supports), {}
-    none = np.zeros(columns.positions.shape, dtype=bool)
-    by_mean = np.zeros(len(none), dtype=bool)
-    for name, (nodes, axes) in line.edges.items():
-        edges[name] = held = none.copy()
-        held[nodes[:, None], columns.layers, axes] = True
+    by_mean = np.zeros(len(columns.positions), dtype=bool)
+    for name, on_line in line.edges.items():
+        edges[name] = held = np.zeros(columns.positions.shape, dtype=bool)
+        held[:, columns.layers], nodes = on_line, on_line.any(axis=1)
         support = kinds.get(name)  # None of motions and of rods' bases, which hold as clamps do
         if isinstance(support, Symmetric):
-            held[nodes[:, None], :, axes] = True
+            held |= on_line[:, None]
         elif support is None or holds_director(support):
             held[nodes, :, : 3 if clamp == "full" else 2] = True
             by_mean[nodes] |= clamp == "mean"
         else:
             by_mean[nodes] = True
-    return ColumnSupports(line, columns, np.logical_or.reduce([none, *edges.values()]), edges, by_mean)
+    return ColumnSupports(line, columns, edges, by_mean)

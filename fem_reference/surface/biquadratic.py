@@ -14,6 +14,8 @@ from collections.abc import Sequence
 import numpy as np
 from skfem import ElementQuad2
 
+from sheetbench.errors import BadInput
+
 NODES = 9
 TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
 THREE = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6)
@@ -66,6 +68,14 @@ AT_GAUSS = shape(*GAUSS)
 def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
     """∂x_b/∂ξ_a (m, n, b, a) [m] of elements with nodes at (m, 9, 2) [m]; slope: (2, n, 9) of `shape`."""
     return np.einsum("agi,eib->egba", slope, nodes)
+
+
+def require_upright(area: np.ndarray) -> None:
+    """Raise BadInput for an element whose det J (m, n) is not of one sign; below zero r, s turn clockwise."""
+    share = area * np.sign(area[:, :1])
+    if not np.all(share > 0.0):
+        worst = int(np.argmin(share.min(axis=1)))
+        raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
 
 
 def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:

@@ -62,10 +62,9 @@ def section_of(material: Material | Constants, thickness: float) -> Section:
     """The section of a sheet of this material, homogeneous through its thickness, or of its plies."""
     if isinstance(material, Constants) and material.plies:
         return Section(*plies.section(material.plies, thickness))
-    membrane = times(thickness, plane_stress(material))
-    return Section(
-        membrane, bending_stiffness(material, thickness), transverse_shear_stiffness(material, thickness)
-    )
+    stretch = plane_stress(material)
+    shear = times(SHEAR_CORRECTION * thickness * shear_modulus(material), np.eye(2))
+    return Section(times(thickness, stretch), times(thickness**3 / 12.0, stretch), shear)
 
 
 def plane_stress(material: Material | Constants) -> np.ndarray:
@@ -81,16 +80,6 @@ def plane_stress(material: Material | Constants) -> np.ndarray:
 def shear_modulus(material: Material | Constants) -> float:
     """G = E/2(1 + ν) [Pa]."""
     return material.young / (2.0 * (1.0 + material.poisson))
-
-
-def bending_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
-    """h³/12 C (3, 3) [N·m]."""
-    return times(thickness**3 / 12.0, plane_stress(material))
-
-
-def transverse_shear_stiffness(material: Material | Constants, thickness: float) -> np.ndarray:
-    """k h G I (2, 2) [N/m]."""
-    return times(SHEAR_CORRECTION * thickness * shear_modulus(material), np.eye(2))
 
 
 def times(factor: float | np.ndarray, form: np.ndarray) -> np.ndarray:

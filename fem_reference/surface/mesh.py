@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
@@ -25,9 +24,6 @@ from sheetbench.scenes.objects.grading import is_mirrored, line_numbers
 from sheetbench.scenes.objects.grid import MESH, elements_of
 from sheetbench.scenes.objects.plan_mesh import divided
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
-
-if TYPE_CHECKING:
-    pass
 
 Elements = int | tuple[int, int]
 

@@ -194,13 +194,13 @@ def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
 
 def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
     """The supports with what the rods' bases hold: position and director of a node, under its name."""
-    position, director, edges = supports.position.copy(), supports.director.copy(), dict(supports.edges)
+    director, edges = supports.director.copy(), dict(supports.edges)
     for rod in rods:
         if rod.base is not None:
-            node = rod.line[rod.base]
-            position[node] = director[node] = True
-            edges[rod.chain.held_as] = (np.array([node]), np.arange(3))
-    return replace(supports, position=position, director=director, edges=edges)
+            node, held = rod.line[rod.base], np.zeros((len(director), 3), dtype=bool)
+            held[node] = director[node] = True
+            edges[rod.chain.held_as] = held
+    return replace(supports, director=director, edges=edges)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cached_property
 
 import numpy as np
 
@@ -37,30 +37,26 @@ class Driven:
     part: np.ndarray
 
 
-class Moving(NamedTuple):
-    """Nodes (k,) and axes that a support moves along its course (`scenes.supports.Motion`)."""
-
-    nodes: np.ndarray
-    axes: np.ndarray
-    course: PiecewiseCurve
-
-
 @dataclass(frozen=True)
 class Supports:
-    """What is held: position (n, 3) by component, director (n,); edges: name → nodes and held axes.
+    """What is held: edges: name → components of the position that it holds (n, 3); director (n,).
 
     tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
     turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names;
-    shifts: the supports that move.
+    shifts: the courses of the supports that move (`scenes.supports.Motion`), by name.
     """
 
-    position: np.ndarray
+    edges: dict[str, np.ndarray]
     director: np.ndarray
     tilt: np.ndarray
-    edges: dict[str, tuple[np.ndarray, np.ndarray]]
     turning: tuple[Driven, ...]
     moved: dict[str, Driven]
-    shifts: tuple[Moving, ...]
+    shifts: dict[str, PiecewiseCurve]
+
+    @cached_property
+    def position(self) -> np.ndarray:
+        """Components of the position that anything holds (n, 3)."""
+        return sum(self.edges.values(), np.zeros((len(self.director), 3), dtype=bool))
 
     @property
     def driven(self) -> tuple[Driven, ...]:
@@ -95,27 +91,20 @@ class Supports:
 
     def jumps(self, time: float) -> bool:
         """Whether a support changes its velocity at once."""
-        slopes = [(course.slope(time), course.slope(time, before=True)) for _, _, course in self.shifts]
+        slopes = [(course.slope(time), course.slope(time, before=True)) for course in self.shifts.values()]
         return any(np.abs(a - b).max() > ROUNDED * np.abs([a, b]).max() for a, b in slopes)
 
     def _shifted(self, of: Callable[[PiecewiseCurve], np.ndarray]) -> np.ndarray:
-        """Values of the supports' courses (3,), at their nodes and along their axes (n, 3)."""
+        """Values of the supports' courses (3,), where and along what they hold (n, 3)."""
         out = np.zeros((len(self.director), 3))
-        for nodes, axes, course in self.shifts:
-            out[np.ix_(nodes, axes)] = of(course)[axes]
+        for name, course in self.shifts.items():
+            np.copyto(out, of(course), where=self.edges[name])
         return out
 
     def reactions(self, nodal: np.ndarray) -> dict[str, np.ndarray]:
         """Force [N] (3,) of each support from the nodal ones (n, 3); supports that hold the same share it."""
-        holders = np.zeros_like(nodal)
-        for nodes, axes in self.edges.values():
-            holders[np.ix_(nodes, axes)] += 1.0
-        out = {}
-        for name, (nodes, axes) in self.edges.items():
-            out[name] = np.zeros(3)
-            held = np.ix_(nodes, axes)
-            out[name][axes] = np.sum(nodal[held] / holders[held], axis=0)
-        return out
+        shared = nodal / np.maximum(sum(self.edges.values()), 1)
+        return {name: np.sum(shared, axis=0, where=held) for name, held in self.edges.items()}
 
 
 def _node_at(nodes: np.ndarray, support: Point, name: str) -> np.ndarray:
@@ -138,23 +127,19 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
             on_edge[name] = np.unique(plan.elements[plan.within(shape)])
         else:
             on_edge[name] = plan.on_boundary(support.edge)
-    position, director = np.zeros((len(nodes), 3), dtype=bool), np.zeros(len(nodes), dtype=bool)
-    tilt = np.zeros((len(nodes), 2), dtype=bool)
-    edges: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-    motions = scene.motions()
-    movers = np.zeros(len(nodes))
+    motions, movers = scene.motions(), np.zeros(len(nodes))
     for motion in motions.values():
-        on = on_edge[motion.edge]
-        position[on] = director[on] = True
-        movers[on] += 1.0
+        movers[on_edge[motion.edge]] += 1.0
+    director, tilt, edges = movers > 0.0, np.zeros((len(nodes), 2), dtype=bool), dict[str, np.ndarray]()
     for name, support in named_supports.items():
-        on, axes = on_edge[name], np.array(held_axes(support))
-        position[np.ix_(on, axes)] = True
+        on, edges[name] = on_edge[name], np.zeros((len(nodes), 3), dtype=bool)
+        edges[name][np.ix_(on[movers[on] == 0.0], held_axes(support))] = True
         director[on] |= holds_director(support)
         if isinstance(support, Symmetric):
             tilt[on, EDGES[support.edge].normal_axis] = True
-        edges[name] = (on[movers[on] == 0.0], axes)
-    edges |= {motion.held_as: (on_edge[motion.edge], np.arange(3)) for motion in motions.values()}
+    for motion in motions.values():
+        edges[motion.held_as] = np.zeros((len(nodes), 3), dtype=bool)
+        edges[motion.held_as][on_edge[motion.edge]] = True
 
     def driven(edge: DrivenEdge) -> Driven:
         on = on_edge[edge.edge]
@@ -163,9 +148,5 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
     turning = tuple(driven(edge) for edge in bent_or_tilted(scene.supports, scene.sheet))
     moved = {name: driven(MovedEdge(motion, scene.sheet)) for name, motion in motions.items()}
     director |= tilt.all(axis=1)
-    shifts = tuple(
-        Moving(edges[name][0], edges[name][1], support.motion.course)
-        for name, support in named_supports.items()
-        if support.motion is not None
-    )
-    return Supports(position, director, tilt, edges, turning, moved, shifts)
+    shifts = {name: one.motion.course for name, one in named_supports.items() if one.motion is not None}
+    return Supports(edges, director, tilt, turning, moved, shifts)

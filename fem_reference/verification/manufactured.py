@@ -31,7 +31,7 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import reference, shape
 from fem_reference.solid.materials import lame
-from fem_reference.surface.materials import bending_stiffness
+from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import Row, convergence
 from fem_reference.verification.specimens import around, linear_step, specimen
@@ -94,7 +94,7 @@ def _fields(scene: Scene) -> tuple[Field, Field, Field]:
     """p [Pa], w [m] and the tilt of the director along x, as functions of x and y."""
     thick = scene.sheet.thickness
     by_shear = 2.0 * thick**2 / (5.0 * (1.0 - scene.material.poisson))
-    rigidity = bending_stiffness(scene.material, thick)[0, 0]
+    rigidity = section_of(scene.material, thick).bending[0, 0]
 
     def b(t: np.ndarray, power: int) -> np.ndarray:
         return t**power * (t - 1.0) ** power

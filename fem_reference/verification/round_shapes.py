@@ -49,7 +49,7 @@ from fem_reference.solid.materials import lame
 from fem_reference.surface.alike import mesh_of_cells
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.loads import Line, spread
-from fem_reference.surface.materials import bending_stiffness
+from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import mesh_of, plan_of, quarters
 from fem_reference.verification.rows import THEORY, Row, absolutely, curve, relatively
 from fem_reference.verification.specimens import linear_step, moved, specimen, valid
@@ -124,7 +124,7 @@ def cut(mesh: MeshQuad) -> MeshQuad2:
 
 def frequencies() -> Iterator[Row]:
     """The lowest of every number of nodal diameters up to 2."""
-    rigidity = bending_stiffness(METAL, THICK)[0, 0]
+    rigidity = section_of(METAL, THICK).bending[0, 0]
     scene, scale = disc(), np.sqrt(rigidity / (METAL.density * THICK)) / (2.0 * np.pi * RADIUS**2)
     for model in ("plate", "shell"):
         found = modes(scene, model, ELEMENTS, count=5).frequencies / scale
@@ -167,7 +167,7 @@ def deflection_at_rim(thick: float = THICK) -> float:
         return np.array([w, first, second + nu / r * first, shear])
 
     at_hub, at_rim = terms(b), terms(a)
-    rows, load = np.vstack([at_hub[:2], at_rim[2:]]), LOAD / (64.0 * bending_stiffness(METAL, THICK)[0, 0])
+    rows, load = np.vstack([at_hub[:2], at_rim[2:]]), LOAD / (64.0 * section_of(METAL, THICK).bending[0, 0])
     constants = np.linalg.solve(rows[:, 1:], -load * rows[:, 0])
     stiffness = 5.0 / 6.0 * METAL.young / (2.0 + 2.0 * nu) * THICK**3 / thick**2
     by_shear = LOAD / (2.0 * stiffness) * (a**2 * np.log(a / b) - 0.5 * (a**2 - b**2))

@@ -48,7 +48,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fem_reference.linear_buckling import buckling
-from fem_reference.surface.materials import bending_stiffness
+from fem_reference.surface.materials import section_of
 from fem_reference.verification.rows import EXACT, OURS, Row, curve, lowest, mesh_change, relatively
 from fem_reference.verification.specimens import E1, E2, FIBRES, NU, G, around, moved, specimen
 from fem_reference.vibration import modes
@@ -144,7 +144,7 @@ def locking(model: str) -> Iterator[Row]:
 def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:
     """w D/(q L⁴) at the centre, D the thin plate's; kind: "hinged" is hard (plate only), or "clamped"."""
     material = Material(young=1e7, poisson=poisson, density=1000.0)
-    rigidity = bending_stiffness(material, ratio)[0, 0]
+    rigidity = section_of(material, ratio).bending[0, 0]
     load = SMALL * ratio * rigidity / CLAMPED[0.001]
     scene = specimen(Sheet(1.0, 1.0, ratio), material, around(Hinged if kind == "hinged" else Clamped), load)
     return _middle(scene, model, elements, hard=kind == "hinged") * rigidity / load
@@ -161,7 +161,7 @@ def frequencies(benchmark: Benchmark) -> Iterator[Row]:
     _, sheet, edges, source, unit, converged, bounds, models = benchmark
     scene, scale = specimen(sheet, STEEL, around(Clamped, edges)), 1.0
     if unit == COEFFICIENT:
-        rigidity = bending_stiffness(STEEL, sheet.thickness)[0, 0]
+        rigidity = section_of(STEEL, sheet.thickness).bending[0, 0]
         scale = 2.0 * np.pi * sheet.length_x**2 * np.sqrt(STEEL.density * sheet.thickness / rigidity)
     for model in models:
         coarse, found = (scale * modes(scene, model, n, 6).frequencies for n in (ELEMENTS // 2, ELEMENTS))
@@ -211,7 +211,7 @@ def self_bending() -> Iterator[Row]:
     h, tension, q = h / 8.0, 0.05, 2.0 * np.pi**2 / length**2
     pulled = Natural(pretension=(tension, tension))
     stretched = specimen(Sheet(length, length, h), material, hinges, natural=pulled)
-    rigidity = bending_stiffness(material, h)[0, 0]
+    rigidity = section_of(material, h).bending[0, 0]
     exact = np.sqrt((rigidity * q**2 + tension * q) / (material.density * h)) / (2.0 * np.pi)
     found = modes(stretched, "shell", 8, 1, about="deformed").frequencies[0]
     yield relatively("frequency of a stretched plate [Hz]", "8 × 8", exact, kirchhoff, found, 1e-3)

@@ -40,13 +40,14 @@ class Acting:
 
 class RigidMotion:
     """A prescribed motion of an edge, a single segment: every bound mass moves as on a rigid bar, where the
-    scene says (`scenes.meaning.kinematics`); part: its share (m,) in the force on every mass of the edge."""
+    scene says (`scenes.meaning.kinematics`); movers: how many motions move each mass (n,), which share the
+    force on it."""
 
-    def __init__(self, motion: EdgeMotion, name: str, sheet: Sheet, lattice: Lattice, part: np.ndarray):
+    def __init__(self, motion: EdgeMotion, name: str, sheet: Sheet, lattice: Lattice, movers: np.ndarray):
         self.names: tuple[str, ...] = (name,)
         self.edge: str = motion.edge
         self.masses = lattice.edge_columns(motion.edge).ravel()
-        self._held_as, self._part = motion.held_as, part[:, None]
+        self._held_as, self._part = motion.held_as, 1.0 / movers[self.masses, None]
         self._moved, rest = MovedEdge(motion, sheet), lattice.positions[self.masses]
         self._plan, self._height = rest[:, :2], rest[:, 2]
 

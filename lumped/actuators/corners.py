@@ -46,13 +46,10 @@ class Tie:
 def held_ends(scene: Scene, edge: str) -> tuple[int, ...]:
     """Ends of a chain's edge, but for its own base's, at which a support on the neighbouring edge or the base
     of the chain there holds position and director."""
-    own, found = _chains(scene)[edge].base_ends, []
     moved = {motion.edge for motion in scene.motions().values()}
     still = {s.edge for s in scene.supports if s.motion is None and holds_director(s)}
-    for end in (0, 1):
-        held = _beside(edge, end) in still - moved or based_beside(scene, edge, end)
-        found.extend([end] if held and end not in own else [])
-    return tuple(found)
+    held = {end for end in (0, 1) if _beside(edge, end) in still - moved or based_beside(scene, edge, end)}
+    return tuple(sorted(held.difference(_chains(scene)[edge].base_ends)))
 
 
 def based_beside(scene: Scene, edge: str, end: int) -> str | None:

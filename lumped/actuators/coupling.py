@@ -234,12 +234,7 @@ def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:
     movers = np.zeros(lattice.mass_count)  # motions that a mass follows
     for motion in motions.values():
         movers[lattice.edge_columns(motion.edge)] += 1.0
-    return tuple(
-        RigidMotion(
-            motion, name, scene.sheet, lattice, 1.0 / movers[lattice.edge_columns(motion.edge).ravel()]
-        )
-        for name, motion in motions.items()
-    )
+    return tuple(RigidMotion(motion, name, scene.sheet, lattice, movers) for name, motion in motions.items())
 
 
 def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[BoundChain], list[SharedCorner]]:

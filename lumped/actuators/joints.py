@@ -32,9 +32,8 @@ def angles(measures: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     slope = np.concatenate([2.0 * g_w[:, None] * s, g_c[:, None]], axis=1)  # of g by the measures
     bend = np.empty((len(c), 3, 3))
-    bend[:, :2, :2] = 4.0 * g_ww[:, None, None] * s[:, :, None] * s[:, None, :] + 2.0 * g_w[
-        :, None, None
-    ] * np.eye(2)
+    bend[:, :2, :2] = 4.0 * g_ww[:, None, None] * s[:, :, None] * s[:, None, :]
+    bend[:, :2, :2] += 2.0 * g_w[:, None, None] * np.eye(2)
     bend[:, :2, 2] = bend[:, 2, :2] = 2.0 * g_wc[:, None] * s
     bend[:, 2, 2] = g_cc
     unit = np.eye(3)[:2]  # ∂s_i/∂measures

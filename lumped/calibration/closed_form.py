@@ -152,10 +152,8 @@ def closed_form(
         found[fibres] &= np.linalg.eigvalsh(layer[fibres])[:, 0] > 0.0
     lz2 = np.where(found, lz2, 1.0 if not given else lz2)
     rest = membrane * lz2[:, None, None] - lattice
-    area, mid_area = (
-        np.where(fibres, 0.0, part)
-        for part in (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2], rest[:, 0, 1])
-    )
+    area = np.where(fibres, 0.0, layer[:, 0, 1] - by_diagonals * layer[:, 2, 2])
+    mid_area = np.where(fibres, 0.0, rest[:, 0, 1])
     of: dict[str, Any] = {
         "face_coupling": coupling * squares.sum(axis=1) / (lx * ly * shear_gaps(layers)) * lz2
     }

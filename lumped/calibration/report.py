@@ -54,9 +54,8 @@ def report(
     areas = springs["area"], springs["mid_area"]
     constants = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
     negative = min(map(np.min, areas)) < 0.0
-    forms = (
-        (got.membrane, got.bending) if negative or springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS} else ()
-    )
+    coupled = springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}
+    forms = (got.membrane, got.bending) if negative or coupled else ()
     if any(np.linalg.eigvalsh(form).min() <= 0.0 for form in forms):
         raise BadInput(f"{constants}: the cell's energy is not positive")
     off = [

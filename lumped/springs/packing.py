@@ -207,7 +207,7 @@ def _tables(kind: int, topology: Topology, data: np.ndarray) -> tuple[np.ndarray
     those of the springs (rows, s): runs that are alike have one table."""
     absent = np.zeros((len(data), STRIDE))
     absent[: len(ABSENT_SPRING[kind])] = np.array(ABSENT_SPRING[kind])[:, None]
-    begins, tables, found = [], [], dict[bytes, int]()
+    begins, tables, found = [], list[np.ndarray](), dict[bytes, int]()
     data = np.vstack([data, topology.place]) + 0.0  # no negative zeros
     ends = np.searchsorted(topology.run, np.arange(len(topology.runs) + 1))
     for first, last in pairwise(ends.tolist()):

@@ -51,9 +51,7 @@ def solution(
         sample=partial(_sampled, lattice, u),
         reactions=reactions,
         energies=energies,
-        mesh=LatticeMesh(
-            partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed),
-        ),
+        mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed)),
         history=tuple(path.history),
         load_factor=state.load_factor,
         actuators=wrenches,

@@ -208,7 +208,8 @@ class Run(Generic[AnyState]):
         """Keep samples up to the first that means nothing, and why it does not; energies: since the step
         began."""
         observer, rows = self._observer, self._observer.rows(samples)
-        rows[:, 4:6] += self.spent
+        rows[:, 4] += self.spent[0]
+        rows[:, 5] += self.spent[1]
         count, grown = self.watch.take(rows)
         stretches, fault = observer.inspect(samples, count + isfinite(grown))
         count = count if fault is None else len(stretches)
@@ -223,9 +224,8 @@ class Run(Generic[AnyState]):
             fault = Fault(fault.status, f"at {rows[count, 0]:.6g} s {fault.message}")
         shown = fault is not None and fault.status is not Status.NON_FINITE
         self._kept.append("samples", rows[: count + shown])
-        for i in range(count):
-            if self.samples + i in self._shown:
-                self._kept.append("frames", observer.frame(samples, i)[None])
+        for due in sorted(self._shown.intersection(range(self.samples, self.samples + count))):
+            self._kept.append("frames", observer.frame(samples, due - self.samples)[None])
         self.samples += count
         return fault
 

@@ -131,9 +131,9 @@ def observe(
     """Fill the rows of states (k, n, 3) under loads (k, n, 3), or (1, n, 3) if they stay the same [N]: the
     kinetic, elastic and potential energy [J], the probes' displacements [m], the supports' forces [N]."""
     mass, dead = observed.mass, observed.dead.ravel()
-    first, last = 6, 5 + len(observed.probes.pointers)
+    first, last, exerted = 6, 5 + len(observed.probes.pointers), np.empty_like(u[0])
     for k in range(len(u)):
-        exerted = np.zeros_like(u[k])
+        exerted[:] = 0.0
         elastic, _ = add_forces(observed.forces, u[k], v[k], NUMBA_TRUE, NUMBA_TRUE, exerted)
         forces, speed, gained = exerted.ravel(), v[k].ravel(), a[k].ravel()
         place, acting = u[k].ravel(), loads[min(k, len(loads) - 1)].ravel()

@@ -40,12 +40,8 @@ def projected(tangent: np.ndarray, frames: np.ndarray) -> np.ndarray:
     """Tangents of loads on elements, (m, 18, 3, 18, 3), in their unknowns, (m, 45, 45): displacements of nine
     nodes, then two rotations β of nine directors, δd = T β; frames: T (m, 9, 3, 2)."""
     m = len(tangent)
-    right = np.concatenate(
-        [
-            tangent[:, :, :, :9].reshape(m, 18, 3, 27),
-            np.einsum("eicjd,ejdb->eicjb", tangent[:, :, :, 9:], frames).reshape(m, 18, 3, 18),
-        ],
-        axis=3,
-    )
-    lower = np.einsum("eicb,eica->eiab", right[:, 9:], frames).reshape(m, 18, 45)
+    turned = tangent[:, :, :, 9:].reshape(m, 54, 9, 3).swapaxes(1, 2) @ frames
+    columns = tangent[:, :, :, :9].reshape(m, 18, 3, 27), turned.swapaxes(1, 2).reshape(m, 18, 3, 18)
+    right = np.concatenate(columns, axis=3)
+    lower = (frames.swapaxes(2, 3) @ right[:, 9:]).reshape(m, 18, 45)
     return np.concatenate([right[:, :9].reshape(m, 27, 45), lower], axis=1)

@@ -23,9 +23,7 @@ class SheetItem(Protocol):
     """An item. conservative: it has a potential, and so a symmetric tangent. One that inherits this leaves
     out what has a default here."""
 
-    @property
-    def conservative(self) -> bool:
-        return True
+    conservative: bool = True
 
     def force(self, shape: SheetShape) -> np.ndarray:
         """On the coordinates (N,)."""
@@ -78,11 +76,7 @@ class Following(SheetItem):
     """A load of `surface.loads` that follows the sheet, with its factor."""
 
     def __init__(self, load: Follower, factor: Factor):
-        self._load, self._factor = load, factor
-
-    @property
-    def conservative(self) -> bool:
-        return self._load.conservative
+        self._load, self._factor, self.conservative = load, factor, load.conservative
 
     def force(self, shape: SheetShape) -> np.ndarray:
         on = self._load.elements

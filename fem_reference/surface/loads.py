@@ -106,15 +106,12 @@ class Line:
 
 @dataclass(frozen=True)
 class FollowerMoment:
-    """A moment per undeformed length [N·m/m] on a line, about its current tangent."""
+    """A moment per undeformed length [N·m/m] on a line of elements (k,), about its current tangent."""
 
     value: float
+    elements: np.ndarray
     line: Line
     conservative: ClassVar[bool] = False
-
-    @property
-    def elements(self) -> np.ndarray:
-        return self.line.elements
 
     def force(self, vectors: np.ndarray) -> np.ndarray:
         tangent, _, director = self._frame(vectors)
@@ -188,7 +185,8 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
                 force = factor * np.array(load.force_per_length)
                 dead.append(spread(plan, line.nodes, line.shares(), force))
                 if load.moment_per_length:
-                    followers.append(FollowerMoment(factor * load.moment_per_length, line))
+                    moment = factor * load.moment_per_length
+                    followers.append(FollowerMoment(moment, line.elements, line))
             case AreaLoad():
                 on = plan.within(load.where)
                 force = factor * np.array(load.force_per_area)

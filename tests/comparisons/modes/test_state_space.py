@@ -12,6 +12,7 @@ from scipy.signal import lsim
 import lumped
 from sheetbench import scenes
 from sheetbench.errors import BadInput
+from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.scenes import Chain, Clamped, Gravity, Hinged, Pressure, Scene
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.supports import Motion
@@ -139,7 +140,7 @@ def test_the_verb_leaves_matrices_for_numpy_and_matlab(kept):
 def test_few_modes_need_no_dense_matrices(flat, monkeypatch):
     """By Lanczos on the factors of K they are those of dense matrices; what is unstable is refused alike."""
     dense = flat.state_space(6)
-    monkeypatch.setattr("sheetbench.numerics.eigenmodes.DENSE", 0)
+    monkeypatch.setattr(lowest_modes, "__defaults__", (*lowest_modes.__defaults__[:-1], 0))
     monkeypatch.setattr("scipy.linalg.eigh", lambda *given, **named: pytest.fail("dense"))
     sparse = flat.state_space(6)
     np.testing.assert_allclose(sparse.frequencies, dense.frequencies, rtol=1e-9)

@@ -112,10 +112,45 @@ print(twice(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.
 """
 
 
-def test_a_kernel_of_the_cache_serves_one_that_is_compiled(tmp_path):
-    """Its LLVM code is read only then."""
-    said = [python("-c", ASK + LINKED, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stdout for _ in range(2)]
-    assert said == ["0\n[12.]\n", "1\n[12.]\n"]
+CALLED = """
+import numpy as np
+from sheetbench.numerics.banded import factor, solve_unrefined
+from numba import njit
+
+@njit
+def factored(band, order, b):
+    factor(band, len(b), 1)
+    return solve_unrefined(band, 1, order, b)
+
+band = np.zeros((8, 16))
+band[:6, 0] = 4.0
+x = factored(band, np.arange(6), np.ones(6))
+print(sum(factor.stats.cache_hits.values()))
+print(x[:1])
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "found"), [(ASK + LINKED, "[12.]"), (CALLED, "[0.25]")], ids=["short", "long"]
+)
+def test_a_kernel_of_the_cache_serves_one_that_is_compiled(tmp_path, code, found):
+    """What is short is linked, its LLVM code read only then; what is long is called."""
+    said = [python("-c", code, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stdout for _ in range(2)]
+    assert said == [f"0\n{found}\n", f"1\n{found}\n"]
+
+
+GONE = """
+import collections, sheetbench.numerics.maps as maps
+maps.Gone = collections.namedtuple("Gone", maps.Rows._fields)
+maps.Gone.__module__ = maps.__name__
+"""
+
+
+def test_what_is_kept_for_arguments_that_are_gone_is_compiled_anew(tmp_path):
+    """Of a tuple whose class was removed from another file than the kernel's."""
+    before = GONE + ASK.replace("product(Rows(", "product(maps.Gone(")
+    kept_then = python("-c", before, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stderr
+    assert [kept_then, ask(ROOT, tmp_path / "cache")] == [NOTICE + "\n"] * 2
 
 
 ALONE = """
@@ -258,7 +293,7 @@ def test_what_two_models_need_is_compiled_side_by_side_where_none_is_kept(monkey
 
     monkeypatch.setattr(solve, "Popen", beside)
     solve.warm_both("lumped", "shell")
-    assert started == ["from comparisons.models.solve import warm; warm('shell')"]
+    assert [code.split("; ")[-1] for code in started] == ["warm('shell')"]
     maps.product(maps.Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
     assert kept(maps.__file__)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))

@@ -14,33 +14,34 @@ from __future__ import annotations
 
 import numpy as np
 
+from sheetbench.numerics.memory import empty, zeros
 from sheetbench.numerics.typed import njit
 
 WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M by how many corners farther in turn
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def _middle(x: np.ndarray, p: int) -> np.ndarray:
     """The mean of every column of p masses, in the row of its first, (n, 3)."""
-    out = np.zeros_like(x)
+    out = zeros(x.shape)
     for mass in range(len(x)):
         for q in range(3):
             out[mass - mass % p, q] += x[mass, q] / p
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np.ndarray) -> None:
     """Add the force at positions x (n, 3) [m] on cells (c, 4, p) under pressure (c,) [Pa] to `force` (n, 3)
     [N]."""
-    p, on_middle = cells.shape[2], np.zeros_like(x)
+    p, on_middle = cells.shape[2], zeros(x.shape)
     add_surface_forces(_middle(x, p), cells[:, :, 0], pressure, on_middle)
     for mass in range(len(x)):
         for q in range(3):
             force[mass, q] += on_middle[mass - mass % p, q] / p
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_surface_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, force: np.ndarray) -> None:
     """Add the force at points x (m, 3) [m] of the mid-surface on cells (c, 4) under pressure (c,) [Pa] to
     `force` (m, 3) [N]."""
@@ -58,11 +59,11 @@ def add_surface_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, f
             force[m, q] += 2.0 * both - second
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_couples(x: np.ndarray, columns: np.ndarray, moments: np.ndarray, force: np.ndarray) -> None:
     """Add couples (e,) [N·m] at positions x (n, 3) [m] to `force` (n, 3) [N], each on the outer layers of its
     column of masses about the chord of its neighbours': columns (e, 3, p), its own and those."""
-    along, across = np.empty(3), np.empty(3)
+    along, across = empty(3), empty(3)
     for e in range(len(columns)):
         top, bottom, length, square = columns[e, 0, -1], columns[e, 0, 0], 0.0, 0.0
         for q in range(3):
@@ -77,14 +78,14 @@ def add_couples(x: np.ndarray, columns: np.ndarray, moments: np.ndarray, force: 
             force[bottom, q] -= couple
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_tangent(
     x: np.ndarray, cells: np.ndarray, slots: np.ndarray, pressure: np.ndarray, blocks: np.ndarray
 ) -> None:
     """Add the derivative of the force to the blocks (b, 3, 3) [N/m] at the slots (c, 4 p, 4 p) of the cells'
     masses. δc = [r]× δs − [s]× δr with r, s the two sides from a corner."""
     p = cells.shape[2]
-    middle, by = _middle(x, p), np.empty((4, 4, 3))
+    middle, by = _middle(x, p), empty((4, 4, 3))
     for c in range(len(cells)):
         corners = middle[cells[c, :, 0]]
         by[:] = 0.0

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from sheetbench.numerics.memory import empty
 from sheetbench.numerics.typed import njit
 
 
-@njit(cache=True)
+@njit
 def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
     """Orthonormal T (n, 3, 2) with T ⊥ d, whose first tangent is the axis of this number (n,), −1 for any."""
-    out = np.empty((len(directors), 3, 2))
+    out = empty((len(directors), 3, 2))
     for n in range(len(directors)):
         x, y, z = directors[n, 0], directors[n, 1], directors[n, 2]
         length = np.sqrt(x * x + y * y + z * z)

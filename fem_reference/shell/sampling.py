@@ -15,17 +15,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.memory import empty, zeros
+from sheetbench.numerics.typed import REORDERED, inner, njit
 
-REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
 PLANE, SHEARED = 21, 12  # in-plane points, and those of them that have shear
 
 
-@njit(cache=True)
+@njit(fastmath=REORDERED)
 def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np.ndarray:
     """Σ |B| |s| over elements, strains and components (18,)."""
     strains = tables.shape[1]
-    out, gradient, at = np.zeros(18), np.zeros((strains, 18, 3)), np.empty((6, strains))
+    out, gradient, at = zeros(18), zeros((strains, 18, 3)), empty((6, strains))
     for e in range(len(vectors)):
         sampled(vectors[e], tables, at, gradient)
         for k in range(strains):
@@ -59,12 +59,12 @@ def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.nda
                     shear[i + 9, c] = tables[i, s] * at[c, k]
 
 
-@njit(cache=True, fastmath=REORDERED)
+@njit(fastmath=REORDERED)
 def strain_of(vectors: np.ndarray, step: np.ndarray, tables: np.ndarray) -> np.ndarray:
     """B δQ (m, 54) of a step (m, 18, 3) from the vectors."""
     strains = tables.shape[1]
-    out = np.zeros((len(step), strains))
-    at, by = np.empty((6, strains)), np.empty((6, strains))
+    out = zeros((len(step), strains))
+    at, by = empty((6, strains)), empty((6, strains))
     for e in range(len(step)):
         _weighed(vectors[e], tables, at)
         _weighed(step[e], tables, by)
@@ -82,12 +82,12 @@ def strain_of(vectors: np.ndarray, step: np.ndarray, tables: np.ndarray) -> np.n
     return out
 
 
-@njit(cache=True, fastmath=REORDERED)
+@njit(fastmath=REORDERED)
 def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np.ndarray:
     """Bᵀ s (m, 18, 3) of stresses (m, 54); of a step in place of the vectors, what it adds to Bᵀ s."""
     strains = tables.shape[1]
-    out, at = np.empty((len(vectors), 18, 3)), np.empty((6, strains))
-    on_places, on_turns = np.zeros(strains), np.zeros(strains)  # what multiplies the tables, of φ and of d
+    out, at = empty((len(vectors), 18, 3)), empty((6, strains))
+    on_places, on_turns = zeros(strains), zeros(strains)  # what multiplies the tables, of φ and of d
     for e in range(len(vectors)):
         _weighed(vectors[e], tables, at)
         pull = stress[e]

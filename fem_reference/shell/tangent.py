@@ -12,8 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.sampling import PLANE, REORDERED, sampled
-from sheetbench.numerics.typed import njit
+from fem_reference.shell.sampling import PLANE, sampled
+from sheetbench.numerics.memory import empty, zeros
+from sheetbench.numerics.typed import REORDERED, njit
 
 MOVES, UNKNOWNS = 27, 45  # of an element: displacements, and with them rotations
 AT_ONCE = 3  # strains and unknowns that are gone through together, whose numbers by part it divides
@@ -21,7 +22,7 @@ LANES = 4  # numbers in a vector instruction: loops go on to whole vectors, into
 FEW, ALL = -(-MOVES // LANES) * LANES, -(-UNKNOWNS // LANES) * LANES
 
 
-@njit(cache=True, fastmath=REORDERED)
+@njit(fastmath=REORDERED)
 def add_tangents(
     vectors: np.ndarray,
     moduli: np.ndarray,
@@ -37,8 +38,8 @@ def add_tangents(
     to the data of a matrix, at slots (m, 45, 45), −1 for none; frames: T (n, 3, 2) of all nodes; nodes:
     (m, 9); tables: of `sampling`."""
     plane, strains = PLANE, tables.shape[1]
-    gradient, at = np.zeros((strains, 54)), np.empty((6, strains))
-    weighed, lower = np.empty((strains, ALL)), np.empty((UNKNOWNS, ALL))
+    gradient, at = zeros((strains, 54)), empty((6, strains))
+    weighed, lower = empty((strains, ALL)), empty((UNKNOWNS, ALL))
     for e in range(len(vectors)):
         sampled(vectors[e], tables, at, gradient.reshape(strains, 18, 3))
         for i in range(9):
@@ -65,7 +66,7 @@ def add_tangents(
                         data[slots[e, j, i]] += lower[i, j]
 
 
-@njit(cache=True, inline="always")
+@njit(inline="always")
 def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: np.ndarray) -> None:
     """Adds D B; blocks of D that are zero, as many are where sides lie along the axes, are left out, and so
     are rotations in the rows of membrane strains."""
@@ -78,7 +79,7 @@ def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: n
             _add_block(moduli, k, by, gradient, out, columns)
 
 
-@njit(cache=True, inline="always")
+@njit(inline="always")
 def _add_product(gradient: np.ndarray, weighed: np.ndarray, lower: np.ndarray) -> None:
     """Adds Bᵀ (D B) to the lower triangle; membrane strains have no rotations."""
     for i in range(0, UNKNOWNS, AT_ONCE):
@@ -86,7 +87,7 @@ def _add_product(gradient: np.ndarray, weighed: np.ndarray, lower: np.ndarray) -
             _add_block(gradient.T, i, k, weighed, lower, -(-(i + AT_ONCE) // LANES) * LANES)
 
 
-@njit(cache=True, inline="always")
+@njit(inline="always")
 def _add_block(a: np.ndarray, i: int, k: int, b: np.ndarray, out: np.ndarray, columns: int) -> None:
     """Adds what the block of a at i, k has in the product a b, to its rows' first columns, unless it is
     zero."""

@@ -68,7 +68,7 @@ class MovingForces(NamedTuple):
     drag: drag.LatticeDrag
 
 
-@njit(cache=True)
+@njit
 def add_forces(
     forces: MovingForces, u: np.ndarray, v: np.ndarray, elastic: bool, damped: bool, out: np.ndarray
 ) -> tuple[float, float]:
@@ -83,7 +83,7 @@ def add_forces(
     return energy, power
 
 
-@njit(cache=True)
+@njit
 def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.ndarray) -> float:
     """Add the forces of the masses' own damping and of the air; return the power taken [W]."""
     power = drag.add_drag(forces.drag, u, v, out)
@@ -95,7 +95,7 @@ def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.n
     return power
 
 
-@njit(cache=True)
+@njit
 def add_damping_again(
     forces: MovingForces, u: np.ndarray, v: np.ndarray, pushed: bool, out: np.ndarray
 ) -> float:

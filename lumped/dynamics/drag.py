@@ -50,7 +50,7 @@ def of_scene(scene: Scene, assembly: Assembly) -> LatticeDrag:
     return LatticeDrag(coefficient, lattice.positions, lattice.mid_cells, shares, weights, area)
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def _to_areas(drag: LatticeDrag, u: np.ndarray) -> None:
     """A of the masses displaced by u."""
     drag.area[:] = 0.0
@@ -59,7 +59,7 @@ def _to_areas(drag: LatticeDrag, u: np.ndarray) -> None:
         drag.area[i] *= drag.weights[i]
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_drag(drag: LatticeDrag, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
     """Add the drag, signed as an internal force, at a displacement and velocity (size, 3); the power taken
     [W]."""

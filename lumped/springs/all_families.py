@@ -26,6 +26,7 @@ from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, S
 from lumped.springs.links import LinkArrays
 from sheetbench.errors import BadInput
 from sheetbench.numerics.kept import kept
+from sheetbench.numerics.memory import zeros
 from sheetbench.numerics.typed import njit, typed
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
@@ -157,10 +158,10 @@ class AllFamilies:
         return blocks
 
 
-@njit(cache=True, nogil=True)
+@njit
 def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
     """Return the energy [J] and the internal force (n, 3) [N]."""
-    out = np.zeros_like(u)
+    out = zeros(u.shape)
     energy = links.add_forces(u, springs.links, out)
     energy += cells.add_forces(u, springs.layers, out)
     energy += cells.add_forces(u, springs.middle, out)
@@ -168,7 +169,7 @@ def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
     return energy, out
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(inline="always")
 def extrapolated(u: np.ndarray, step: np.ndarray, springs: SpringArrays) -> Stresses:
     """Return the stresses that the linearisation at u predicts after a step (n, 3) [m]."""
     return (
@@ -179,7 +180,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, springs: SpringArrays) -> Stre
     )
 
 
-@njit(cache=True, nogil=True)
+@njit
 def tangent(
     u: np.ndarray,
     stress: Stresses,
@@ -192,7 +193,7 @@ def tangent(
     """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
     springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
     It is symmetric: what is above the diagonal is copied."""
-    blocks = np.zeros((springs.blocks, 3, 3))
+    blocks = zeros((springs.blocks, 3, 3))
     strain = extrapolated and measures(springs.layers.law) == 3
     links.add_tangent(u, springs.links, stress[0], strain, share, blocks)
     cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, blocks)
@@ -213,13 +214,13 @@ def tangent(
     return blocks
 
 
-@njit(cache=True, nogil=True)
+@njit
 def survey(
     u: np.ndarray, springs: SpringArrays, kind: np.ndarray, kinds: int, layers: int
 ) -> tuple[np.ndarray, float, float]:
     """Return the energies of the links by kind (m,) and of the cells of the layers, of the mid-surface and of
     upright faces, (kinds + 3,) [J], and the rest of a `Survey`."""
-    along, energies, stretch, summed, met = springs.links, np.zeros(kinds + 3), 0.0, 0.0, 0
+    along, energies, stretch, summed, met = springs.links, zeros(kinds + 3), 0.0, 0.0, 0
     for m in range(len(along.nodes)):
         change, square, length, _ = links.measure(u, along, m)
         half, e = 0.5 * along.constants[m], change / (np.sqrt(square) + length)
@@ -232,7 +233,7 @@ def survey(
     energies[kinds] = np.sum(cells.energies(u, springs.layers))
     energies[kinds + 1] = np.sum(cells.energies(u, springs.middle))
     energies[kinds + 2] = np.sum(cells.energies(u, springs.faces))
-    return energies, links.strains(np.expand_dims(u, 0), along, 0.0)[0][0], stretch
+    return energies, links.strains(u.reshape((1, *u.shape)), along, 0.0)[0][0], stretch
 
 
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:

@@ -16,13 +16,13 @@ Pair = tuple[Vector, Vector]
 Rows = tuple[Pair, Pair, Pair]
 
 
-@inner(error_model="numpy")
+@inner()
 def by_sides(d: Three, a: Vector, b: Vector) -> Pair:
     """The derivatives by a and by b of what has the derivative d by g, g that of sides a and b."""
     return plus(times(2.0 * d[0], a), times(d[2], b)), plus(times(2.0 * d[1], b), times(d[2], a))
 
 
-@inner(error_model="numpy")
+@inner()
 def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarray) -> None:
     """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
     derivatives of S₁, S₂, S₃ by the sides: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
@@ -43,7 +43,7 @@ def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarra
             out[3, at] = bb + aa - (ab + ba)
 
 
-@inner(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, forceinline=True)
 def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.ndarray) -> None:
     """The tangent's part of q, (3, 9) of (q, d1), (q, d2) and (q, q), from S₄ and the derivatives of the
     stress by s, 14 24 34 44."""
@@ -56,7 +56,7 @@ def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.
             out[2, 3 * x + y] = 4.0 * more[3] * q[x] * q[y] + (2.0 * stress if x == y else 0.0)
 
 
-@inner(error_model="numpy")
+@inner()
 def add_blocks(
     in_diagonals: np.ndarray, of_warp: np.ndarray, warps: bool, p: int, slots: np.ndarray, blocks: np.ndarray
 ) -> None:

@@ -41,7 +41,7 @@ class Face(NamedTuple):
 Tag = AreaAndStrains | Rubber | Face
 
 
-@inner(error_model="numpy")
+@inner()
 def face(d: Four, g: Three, area: float, k: Constants) -> tuple[float, float, Four]:
     """The law of upright faces: the shear of their director b against the direction of their chord a,
 
@@ -57,7 +57,7 @@ def face(d: Four, g: Three, area: float, k: Constants) -> tuple[float, float, Fo
     return energy, stiff, (-energy / now, 0.0, pull, 0.0)
 
 
-@inner(error_model="numpy")
+@inner()
 def stiffness_of_face(
     d: Four, g: Three, area: float, stiff: float, share: float, k: Constants
 ) -> tuple[Six, Four]:
@@ -211,7 +211,7 @@ def constants_of(tag: Tag, c: int) -> Any:
     return constants(tag, c * count(tag), 1)
 
 
-@inner(error_model="numpy")
+@inner()
 def mean_stress(tag: Tag, d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
     """Return the stress over a step from δg and s = d0 to d1 whose work is the energy stored: that in its
     middle, and along the step what is left of the energy (Gonzalez 1996)."""

@@ -44,6 +44,7 @@ from lumped.springs.laws import (
     plus,
     times,
 )
+from sheetbench.numerics.memory import empty
 from sheetbench.numerics.typed import inner, njit
 
 
@@ -59,7 +60,7 @@ class CellArrays(NamedTuple):
     slots: np.ndarray
 
 
-@inner(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, forceinline=True)
 def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, Vector]:
     """What u changes in the mean sides a and b and in q of cell c."""
     fx = fy = fz = sx = sy = sz = qx = qy = qz = 0.0
@@ -84,7 +85,7 @@ def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, V
     )
 
 
-@inner(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, forceinline=True)
 def measure(
     u: np.ndarray, cells: CellArrays, c: int
 ) -> tuple[Four, Three, float, tuple[Vector, Vector, Vector]]:
@@ -103,7 +104,7 @@ def measure(
     return change, (dot(a, a) + d1, dot(b, b) + d2, dot(a, b) + d3), area, (now_a, now_b, q)
 
 
-@inner(error_model="numpy")
+@inner()
 def pull(
     cells: CellArrays, c: int, stress: Four, shape: tuple[Vector, Vector, Vector], force: np.ndarray
 ) -> None:
@@ -130,7 +131,7 @@ def pull(
                 force[o, e] += across[e]
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_forces(
     u: np.ndarray, cells: CellArrays, force: np.ndarray, branches: Branches | None = None
 ) -> float:
@@ -150,20 +151,20 @@ def add_forces(
     return energy
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
     """Energy of every cell, (c,) [J]; of rubber without that of the links along its sides."""
-    out = np.empty(len(cells.nodes))
+    out = empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
         d, g, area, _ = measure(u, cells, c)
         out[c] = respond(cells.law, d, g, area, constants_of(cells.law, c))[0]
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarray:
     """Return what the linearisation at u predicts after a step (n, 3) [m], (c, 4), as the law has it."""
-    out = np.empty((len(cells.nodes), 4))
+    out = empty((len(cells.nodes), 4))
     for c in range(len(cells.nodes)):
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
         _, memory, s = respond(cells.law, d, g, area, k)
@@ -174,7 +175,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, force: np.ndarray) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean sides."""
@@ -187,7 +188,7 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, fo
         )
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_tangent(
     u: np.ndarray,
     cells: CellArrays,
@@ -199,7 +200,7 @@ def add_tangent(
     """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
     and with M + share (D − M), to the 3×3 blocks on and below the diagonal; with what is `extrapolated` D − M
     is that of it."""
-    in_diagonals, of_warp = np.empty((4, 9)), np.empty((3, 9))
+    in_diagonals, of_warp = empty((4, 9)), empty((3, 9))
     own = len(stress) == 0
     for c in range(len(cells.nodes)):
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)

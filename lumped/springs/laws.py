@@ -51,31 +51,31 @@ Memory = tuple[float, float]
 Branches = tuple[float, np.ndarray, np.ndarray, np.ndarray]
 
 
-@inner(error_model="numpy")
+@inner()
 def plus(a: Vector, b: Vector) -> Vector:
     """a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
-@inner(error_model="numpy")
+@inner()
 def less(a: Vector, b: Vector) -> Vector:
     """a − b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
-@inner(error_model="numpy")
+@inner()
 def times(k: float, a: Vector) -> Vector:
     """k a."""
     return k * a[0], k * a[1], k * a[2]
 
 
-@inner(error_model="numpy")
+@inner()
 def dot(a: Vector, b: Vector) -> float:
     """a·b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@inner(error_model="numpy")
+@inner()
 def elongation(change: float, square: float, rest_length: float, k: float) -> Four:
     """W = ½ k (r − L)², r = √g: return W, S = ½ k (r − L)/r, M = ¼ k/g and D − M = −½ S/g."""
     length = math.sqrt(square)
@@ -85,7 +85,7 @@ def elongation(change: float, square: float, rest_length: float, k: float) -> Fo
     return stress * strain * square, stress, 0.5 * k * inverse, -stress * inverse
 
 
-@inner(error_model="numpy")
+@inner()
 def times_six(d: Constants, x: Three) -> Three:
     """A symmetric matrix times a vector."""
     return (
@@ -95,7 +95,7 @@ def times_six(d: Constants, x: Three) -> Three:
     )
 
 
-@inner(error_model="numpy")
+@inner()
 def area_and_strains(d: Four, g: Three, area: float, q: Constants) -> tuple[float, Memory, Four]:
     """W = ½ q₀ (A − A₀)² + ½ δg·Q δg, A² = det g: energy of an area spring and of springs against the Green
     strains of the sides, Q of q₁ to q₆ (11, 22, 33, 12, 13, 23) with what couples them, as fibres do. d: δg;
@@ -116,7 +116,7 @@ def area_and_strains(d: Four, g: Three, area: float, q: Constants) -> tuple[floa
     return energy, (t, square), (s1, s2, s3 - (turned + turned), 0.0)
 
 
-@inner(error_model="numpy")
+@inner()
 def stiffness_of_area_and_strains(
     d: Four, g: Three, area: float, memory: Memory, share: float, q: Constants
 ) -> tuple[Six, Four]:
@@ -137,7 +137,7 @@ def stiffness_of_area_and_strains(
     ), (0.0, 0.0, 0.0, 0.0)
 
 
-@inner(error_model="numpy")
+@inner()
 def extrapolated_area_and_strains(
     d: Four, g: Three, area: float, memory: Memory, stress: Four, q: Constants, rate: Four
 ) -> Four:
@@ -148,7 +148,7 @@ def extrapolated_area_and_strains(
     return s1, s2, s3, 0.5 * q[0] * (now - area + 0.5 * grown / now)
 
 
-@inner(error_model="numpy")
+@inner()
 def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four) -> tuple[Memory, Four]:
     """Return t and A², which `stiffness_of_area_and_strains` takes, and S of what has been extrapolated."""
     t = p[3] / math.sqrt(memory[1])
@@ -170,7 +170,7 @@ def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarr
     return constants
 
 
-@inner(error_model="numpy")
+@inner()
 def less_logarithm(x: float, logarithm: float) -> float:
     """x − ln(1 + x), no digits lost where x is small; logarithm: ln(1 + x)."""
     if abs(x) < 3e-3:
@@ -179,7 +179,7 @@ def less_logarithm(x: float, logarithm: float) -> float:
     return x - logarithm
 
 
-@inner(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, forceinline=True)
 def of_trace(x: float, k: Constants) -> Four:
     """f − c₁₀ x, f′ − c₁₀, f″ and f‴; not a number from Gent's limit on."""
     c10, c20, c30, limit = k[4], k[6], k[7], k[9]
@@ -196,7 +196,7 @@ def of_trace(x: float, k: Constants) -> Four:
     )
 
 
-@inner(error_model="numpy")
+@inner()
 def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[float, float]:
     """ln θ and θ − 1, from growth, ln A, and excess, T − 2: Halley's method, of third order, from what small
     strains have; with a limit from no further than half of what it leaves."""
@@ -221,7 +221,7 @@ def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[
     return x, thinning - theta * step * (1.0 - 0.5 * step)
 
 
-@inner(error_model="numpy")
+@inner()
 def rubber(d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
     """Return W since rest; θ − 1 and A, which `stiffness_of_rubber` takes; S."""
     if k[4] + k[5] == 0.0:  # there is no cell
@@ -251,7 +251,7 @@ def rubber(d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory,
     return energy, (thinning, 1.0 + change), stress
 
 
-@inner(error_model="numpy")
+@inner()
 def stiffness_of_rubber(
     d: Four, g: Three, area: float, memory: Memory, share: float, k: Constants
 ) -> tuple[Six, Four]:
@@ -279,7 +279,7 @@ def stiffness_of_rubber(
     )
 
 
-@inner(cache=True, error_model="numpy", forceinline=True)
+@inner(cache=True, forceinline=True)
 def _stiffness_of_membrane(d: Four, g: Three, area: float, memory: Memory, k: Constants) -> Six:
     """The second derivatives of W by ḡ, times the volume."""
     (thinning, a), c01, inverse = memory, k[5], 1.0 / (area * area)

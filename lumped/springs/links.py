@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.springs.laws import Branches, Vector, dot, elongation, times
+from sheetbench.numerics.memory import empty
 from sheetbench.numerics.typed import inner, njit
 
 
@@ -35,14 +36,14 @@ class LinkArrays(NamedTuple):
     slots: np.ndarray
 
 
-@inner(error_model="numpy")
+@inner()
 def difference(u: np.ndarray, nodes: np.ndarray, m: int) -> Vector:
     """u of the second end of link m less that of the first."""
     a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
     return u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
 
 
-@inner(error_model="numpy")
+@inner()
 def measure(u: np.ndarray, links: LinkArrays, m: int) -> tuple[float, float, float, Vector]:
     """δg, g, the length at rest [m] and r of link m."""
     d, offset, rest = difference(u, links.nodes, m), links.offset, links.rest
@@ -51,7 +52,7 @@ def measure(u: np.ndarray, links: LinkArrays, m: int) -> tuple[float, float, flo
     return change - rest[1, m], dot(r, r), rest[0, m], r
 
 
-@inner(error_model="numpy")
+@inner()
 def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> None:
     """Add ± k r to the forces on the ends of link m."""
     a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
@@ -60,7 +61,7 @@ def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> N
         force[b, q] += k * r[q]
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_forces(
     u: np.ndarray, links: LinkArrays, force: np.ndarray, branches: Branches | None = None
 ) -> float:
@@ -78,12 +79,12 @@ def add_forces(
     return energy
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.ndarray, int]:
     """Return the largest relative change of length of the links in a layer, of those with the largest and
     least δg/g₀, at each of the displacements (k, n, 3) [m] before the first with a link no longer than the
     `shortest` share of its length at rest; and the shortest link then, −1 if none is."""
-    out = np.empty(len(states))
+    out = empty(len(states))
     for k in range(len(states)):
         least, most, collapsed, which = 0.0, 0.0, shortest * shortest, -1
         for m in range(len(links.nodes)):
@@ -99,11 +100,11 @@ def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.
     return out, -1
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: bool) -> np.ndarray:
     """What the linearisation at u predicts after a step (n, 3) [m], (m,): ½ k e [N] of the elongation e; else
     the stress S + D ġ, which goes with that of rubber, links along whose sides its cells take off again."""
-    out = np.empty(len(links.nodes))
+    out = empty(len(links.nodes))
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links, m)
         _, stress, material, rest = elongation(change, square, length, links.constants[m])
@@ -115,7 +116,7 @@ def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: boo
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, force: np.ndarray) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean r, as δg is 2 r̄·Δr (Simo and Tarnow 1992, Gonzalez 1996)."""
@@ -128,7 +129,7 @@ def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, fo
         pull(links.nodes, m, stress, (r0[0] + r1[0], r0[1] + r1[1], r0[2] + r1[2]), force)
 
 
-@njit(cache=True, error_model="numpy")
+@njit
 def add_tangent(
     u: np.ndarray,
     links: LinkArrays,

@@ -44,11 +44,7 @@ ROWS = tuple(np.uint64(row * STRIDE) for row in range(24))
 # kinds of memory that never overlap (`numerics.memory`): what is only read (rest data, displacements,
 # velocities), what springs keep of their shape, rows of a tile, and the three components of forces
 GIVEN, KEPT, ROW, FORCE_X, FORCE_Y, FORCE_Z = range(6)
-OPTIONS: dict[str, Any] = {
-    "cache": True,
-    "error_model": "numpy",
-    "fastmath": {"contract", "reassoc", "arcp", "nsz"},
-}
+OPTIONS: dict[str, Any] = {"fastmath": {"contract", "reassoc", "arcp", "nsz"}}
 R0, R3, R4, R5, R6, R9, R10, R11 = (ROWS[row] for row in (0, 3, 4, 5, 6, 9, 10, 11))
 LAW = 17  # row of rest data from which on the constants of a cell's law are
 LINK_DATA, LINK_SHAPE = 6, 3  # rows of rest data, and of what is kept

@@ -11,6 +11,7 @@ from lumped.springs import all_families
 from lumped.springs.all_families import SpringArrays, Stresses
 from sheetbench.numerics import banded
 from sheetbench.numerics.maps import Rows, product, transposed_product
+from sheetbench.numerics.memory import empty, zeros
 from sheetbench.numerics.typed import njit
 
 
@@ -26,7 +27,7 @@ class Equations(NamedTuple):
     driving: float
 
 
-@njit(cache=True, nogil=True)
+@njit
 def advance(
     u: np.ndarray,
     step: np.ndarray,
@@ -41,7 +42,7 @@ def advance(
     move = product(equations.free, step).reshape(u.shape)
     if len(moved):
         move += moved
-    after, length = np.empty_like(u), 0.0
+    after, length = empty(u.shape), 0.0
     for i in range(len(u)):
         for q in range(3):
             after[i, q] = u[i, q] + move[i, q]
@@ -52,7 +53,7 @@ def advance(
     return after, length, internal, stresses, residual
 
 
-@njit(cache=True, nogil=True)
+@njit
 def correct(
     u: np.ndarray,
     stresses: Stresses,
@@ -63,23 +64,23 @@ def correct(
 ) -> tuple[np.ndarray, np.ndarray, bool, np.ndarray, Any]:
     """Return the tangent's blocks, factors in a band, whether they are such and give a finite step, that step
     from u and what `advance` makes of it."""
-    none, band = np.empty(0), equations.band
+    none, band = empty(0), equations.band
     predicted = len(stresses[0]) + len(stresses[1]) > 0
     blocks = all_families.tangent(u, stresses, predicted, 1.0, 1.0, none, springs)
     factors, definite = banded.factored(blocks, band)
-    step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else np.zeros(len(rows))
+    step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else zeros(len(rows))
     definite = definite and np.isfinite(np.sum(step))
-    found = advance(u, step, np.empty((0, 3)), load_factor, equations, springs)
+    found = advance(u, step, empty((0, 3)), load_factor, equations, springs)
     return blocks, factors, definite, step, found
 
 
-@njit(cache=True, nogil=True)
+@njit
 def unbalanced_force(
     internal: np.ndarray, load: np.ndarray, load_factor: float, equations: Equations, n: int
 ) -> tuple[np.ndarray, np.ndarray, float, float]:
     """Return load_factor × load less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the
     external forces plus those of the supports' and, driving, of a natural state [N]."""
-    out = np.empty_like(internal)
+    out = empty(internal.shape)
     total = loads = supports = 0.0
     for i in range(len(out)):
         for q in range(3):

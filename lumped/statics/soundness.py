@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from lumped.springs.links import LinkArrays, strains
+from sheetbench.numerics.memory import empty, zeros
 from sheetbench.numerics.typed import inner, njit
 
 TINY = float(np.finfo(float).tiny)
@@ -22,7 +23,7 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
     columns: (ny, nx, layers) masses; positions (n, 3) [m] at rest; u (n, 3) [m].
     """
     ny, nx, layers = columns.shape
-    middle, director, share = np.zeros((ny, nx, 3)), np.empty((ny, nx, 3)), 1.0 / layers
+    middle, director, share = zeros((ny, nx, 3)), empty((ny, nx, 3)), 1.0 / layers
     for j in range(ny):
         for i in range(nx):
             square = 0.0
@@ -40,7 +41,7 @@ def surface(columns: np.ndarray, positions: np.ndarray, u: np.ndarray) -> tuple[
     return middle, director
 
 
-@njit(cache=True)
+@njit
 def examine(
     states: np.ndarray,
     links: LinkArrays,
@@ -82,7 +83,7 @@ def examine(
     return found, kind, mass
 
 
-@njit(cache=True)
+@njit
 def sharpest_bend(
     columns: np.ndarray,
     positions: np.ndarray,
@@ -113,10 +114,10 @@ def sharpest_bend(
     return largest, max(along_x[column], along_y[row]), row, column
 
 
-@njit(cache=True)
+@njit
 def carried_by_links(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """Return k |Δu| of the links at every mass, summed, (k, 1) [N]."""
-    carried = np.zeros(len(u))
+    carried = zeros(len(u))
     for m in range(len(nodes)):
         a, b = nodes[m, 0], nodes[m, 1]
         square = 0.0

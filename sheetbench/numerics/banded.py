@@ -15,17 +15,16 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from sheetbench.numerics.memory import load, load_each, store
+from sheetbench.numerics.memory import empty, load, load_each, store, zeros
 from sheetbench.numerics.panels import (
     PANEL,
-    REORDERED,
     dot,
     eliminate,
     solve_backward,
     solve_forward,
     triangle,
 )
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.typed import REORDERED, inner, njit
 
 LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
 TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is looked at: beyond, bands do not pay
@@ -85,22 +84,22 @@ def band_of(
     return Band(order.astype(np.intp), width, source[lower].astype(np.int32), target, weight)
 
 
-@njit(cache=True, nogil=True)
+@njit
 def padded_length(n: int) -> int:
     """Rows of the storage: whole panels, and two that the loops run over into."""
     return -(-n // PANEL) * PANEL + 2
 
 
-@njit(cache=True, nogil=True)
+@njit
 def row_length(width: int) -> int:
     """Columns of the storage: those of the band, and zeros that the loops run over into."""
     return width + 1 + PANEL + 8
 
 
-@njit(cache=True, nogil=True)
+@njit
 def padded_vector(n: int, width: int) -> np.ndarray:
     """Return zeros for a vector in the band's order that `substitute` takes."""
-    return np.zeros(padded_length(n) + row_length(width))
+    return zeros(padded_length(n) + row_length(width))
 
 
 @inner()
@@ -109,10 +108,10 @@ def _lanes(count: int) -> Any:
     return (np.uint64(count) + LANES - ONE) // LANES * LANES
 
 
-@njit(cache=True, nogil=True)
+@njit
 def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
-    out = np.zeros((padded_length(len(band.order)), row_length(band.width)))
+    out = zeros((padded_length(len(band.order)), row_length(band.width)))
     entries, places = blocks.ravel(), out.ravel()
     if not len(band.weight):
         for e in range(len(band.source)):
@@ -122,7 +121,7 @@ def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@njit(fastmath=REORDERED)
 def factor(band: np.ndarray, n: int, width: int) -> bool:
     """Turn the matrix into its Cholesky factor in place, with its diagonal inverted; False where it is not
     positive definite."""
@@ -159,7 +158,7 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
     return True
 
 
-@njit(cache=True, nogil=True)
+@njit
 def factored(blocks: np.ndarray, band: Band) -> tuple[np.ndarray, bool]:
     """Cholesky factors of the matrix of blocks (b, 3, 3), and whether there are such."""
     factors = stored(blocks, band)
@@ -176,14 +175,14 @@ def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
         solve_backward(flat, np.uint64(k0) * stride, stride - ONE, x, k0, _lanes(width))
 
 
-@njit(cache=True, nogil=True)
+@njit
 def solve_unrefined(factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray) -> np.ndarray:
     """x with A x = b as the factors have it."""
     x = padded_vector(len(order), width)
     for j in range(len(order)):
         x[j] = b[order[j]]
     substitute(factors, len(order), width, x)
-    out = np.empty(len(order))
+    out = empty(len(order))
     for j in range(len(order)):
         out[order[j]] = x[j]
     return out

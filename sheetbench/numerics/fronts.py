@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import csr_array
 
+from sheetbench.numerics.memory import empty, zeros
 from sheetbench.numerics.typed import njit
 
 LEAF = 128  # unknowns of its cells, together, up to which a part of more than two is not halved
@@ -110,16 +111,16 @@ def _dissected(cells: CoupledCells, size: int, leaf: int) -> tuple[np.ndarray, n
     return orders[0], parts[walk], number[halves[walk]]
 
 
-@njit(cache=True)
+@njit
 def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray]:
     """Parts (F, 2) and their halves (F, 2) of cells (m, k), whose orders along x and y (2, m) become those
     within parts. Each is cut along one of them where unknowns that the sides share, of `size`, and one more
     (for where there are none), over the square of the product of the sides' cells, are the fewest."""
     m, k, count = len(cells), cells.shape[1], 1
-    parts, halves = np.zeros((2 * m, 2), np.int64), np.full((2 * m, 2), -1)
-    first, last, seen = np.zeros(size, np.int64), np.zeros(size, np.int64), np.full(size, -1)
-    second, aside = np.zeros(m, np.int64), np.zeros(m, np.int64)
-    parts[0, 1] = m
+    parts, halves = zeros((2 * m, 2), np.int64), empty((2 * m, 2), np.int64)
+    first, last, seen = zeros(size, np.int64), zeros(size, np.int64), empty(size, np.int64)
+    second, aside = zeros(m, np.int64), zeros(m, np.int64)
+    parts[0, 1], halves[:], seen[:] = m, -1, -1
     for f in range(2 * m):
         start, end = parts[f, 0], parts[f, 1]
         if end - start <= leaf:  # beyond the last part too, where nothing is
@@ -162,7 +163,7 @@ def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tupl
     return parts[:count], halves[:count]
 
 
-@njit(cache=True)
+@njit
 def _targets(
     columns: np.ndarray,
     starts: np.ndarray,
@@ -175,9 +176,10 @@ def _targets(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Of `Fronts`: target, source, entries, diagonal (−1 where it is missing)."""
     lower = (len(columns) + len(order)) // 2
-    target, source = np.empty(lower, np.int32), np.empty(lower, np.int32)
-    entries, diagonal = np.zeros(len(own) + 1, np.int64), np.full(len(order), -1)
-    local, filled = np.empty(len(order), np.int64), 0
+    target, source = empty(lower, np.int32), empty(lower, np.int32)
+    entries, diagonal = zeros(len(own) + 1, np.int64), empty(len(order), np.int64)
+    local, filled = empty(len(order), np.int64), 0
+    diagonal[:] = -1
     for f in range(len(own)):
         width = begin[f + 1] - begin[f]
         for i in range(width):

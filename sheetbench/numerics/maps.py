@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
+from sheetbench.numerics.memory import zeros
 from sheetbench.numerics.typed import inner, njit, typed
 
 
@@ -36,18 +37,18 @@ def add_product(matrix: Rows, share: float, q: np.ndarray, out: np.ndarray) -> N
         out[row] += share * total
 
 
-@njit(cache=True, nogil=True)
+@njit
 def product(matrix: Rows, q: np.ndarray) -> np.ndarray:
     """T q, (n,), of q (m,)."""
-    out = np.zeros(len(matrix.pointers) - 1)
+    out = zeros(len(matrix.pointers) - 1)
     add_product(matrix, 1.0, q, out)
     return out
 
 
-@njit(cache=True, nogil=True)
+@njit
 def transposed_product(matrix: Rows, f: np.ndarray, size: int) -> np.ndarray:
     """Tᵀ f, (size,), of f (n,)."""
-    out = np.zeros(size)
+    out = zeros(size)
     for row in range(len(matrix.pointers) - 1):
         for e in range(matrix.pointers[row], matrix.pointers[row + 1]):
             out[matrix.columns[e]] += matrix.values[e] * f[row]

@@ -17,11 +17,10 @@ from functools import partial
 import numpy as np
 
 from sheetbench.numerics.fronts import Fronts
-from sheetbench.numerics.memory import load, load_each, store
+from sheetbench.numerics.memory import empty, load, load_each, store, zeros
 from sheetbench.numerics.panels import (
     NOTHING,
     PANEL,
-    REORDERED,
     dot,
     eliminate,
     solve_backward,
@@ -29,7 +28,7 @@ from sheetbench.numerics.panels import (
     times,
     triangle,
 )
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.typed import REORDERED, inner, njit
 
 ROUNDING_PIVOT = 1e-13  # of the diagonal, up to which a pivot counts as rounding
 GROWTH = 1e3
@@ -44,13 +43,13 @@ def signed_factors(data: np.ndarray, fronts: Fronts) -> tuple[Callable[[np.ndarr
     return partial(solve, factors, signs, fronts), int(np.count_nonzero(signs < 0.0))
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@njit(fastmath=REORDERED)
 def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndarray) -> bool:
     """The factors of the matrix with this data into `factors` and `signs` (n,); False if there are none."""
-    front, panel = np.empty((fronts.widest + 1) * fronts.widest), np.empty(PANEL * fronts.widest)
-    waiting, top = np.empty(fronts.waiting), 0
-    where, local = np.empty(len(fronts.order), np.int64), np.empty(fronts.widest, np.int64)
-    diagonal, indefinite = np.empty(len(fronts.order)), False
+    front, panel = empty((fronts.widest + 1) * fronts.widest), empty(PANEL * fronts.widest)
+    waiting, top = empty(fronts.waiting), 0
+    where, local = empty(len(fronts.order), np.int64), empty(fronts.widest, np.int64)
+    diagonal, indefinite = empty(len(fronts.order)), False
     for i in range(len(diagonal)):
         diagonal[i] = abs(data[fronts.diagonal[i]])
     for f in range(len(fronts.own)):
@@ -107,7 +106,7 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel
     and the others into what is left; False at a pivot that is not finite, or nothing but rounding. panel:
     room (PANEL, width), where columns that are missing are zero."""
     width, own = dense.shape[1], len(signs)
-    shares, sign, rows = np.zeros((PANEL, PANEL)), np.zeros(PANEL), panel.ravel()
+    shares, sign, rows = zeros((PANEL, PANEL)), zeros(PANEL), panel.ravel()
     for k0 in range(0, own, PANEL):
         start = min(own, k0 + PANEL)
         if start < k0 + PANEL:
@@ -154,11 +153,11 @@ def _update(rows: np.ndarray, sign: np.ndarray, dense: np.ndarray, start: int) -
             store(2, two, i, load(2, two, i) - dot(g, m))
 
 
-@njit(cache=True, nogil=True, fastmath=REORDERED)
+@njit(fastmath=REORDERED)
 def solve(factors: np.ndarray, signs: np.ndarray, fronts: Fronts, b: np.ndarray) -> np.ndarray:
     """x (n,) with A x = b."""
     y = b[fronts.order]
-    local = np.empty(fronts.widest)
+    local = empty(fronts.widest)
     for f in range(len(fronts.own)):
         own, first = fronts.own[f], fronts.first[f]
         rows = fronts.rows[fronts.starts[f] : fronts.starts[f + 1]]
@@ -197,7 +196,7 @@ def solve(factors: np.ndarray, signs: np.ndarray, fronts: Fronts, b: np.ndarray)
             solve_backward(factors, at + k0 * width + k0, width, local, k0, width - k0 - PANEL)
         for i in range(own):
             y[first + i] = local[i]
-    x = np.empty_like(y)
+    x = empty(y.shape)
     for i in range(len(y)):
         x[fronts.order[i]] = y[i]
     return x

@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 
 from sheetbench.numerics.memory import load, load_each, store, store_each
-from sheetbench.numerics.typed import inner
+from sheetbench.numerics.typed import REORDERED, inner
 
 PANEL = 6  # the unknowns of a column of masses in two layers
 NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
 
 
 @inner(fastmath=REORDERED)

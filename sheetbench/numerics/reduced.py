@@ -28,6 +28,7 @@ from sheetbench.numerics.direct import (
 )
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
+from sheetbench.numerics.memory import empty, zeros
 from sheetbench.numerics.saddle_point import Saddle
 from sheetbench.numerics.typed import njit
 
@@ -208,7 +209,7 @@ def reduction(pattern: BlockPattern, transform: sp.csr_array) -> Reduction:
     )
 
 
-@njit(cache=True)
+@njit
 def _entries(
     block_pointers: np.ndarray,
     by_column: np.ndarray,
@@ -222,8 +223,8 @@ def _entries(
     count: int,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Entries of the map by columns of the matrix: source, row, weight, and where each column's begin."""
-    source, to, weight = np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count)
-    ends, filled = np.zeros(len(c_pointers), np.int32), 0
+    source, to, weight = empty(count, np.int32), empty(count, np.int32), empty(count)
+    ends, filled = zeros(len(c_pointers), np.int32), 0
     for column in range(len(c_pointers) - 1):
         for at in range(c_pointers[column], c_pointers[column + 1]):
             block, axis = c_rows[at] // 3, c_rows[at] % 3
@@ -238,12 +239,12 @@ def _entries(
     return source, to, weight, ends
 
 
-@njit(cache=True, nogil=True)
+@njit
 def _gathered(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """The nonzeros of the reduced matrix."""
     if not len(starts):
         return entries[source]
-    out = np.zeros(len(starts) - 1)
+    out = zeros(len(starts) - 1)
     for k in range(len(out)):
         for e in range(starts[k], starts[k + 1]):
             out[k] += (weight[e] if len(weight) else 1.0) * entries[source[e]]

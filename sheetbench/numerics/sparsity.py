@@ -14,6 +14,7 @@ from scipy.sparse import csr_matrix
 
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.kept import kept
+from sheetbench.numerics.memory import empty
 from sheetbench.numerics.typed import njit
 
 
@@ -87,7 +88,7 @@ def pattern_of(places: np.ndarray, *unknowns: np.ndarray, size: int) -> Pattern:
     return Pattern(*unknowns, size=size, places=places)
 
 
-@njit(cache=True)
+@njit
 def _slots(
     columns: np.ndarray, rows: np.ndarray, cells: np.ndarray, touching: np.ndarray, ends: np.ndarray
 ) -> np.ndarray:
@@ -97,7 +98,8 @@ def _slots(
     ends (size + 1,) on.
     """
     m, k = cells.shape
-    out, place = np.full((m, k, k), -1, np.int32), np.empty(len(rows), np.int32)
+    out, place = empty((m, k, k), np.int32), empty(len(rows), np.int32)
+    out[:] = -1
     for row in range(len(rows) - 1):
         for at in range(rows[row], rows[row + 1]):
             place[columns[at]] = at
@@ -109,7 +111,7 @@ def _slots(
     return out
 
 
-@njit(cache=True)
+@njit
 def add_blocks(data: np.ndarray, slots: np.ndarray, blocks: np.ndarray) -> None:
     """Add element matrices (m, k, k) to a matrix's data at their slots, −1 for none."""
     places, values = slots.ravel(), blocks.ravel()

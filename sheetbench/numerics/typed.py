@@ -15,8 +15,12 @@ from numba import typeof
 from numba.core import config
 from numba.extending import register_jitable, typeof_impl
 
-njit: Any = partial(numba.njit, no_cfunc_wrapper=True)  # which C would call: a tenth of what compiling takes
-inner: Any = partial(register_jitable, no_cfunc_wrapper=True)  # compiled for compiled callers alone
+# the same for all, since numba compiles a function again for callers with other options; no wrappers for C,
+# a tenth of what compiling takes
+COMMON: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
+njit: Any = partial(numba.njit, cache=True, **COMMON)
+inner: Any = partial(register_jitable, **COMMON)  # compiled for compiled callers alone
 T = TypeVar("T", bound=tuple[Any, ...])
 _TYPES: dict[Any, Any] = {}
 

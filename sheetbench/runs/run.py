@@ -117,7 +117,7 @@ class Watch:
         return cls(*memory.tolist())
 
 
-@njit(cache=True)
+@njit
 def take(
     rows: np.ndarray, origin: float, lowest: float, largest: float, off: float
 ) -> tuple[int, float, float, float, float, float]:

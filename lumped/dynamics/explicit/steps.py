@@ -19,6 +19,7 @@ from lumped.pressure import add_couples, add_surface_forces
 from lumped.springs.all_forces import THREE, at_places, average, share_out
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_FALSE, NUMBA_TRUE, OPTIONS
+from sheetbench.numerics.memory import zeros
 from sheetbench.numerics.typed import inner, njit
 
 
@@ -73,11 +74,11 @@ def march(
     took and the work done [J].
     """
     size, count = arrays.packing.size, arrays.packing.layers * arrays.packing.plane
-    packing, driven, rate, exerted = arrays.packing, arrays.driven, arrays.rate, np.zeros(len(arrays.driven))
-    w, d, force, resisting = np.zeros_like(u), np.zeros_like(u), np.zeros_like(u), np.zeros_like(u)
-    tile, load = np.zeros(packing.length), np.zeros_like(u)
+    packing, driven, rate, exerted = arrays.packing, arrays.driven, arrays.rate, zeros(len(arrays.driven))
+    w, d, force, resisting = zeros(u.shape), zeros(u.shape), zeros(u.shape), zeros(u.shape)
+    tile, load = zeros(packing.length), zeros(u.shape)
     now, again = Scratch(u, w, force, tile), Scratch(u, d, resisting, tile)
-    before, taken, work, power = np.zeros_like(u), 0.0, 0.0, 0.0
+    before, taken, work, power = zeros(u.shape), 0.0, 0.0, 0.0
     add_loads(arrays, factors[0], u, load)
     if arrays.damped or len(driven):
         w[:] = v
@@ -177,7 +178,7 @@ def add_loads(arrays: ExplicitArrays, factors: np.ndarray, u: np.ndarray, load: 
         for i in range(len(load)):
             load[i] += factors[part] * loads.dead[part, i]
     if len(loads.cells) or len(loads.moments):
-        displaced, pressure = loads.positions + u, np.zeros(len(loads.cells))
+        displaced, pressure = loads.positions + u, zeros(len(loads.cells))
         x, following = displaced.reshape(3, -1).T, load.reshape(3, -1).T
         add_couples(x, loads.columns, factors[loads.owners] * loads.moments, following)
         for part in range(len(factors)):

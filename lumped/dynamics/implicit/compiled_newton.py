@@ -69,7 +69,7 @@ def compiled_of(system: System) -> Compiled | None:
     return Compiled(typed(arrays), arrays.base_u, arrays.base_v, band)
 
 
-@njit(cache=True)
+@njit
 def iterate(
     left: int,
     u: np.ndarray,
@@ -97,7 +97,7 @@ def iterate(
     return False, 0
 
 
-@njit(cache=True)
+@njit
 def correct(
     u: np.ndarray,
     base_u: np.ndarray,
@@ -135,7 +135,7 @@ def correct(
     return length if np.isfinite(total) else np.nan
 
 
-@njit(cache=True)
+@njit
 def excess(
     u: np.ndarray,
     v: np.ndarray,

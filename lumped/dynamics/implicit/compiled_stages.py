@@ -20,6 +20,7 @@ from lumped.dynamics.implicit.compiled_newton import (
     iterate,
 )
 from lumped.springs.tiles import NUMBA_FALSE
+from sheetbench.numerics.memory import empty
 from sheetbench.numerics.typed import njit
 
 
@@ -51,7 +52,7 @@ class Step(NamedTuple):
     loads: np.ndarray
 
 
-@njit(cache=True)
+@njit
 def solve_stages(
     first: int,
     left: int,
@@ -90,7 +91,7 @@ def solve_stages(
     return True, len(stages.u), 0, made
 
 
-@njit(cache=True)
+@njit
 def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.ndarray) -> None:
     """û and v̂ of stage i."""
     start, speed = stages.u[0].reshape(-1), stages.v[0].reshape(-1)
@@ -113,7 +114,7 @@ def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.nd
         base_u[row] += own * base_v[row]
 
 
-@njit(cache=True)
+@njit
 def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray) -> None:
     """What the accelerations of the stages before let expect."""
     u[:] = base_u
@@ -125,7 +126,7 @@ def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray
                 u[row] += weight * a[row]
 
 
-@njit(cache=True)
+@njit
 def largest(weights: np.ndarray, tables: np.ndarray) -> float:
     """Return the largest component of a weighted sum, weights (s,), of tables (s, n, 3)."""
     found, flat = 0.0, tables.reshape(len(tables), -1)
@@ -137,7 +138,7 @@ def largest(weights: np.ndarray, tables: np.ndarray) -> float:
     return found
 
 
-@njit(cache=True)
+@njit
 def polynomials(
     displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
 ) -> np.ndarray:
@@ -145,7 +146,7 @@ def polynomials(
     the polynomial with those of both its ends, the first and last of (s, n, 3) each."""
     u0, v0, a0 = displacement[0].ravel(), velocity[0].ravel(), acceleration[0].ravel()
     u1, v1, a1 = displacement[-1].ravel(), velocity[-1].ravel(), acceleration[-1].ravel()
-    curve, out = np.empty((6, len(u0))), np.empty((3, len(theta), len(u0)))
+    curve, out = empty((6, len(u0))), empty((3, len(theta), len(u0)))
     for i in range(len(u0)):
         change = u1[i] - u0[i] - h * v0[i] - 0.5 * h * h * a0[i]
         speed = h * (v1[i] - v0[i] - h * a0[i])

@@ -20,6 +20,7 @@ from lumped.statics.faults import fastest, inspect
 from lumped.statics.problem import STRETCH
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.numerics.maps import Rows, add_product, csr_arrays, product
+from sheetbench.numerics.memory import empty
 from sheetbench.numerics.typed import njit, typed
 from sheetbench.runs.record import columns_of, width
 from sheetbench.scenes import outside_model
@@ -124,14 +125,14 @@ class LatticeObserver:
         row[6:] = np.concatenate([part.ravel() for part in parts])
 
 
-@njit(cache=True)
+@njit
 def observe(
     u: np.ndarray, v: np.ndarray, a: np.ndarray, loads: np.ndarray, observed: Observed, rows: np.ndarray
 ) -> None:
     """Fill the rows of states (k, n, 3) under loads (k, n, 3), or (1, n, 3) if they stay the same [N]: the
     kinetic, elastic and potential energy [J], the probes' displacements [m], the supports' forces [N]."""
     mass, dead = observed.mass, observed.dead.ravel()
-    first, last, exerted = 6, 5 + len(observed.probes.pointers), np.empty_like(u[0])
+    first, last, exerted = 6, 5 + len(observed.probes.pointers), empty(u[0].shape)
     for k in range(len(u)):
         exerted[:] = 0.0
         elastic, _ = add_forces(observed.forces, u[k], v[k], NUMBA_TRUE, NUMBA_TRUE, exerted)

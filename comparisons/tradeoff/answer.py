@@ -3,13 +3,13 @@ tradeoff`."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Any
 
 from comparisons.sweep import load
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
-from comparisons.tradeoff.row import MOVED, TRADED, MotionRow, TradeoffRow
+from comparisons.tradeoff.row import MOVED, TRADED
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.solution import Status, comparable
@@ -18,6 +18,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 
 
+@dataclass(frozen=True, repr=False)
 class Priced(Answer):
     """What both trades are: rows with an error and a cost each, and the reference they are measured against.
 
@@ -32,7 +33,7 @@ class Priced(Answer):
     rows: tuple[Any, ...]
     reference: Any
     uncertainty: float | None
-    reasons: tuple[str, ...]
+    reasons: tuple[str, ...] = ()
 
     @property
     def front(self) -> list[int]:
@@ -78,14 +79,9 @@ ORDERS = (
 
 @dataclass(frozen=True, repr=False)
 class Tradeoff(Priced):
-    """The rows of a scene; uncertainty: None where the reference did not converge on two meshes."""
+    """The `TradeoffRow`s of a scene; uncertainty: None where the reference did not converge on two meshes."""
 
     file_name = "tradeoff"
-    scene: Scene
-    rows: tuple[TradeoffRow, ...]
-    reference: TradeoffRow
-    uncertainty: float | None
-    reasons: tuple[str, ...] = ()
 
     @property
     def orders(self) -> list[dict[str, Any]]:
@@ -163,7 +159,7 @@ class Tradeoff(Priced):
 
 @dataclass(frozen=True, repr=False)
 class DynamicTradeoff(Priced):
-    """A row per model, size, integrator and step.
+    """A `MotionRow` per model, size, integrator and step.
 
     lowest_period [s]: the lattice's about the flat sheet or its equilibrium, the shorter; uncertainty: of the
     reference by its mesh and its steps; lattices: what their runs are of; step_uncertainty: of the runs that
@@ -173,13 +169,8 @@ class DynamicTradeoff(Priced):
     file_name, PER = "motion", " per simulated second"
     COST, SIZE = ("solve time of a simulated second [s]", 1.0), "step [ms]"
     SIZED_ERROR = "error of the steps alone [%]"
-    scene: Scene
-    duration: float
-    lowest_period: float
-    rows: tuple[MotionRow, ...]
-    reference: MotionRow
-    uncertainty: float | None
-    reasons: tuple[str, ...] = ()
+    duration: float = field(kw_only=True)
+    lowest_period: float = field(kw_only=True)
     lattices: tuple[str, ...] = ()
     step_uncertainty: float = 0.0
 

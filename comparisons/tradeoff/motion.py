@@ -104,8 +104,6 @@ def dynamic_tradeoff(
     reasons = (why for one in meant for why in one.reasons.items())
     return DynamicTradeoff(
         scene,
-        duration,
-        min(periods),
         tuple(
             MotionRow.of(row, finer_rows[0], truths[row.ask.tags["lattice"]] if row.ask.tags else None)
             for row in found
@@ -115,6 +113,8 @@ def dynamic_tradeoff(
         tuple(dict.fromkeys(f"{name.removesuffix('_reason')}: {why}" for name, why in reasons)),
         tuple(f"lumped {one.springs.title}" for one in meant),
         max(map(_off, halves, truths), default=0.0),
+        duration=duration,
+        lowest_period=min(periods),
     )
 
 

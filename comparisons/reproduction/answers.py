@@ -14,7 +14,6 @@ is a misprint, and left out.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
 from math import sqrt
 
 import numpy as np
@@ -33,7 +32,6 @@ from sheetbench.scenes.meaning.parameters import put
 
 COMPONENTS = ("ux", "uy", "uz")
 SOURCES = ("model", "experiment")
-DIGIT = 1e-5  # m, the last one printed: a value is within half of it
 SCENES = {1: "two-edges-clamped", 2: "curved-edge"}
 _MIRRORED = [0, 2, 1, 3]  # the probes of test 1 beyond its diagonal
 
@@ -45,22 +43,17 @@ def scene(test: int, sense: int = 1) -> Scene:
     return put(loaded, "curvature_x0", sense * published_inputs()["curvature"]) if test == 2 else loaded
 
 
-@cache
-def printed(test: int, source: str) -> np.ndarray:
-    """Displacements (4, 3) [m] of the probes as printed, in the published axes."""
-    given = published_displacements()
-    return np.array([[given[test, source, component, probe] for component in COMPONENTS] for probe in PROBES])
-
-
 def published(test: int, source: str) -> np.ndarray:
     """Displacements (4, 3) [m] of the probes in the scene's axes, nan where the print cannot be meant."""
-    table = printed(test, source).copy()
+    given = published_displacements()
+    table = np.array([[given[test, source, name, probe] for name in COMPONENTS] for probe in PROBES])
     if test == 1:
         table[:, 1] *= -1.0
         table[table[:, 1] * table[_MIRRORED, 0] < 0.0, 1] = np.nan
     return table
 
 
+RODS = {0: "–", 1: "ends up", -1: "ends down"}  # by the sense of test 2's rod
 SETS = ((1, 0), (2, 1), (2, -1))  # tests, and the sense of the rod
 
 
@@ -94,8 +87,7 @@ class ReproducedTest:
     @property
     def title(self) -> str:
         """In words."""
-        rod = {0: "", 1: ", the rod's ends up", -1: ", the rod's ends down"}[self.sense]
-        return f"Test {self.test}{rod}"
+        return f"Test {self.test}" + (f", the rod's {RODS[self.sense]}" if self.sense else "")
 
 
 def answer(test: int, sense: int, elements: Elements) -> ReproducedTest:

@@ -17,7 +17,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.reproduction.answers import ReproducedTest, published
+from comparisons.reproduction.answers import RODS, ReproducedTest, published
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import (
     MEGAPASCALS,
@@ -64,7 +64,6 @@ COLUMNS = (
     *("tests", "rod", "of", Column("table", detail=True), *SOUGHT.values(), "by"),
     *(PERCENT(".3g", "rms"), PERCENT(".3g", "error"), "met"),
 )
-RODS = {0: "–", 1: "ends up", -1: "ends down"}
 TEXT = (
     "sheet: a plate (consistent springs), of the published experiment; lattice: equal springs, of the "
     "published model. A number is given where it was sought, else it is as published. tilt: the supports "

@@ -14,9 +14,9 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.reproduction.answers import COMPONENTS, printed
+from comparisons.reproduction.answers import SOURCES
 from comparisons.reproduction.findings import Finding
-from comparisons.reproduction.published import PROBES, published_errors, published_inputs
+from comparisons.reproduction.published import published_displacements, published_errors, published_inputs
 from sheetbench.answers.table import PERCENT, Column, Table, percent
 
 TEXT = (
@@ -59,10 +59,9 @@ class Cell:
 
 def cells() -> list[Cell]:
     """Return every printed error, in its order."""
-    found = []
+    found, moved = [], published_displacements()
     for (test, component, probe), value in published_errors().items():
-        at = PROBES.index(probe), COMPONENTS.index(component)
-        model, experiment = (abs(printed(test, source)[at]) for source in ("model", "experiment"))
+        model, experiment = (abs(moved[test, source, component, probe]) for source in SOURCES)
         both = (abs(model - experiment) / size if size else 0.0 for size in (experiment, model))
         found.append(Cell(test, component, probe, value, *both))
     return found

@@ -7,6 +7,7 @@ surfaces. See data/README.md.
 from __future__ import annotations
 
 import csv
+from functools import cache
 from importlib import resources
 
 _SI = {"mm": 1e-3, "GPa": 1e9, "percent": 1e-2}
@@ -27,6 +28,7 @@ KNOWN_FAULTS = (
 )
 
 
+@cache
 def published_displacements() -> dict[tuple[int, str, str, str], float]:
     """Return every published displacement as printed, in metres and in the published axes, by test (1 or 2),
     source (`model` or `experiment`), component (ux, uy or uz) and probe."""

@@ -14,7 +14,8 @@ def differences(lattice):
     found = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
     for kind in ("area", "strain", "coupling", "rubber", "face"):
         corner = of[lattice[f"{kind}_corners"]].mean(axis=2)  # of one mass or several
-        found[kind] = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
+        first, second = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
+        found[kind] = (first - second) / 2, (first + second) / 2  # mean sides
         found[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
     found["contact"] = np.einsum("pq,pqn->pn", lattice["contact_weights"], of[lattice["contact_masses"]])
     return found
@@ -31,15 +32,14 @@ def gradient(lattice, along, u):
     stretch = np.sqrt(dot(r, r)) - lattice["link_rest_length"][:, None]
     energy = 0.5 * np.sum(k * stretch**2)
     g = along["link"].T @ (k * stretch / np.sqrt(dot(r, r)) * r)
-    k, a0, (first, second) = lattice["area_stiffness"][:, None], lattice["area_rest"][:, None], along["area"]
-    d1, d2, c = first @ x, second @ x, np.cross(first @ x, second @ x)
-    strain = 0.5 * np.sqrt(dot(c, c)) / a0 - 1
+    k, a0, (over_a, over_b) = lattice["area_stiffness"][:, None], lattice["area_rest"][:, None], along["area"]
+    a, b, c = over_a @ x, over_b @ x, np.cross(over_a @ x, over_b @ x)
+    strain = np.sqrt(dot(c, c)) / a0 - 1
     energy += 0.5 * np.sum(k * strain**2 * a0)
-    turned = 0.5 * k * strain * c / np.sqrt(dot(c, c))
-    g += first.T @ np.cross(d2, turned) + second.T @ np.cross(turned, d1)
+    turned = k * strain * c / np.sqrt(dot(c, c))
+    g += over_a.T @ np.cross(b, turned) + over_b.T @ np.cross(turned, a)
     for kind in ("strain", "coupling"):
-        k, a0, (first, second) = lattice[f"{kind}_stiffness"], lattice[f"{kind}_rest"][:, None], along[kind]
-        over_a, over_b = (first - second) / 2, (first + second) / 2
+        k, a0, (over_a, over_b) = lattice[f"{kind}_stiffness"], lattice[f"{kind}_rest"][:, None], along[kind]
         a, b, (aa, bb, ab) = over_a @ x, over_b @ x, np.hsplit(lattice[f"{kind}_natural"], 3)
         e = np.hstack([(dot(a, a) / aa - 1) / 2, (dot(b, b) / bb - 1) / 2, (dot(a, b) - ab) / a0])
         t = k * e
@@ -65,8 +65,7 @@ def contact(lattice, along, x, g):
 
 def rubber(lattice, along, x, g):
     """Energy [J] of rubber membranes at places x (n, 3) [m]; its gradient is added to g."""
-    (first, second), warp, a0 = along["rubber"], along["rubber_warp"], lattice["rubber_rest"][:, None]
-    over_a, over_b = (first - second) / 2, (first + second) / 2
+    (over_a, over_b), warp, a0 = along["rubber"], along["rubber_warp"], lattice["rubber_rest"][:, None]
     aa, bb = (dot(side @ lattice["positions"], side @ lattice["positions"]) for side in (over_a, over_b))
     c10, c01, c20, c30, v, limit, ka, kb = np.hsplit(lattice["rubber_stiffness"], 8)
     a, b, q, of_limit = over_a @ x, over_b @ x, warp @ x, 1 / np.where(limit > 0, limit, np.inf)
@@ -94,8 +93,7 @@ def rubber(lattice, along, x, g):
 
 def faces(lattice, along, x, g):
     """Energy [J] of upright faces sheared; its gradient is added to g."""
-    (first, second), k, a0 = along["face"], lattice["face_stiffness"][:, None], lattice["face_rest"][:, None]
-    over_a, over_b = (first - second) / 2, (first + second) / 2
+    (over_a, over_b), k, a0 = along["face"], lattice["face_stiffness"][:, None], lattice["face_rest"][:, None]
     a, b, up = over_a @ x, over_b @ x, over_b @ lattice["positions"]
     long, high = np.sqrt(dot(a, a)), np.sqrt(dot(up, up))
     shear = dot(a, b) / (long * high)
@@ -141,8 +139,7 @@ def part_of(lattice, along, part, share):
     rest = lattice["positions"]
     flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
     for kind in ("area", "strain", "coupling"):
-        first, second = (side @ rest for side in along[kind])
-        a, b = (first - second) / 2, (first + second) / 2
+        a, b = (side @ rest for side in along[kind])
         flat[f"{kind}_rest"] = np.linalg.norm(np.cross(a, b), axis=1)
         flat[f"{kind}_natural"] = np.hstack([dot(a, a), dot(b, b), dot(a, b)])
     for name, values in flat.items():

@@ -164,7 +164,7 @@ def lattice_files(
     if code in (SOFA, "cpp", "matlab"):
         require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
-    own = {} if code is None or code == SOFA else {READERS[code]: script(READERS[code])}
+    own = {name: script(name) for reader, name in READERS.items() if reader == code}
     if code == SOFA:
         own = {"sofa.scn": to_sofa(lattice, scene)}
     differing = {"natural.csv": natural(lattice)} if scene.natural_by else {}
@@ -202,6 +202,6 @@ def export(
     )
     for name, write in files.items():
         target.write(name, write)
-    target.finish(calibration.document())
+    target.note(calibration.document())
     notes = "".join(f"; {note}" for note in missing)
     return f"Springs, masses, supports and loads in {target.path}: start at its README.md{notes}"

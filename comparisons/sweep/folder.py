@@ -70,7 +70,7 @@ class Folder:
         self._clear()
         if name not in self.written:
             self.written.append(name)
-            self._note()
+            self.note()
         return self.path / name
 
     def report(self, report: Report, progress: Callable[[str], None] = lambda text: None) -> list[str]:
@@ -85,12 +85,8 @@ class Folder:
                 missing.append(reason)
             else:
                 self.written += picture.names
-        self.finish(report.settings, report.words())
+        self.note(report.settings, report.words())
         return missing
-
-    def finish(self, settings: Mapping[str, Any], words: Mapping[str, Any] | None = None) -> None:
-        """Note in the manifest that the run has left all its files, what it was made with, and its words."""
-        self._note(settings, words, finished=True)
 
     def _clear(self) -> None:
         """Remove the files of runs that this one takes the place of, once there is something to put there."""
@@ -99,13 +95,9 @@ class Folder:
                 _remove(self.path, name)
         self._stale = []
 
-    def _note(
-        self,
-        settings: Mapping[str, Any] | None = None,
-        words: Mapping[str, Any] | None = None,
-        finished: bool = False,
-    ) -> None:
-        """Write the manifest."""
+    def note(self, settings: Mapping[str, Any] | None = None, words: Mapping[str, Any] | None = None) -> None:
+        """Write the manifest; with what the run was made with, and its words, once it has left all its
+        files."""
         self._clear()
         of_others = {
             verb: {**run, "files": [name for name in run["files"] if name not in self.written]}
@@ -115,7 +107,7 @@ class Folder:
         mine = {
             "command": self._record["command"],
             "date": self._record["date"],
-            "finished": finished,
+            "finished": settings is not None,
             "asked": self._variant,
             "files": [*self.written, *(name for name in earlier if (self.path / name).exists())],
             **self._about,

@@ -73,9 +73,10 @@ def command(
     from comparisons.calibration import damping
     from comparisons.calibration.calibrate import SheetCalibration, calibrate, expected, subject, to_toml
     from comparisons.codes import lattice as exchange
-    from comparisons.codes.cell_moduli import given_coefficients, homogenise
+    from comparisons.codes.cell_moduli import given_coefficients, homogenise, undamped
     from comparisons.codes.files import WRITERS
-    from comparisons.codes.setup import require_damper, setup, squares_of
+    from comparisons.codes.setup import setup, squares_of
+    from comparisons.codes.table import CODES
     from comparisons.models.sizes import require_room
     from lumped import Calibration
     from sheetbench.errors import BadInput, require_choice, require_effect
@@ -102,7 +103,8 @@ def command(
         of_springs = {**wanted.but(grid=None).settings, "toml": toml}
         options = {f"--{name.replace('_', '-')}": value for name, value in of_springs.items()}
         require_effect(f"with --for {for_}", options)
-        require_damper(for_, of.material, {"--loss-factor": loss_factor, "--prony": prony})
+        if why := undamped(CODES[for_], of.material):
+            require_effect(f"with --for {for_}: {why}", {"--loss-factor": loss_factor, "--prony": prony})
         found = setup(of, for_, squares_of(wanted.grid), named=named)
         with output.open(about=about, variant={"--for": for_}) as out:
             return out.show(found)

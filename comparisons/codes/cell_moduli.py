@@ -51,16 +51,6 @@ class CellInScene(Answer):
         return [f"no error in {self.scene.name} is known: {self.missing}"] if self.missing else []
 
 
-def parameters(hinge: str, coefficients: Numbers, scene: Scene) -> list[Parameter]:
-    """The parameters of the codes of triangles whose hinges have this weight."""
-    return [
-        one
-        for code in CODES.values()
-        if code.hinge == hinge and code.elements == "triangles"
-        for one in parameters_of(code, coefficients, scene)
-    ]
-
-
 def parameters_of(code: Code, coefficients: Numbers, scene: Scene) -> list[Parameter]:
     """The parameters of a code for a scene's sheet."""
     material = scene.material
@@ -138,7 +128,12 @@ class CellModuli(CellInScene):
             found, columns = [*found, self.nearest[0]], (*columns, NUMBER("#.6g", "nearest to the moduli"))
         coefficients = [(name, units[name], *(one[name] for one in found)) for name in self.coefficients]
         moduli = [(name, UNITS[name[0]], *numbers) for name, *numbers in self.rows]
-        codes = parameters(self.cell.hinge, self.coefficients, self.scene) if self.cell.triangles else []
+        codes = [
+            one
+            for code in CODES.values()
+            if self.cell.triangles and code.elements == "triangles" and code.hinge == self.cell.hinge
+            for one in parameters_of(code, self.coefficients, self.scene)
+        ]
         caption = "Parameters of codes with such cells"
         return (
             Table.listed("Coefficients", columns, coefficients, "coefficients"),

@@ -35,11 +35,10 @@ from comparisons.models.grids import GridLike
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
-from sheetbench.errors import BadInput, NoEquilibrium, require_choice, require_effect
+from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import (
     EDGES,
     AnyScene,
-    Material,
     Scene,
     SceneError,
     require_static,
@@ -159,16 +158,12 @@ class CodeSetup(CellInScene):
     def document(self) -> dict[str, Any]:
         return {
             "code": self.code.name,
-            "title": self.code.title,
             "parameters": [{n: v for n, v in vars(key).items() if n != "code"} for key in self.keys],
-            "mesh": self.code.mesh,
             "squares": self.squares,
             "coefficients": dict(self.coefficients),
             "limit_error": self.limit_error,
             "message": self.missing,
-            "cannot": self.code.cannot,
-            "source": self.code.source,
-            "licence": self.code.licence,
+            **{name: getattr(self.code, name) for name in ("title", "mesh", "cannot", "source", "licence")},
             "run_here": True,
         }
 
@@ -228,12 +223,6 @@ def setup(
     except NoEquilibrium as error:
         best, missing = False, str(error)
     return CodeSetup(scene, cell, found, off, missing, row, squares, best and not given, given, named)
-
-
-def require_damper(code: str, material: Material, options: Mapping[str, object]) -> None:
-    """Raise BadInput where these options want damping, of which the code has nothing."""
-    if why := undamped(CODES[code], material):
-        require_effect(f"with --for {code}: {why}", options)
 
 
 def squares_of(grid: GridLike) -> int:

@@ -5,7 +5,6 @@ The documentation's build writes it as scene.md, `sheetbench check --schema --ou
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from sheetbench.scenes.language.schema import branches, json_schema, kind, resolved
@@ -32,6 +31,8 @@ Written in a line, as `history = {time = [0.0, 0.5], factor = [0.0, 1.0]}`, or u
 `[[material.relaxation]]`. Tables over time are linear between samples, before the first and after the last
 one constant; `simulate` follows them, statics take the last sample.
 """
+WORDS = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}
+SIGNS = {"exclusiveMinimum": ">", "minimum": "≥", "exclusiveMaximum": "<", "maximum": "≤"}
 HEADINGS: dict[Any, str] = {"object": "[{}]", "array": "[[{}]]"}  # of keys that take tables
 
 
@@ -86,17 +87,8 @@ def _one(node: dict[str, Any], schema: dict[str, Any]) -> str:
         entries = value(node["items"], schema)
         noun = next((noun for noun in ("list", "number") if noun in entries), entries)
         return f"list of {entries.replace(noun, f'{noun}s', 1)}"
-    words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}[
-        node["type"]
-    ]
-    return " ".join([words, ", ".join(_bounds(node))]).strip()
-
-
-def _bounds(node: dict[str, Any]) -> Iterator[str]:
-    signs = {"exclusiveMinimum": ">", "minimum": "≥", "exclusiveMaximum": "<", "maximum": "≤"}
-    for name, sign in signs.items():
-        if name in node:
-            yield f"{sign} {str(node[name]).replace('-', '−')}"
+    bounds = (f"{sign} {str(node[name]).replace('-', '−')}" for name, sign in SIGNS.items() if name in node)
+    return f"{WORDS[node['type']]} {', '.join(bounds)}".strip()
 
 
 def _shown(default: Any) -> str:

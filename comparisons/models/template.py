@@ -51,11 +51,9 @@ def template(
         '# Optional parts: delete the "# " at the start of a block\'s lines to use it.\n'
         "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]
-    shown = {"[[support]]"}
     free = next((edge for edge in EDGES if edge not in clamped), "x1")
     for heading, table in _offered(sheet, free):
-        parts.append(_commented(_block(heading, table, about=heading not in shown)))
-        shown.add(heading)
+        parts.append(_commented(_block(heading, table, about=heading not in "".join(parts))))
     return "\n".join(parts)
 
 

@@ -103,7 +103,7 @@ class Identification(Answer):
         names = [f"off in u{axis}" for axis in "xyz"] if flat else ["distance"]
         columns, at = [MILLIMETRES("z.2f", axis) for axis in "xyz"], self.measured.points
         columns = columns[: at.shape[1]]
-        if isinstance(self.measured, Displacements) and self.measured.time is not None:
+        if self.measured.time is not None:
             columns, at = [SECONDS(".4f", "t"), *columns], np.column_stack([self.measured.time, at])
         off = self.residuals.reshape(len(self.residuals), -1)
         columns += [MILLIMETRES("z.4f", name) for name in names]

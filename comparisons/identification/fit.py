@@ -87,10 +87,9 @@ class Fit:
 
     def predict(self, x: np.ndarray) -> Prediction:
         """Return what the model has where it was measured. Raises NotReached where it has no answer."""
-        measured = self.measured
-        if isinstance(measured, Surface):
-            return self.model.predict(self.unknowns, x, surface.plan_points(self.model.axes), None)
-        return self.model.predict(self.unknowns, x, measured.points, measured.time)
+        measured, axes = self.measured, self.model.axes
+        points = surface.plan_points(axes) if isinstance(measured, Surface) else measured.points
+        return self.model.predict(self.unknowns, x, points, measured.time)
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Residuals and slopes at x. Raises NotReached where the model has no answer."""

@@ -175,7 +175,7 @@ def identify(
 def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> Identification:
     """Return the answer; spec: of the model, as it was requested."""
     unknowns, measured = fit.unknowns, fit.measured
-    refine = refine and not _moving(measured)
+    refine = refine and measured.time is None
     odd: tuple[Outlier, ...] = ()
 
     def enough(one: Nearest) -> bool:
@@ -240,10 +240,6 @@ def _estimate(u: Unknown, x: float, noise: float, bound: float, step: float) -> 
     )
 
 
-def _moving(measured: Measured) -> bool:
-    return isinstance(measured, Displacements) and measured.time is not None
-
-
 def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> None:
     """Raise BadInput for springs that do not depend on the unknowns."""
     if resolve(scene, lattice, own=False).fitted:
@@ -262,7 +258,7 @@ def _check(scene: Scene, fit: Fit) -> None:
     if not names or repeated:
         raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
     still = [name for name in names if name in DAMPING or name.startswith(VISCOUS)]
-    if still and not _moving(measured):
+    if still and measured.time is None:
         raise BadInput(
             f"unknown = '{still[0]}': an equilibrium does not depend on it; measure a motion, "
             "a CSV with a column time [s]"

@@ -21,6 +21,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
@@ -82,6 +83,7 @@ class Surface:
 
     points: np.ndarray
     source: str = "measured"
+    time: ClassVar[None] = None  # a cloud is of an equilibrium
 
     @property
     def scale(self) -> float:

@@ -72,7 +72,7 @@ def explained(noise: float, found: Runs) -> bool:
 
 def _pairs(measured: Measured) -> tuple[np.ndarray, str]:
     """Numbers of neighbouring rows (m, 2), and along what they are neighbours."""
-    if isinstance(measured, Displacements) and measured.time is not None:
+    if measured.time is not None:
         _, place = np.unique(measured.points, axis=0, return_inverse=True)
         order = np.lexsort((measured.time, place.ravel()))
         pairs = np.column_stack([order[:-1], order[1:]])

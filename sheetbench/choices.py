@@ -112,7 +112,7 @@ def method_of(calibration: str | None, k: float | None) -> str:
     return named or ("uniform" if k is not None else CALIBRATION)
 
 
-def listed(names: Iterable[str]) -> str:
+def listed(names: Iterable[str], link: str = "or") -> str:
     """The names as a sentence has them: a, b or c."""
     *first, last = names
-    return f"{', '.join(first)} or {last}"
+    return f"{', '.join(first)} {link} {last}" if first else last

@@ -15,6 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from comparisons.scoring.answers import Answer
+from sheetbench.choices import listed
 
 FACTOR, NEAR = 1000.0, 3.0
 OPPOSITE = -0.9
@@ -71,14 +72,8 @@ def _sign(answer: Answer, values: np.ndarray) -> Mended:
         return [], values
     mended = values.copy()
     mended[..., flipped] *= -1.0
-    names = _listed([AXES[axis] for axis in flipped])
+    names = listed([AXES[axis] for axis in flipped], "and")
     return [f"{names} {'have' if len(flipped) > 1 else 'has'} the opposite sign"], mended
-
-
-def _listed(names: list[str]) -> str:
-    """The names as a sentence has them: ux, uy and uz."""
-    *first, last = names
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _correlation(values: np.ndarray, truth: np.ndarray, axis: int) -> float:

@@ -57,8 +57,7 @@ class Reference:
 @cache
 def document() -> dict[str, Any]:
     """The whole set as plain data."""
-    content: dict[str, Any] = json.loads(FILE.read_text(encoding="utf-8"))
-    return content
+    return dict(json.loads(FILE.read_text(encoding="utf-8")))
 
 
 @cache

@@ -14,6 +14,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table
+from sheetbench.scenes.language.toml import to_toml
 
 CASE = ("name", "suite", "bar", "agreeing", "why")
 LICENCE = """\
@@ -58,7 +59,7 @@ class Suite(Answer):
         by_suite = {case.suite: list(references(case.suite).values()) for case in self.cases.values()}
         texts = {
             "LICENCE.txt": LICENCE.format(version=self._whole["version"]),
-            **{f"{name}.toml": _toml(case) for name, case in self.cases.items()},
+            **{f"{name}.toml": to_toml(case.scene) for name, case in self.cases.items()},
             **{f"values-{name}.csv": _values(cases) for name, cases in by_suite.items()},
             **{f"answers-{name}.csv": _form(cases) for name, cases in by_suite.items()},
         }
@@ -66,12 +67,6 @@ class Suite(Answer):
 
     def choices(self) -> dict[str, Any]:
         return {"suite": self.suite}
-
-
-def _toml(case: Reference) -> str:
-    from sheetbench.scenes.language.toml import to_toml
-
-    return to_toml(case.scene)
 
 
 def _places(case: Reference) -> Iterator[tuple[list[Any], np.ndarray, np.ndarray, Sequence[float]]]:

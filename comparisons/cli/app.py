@@ -27,6 +27,7 @@ import typer
 from typer.main import get_command
 
 from comparisons.cli import interruption, messages, startup
+from comparisons.cli.output import NOT_CONVERGED
 from comparisons.cli.verb import as_verb
 from comparisons.sweep import interrupts
 from sheetbench.choices import VERBS
@@ -34,7 +35,6 @@ from sheetbench.choices import VERBS
 FAULT = 1
 BAD_INPUT = 2
 PIPE_CLOSED = 141  # 128 + SIGPIPE, as of a program that the signal ends
-NOT_CONVERGED = 3
 UsageError: Any = typer.BadParameter.__base__  # click's, or typer's own copy of it
 SIZE = re.compile("0*[1-9][0-9]{0,3}")  # of a terminal, in columns or lines
 SHOWN = 40  # characters of a name that is too long

@@ -75,12 +75,8 @@ class Crosscheck(Answer):
         """Every model of every scene."""
         return (one for limits in self.limits.values() for one in limits)
 
-    @property
-    def _single(self) -> bool:
-        return len(self.scenes) == 1
-
     def heading(self) -> tuple[str, str, str]:
-        if self._single:
+        if len(self.scenes) == 1:
             return self.scenes[0].name, self.scenes[0].title, ""
         return "crosscheck", f"{len(self.scenes)} scenes, every model on meshes of its own", ""
 
@@ -90,12 +86,13 @@ class Crosscheck(Answer):
 
     def printed(self) -> tuple[Table, ...]:
         """All but every two models."""
-        scene, single = Column("scene", detail=self._single), self._single
+        single = len(self.scenes) == 1
+        columns = (Column("scene", detail=single), *LIMITS)
         limits = [(one.scene.name, one.name, *self._limit(one)) for one in self._each()]
         needs = "absent: needs {}".format
         codes = [(one.name, one.called, one.version() or needs(one.needs)) for one in self.codes.values()]
         return (
-            Table.listed("Extrapolated answers", (scene, *LIMITS), limits, "crosscheck", grouped=not single),
+            Table.listed("Extrapolated answers", columns, limits, "crosscheck", grouped=not single),
             *([Table.listed("External codes", CODES, codes, "judges")] if codes else []),
         )
 

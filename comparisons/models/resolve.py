@@ -73,7 +73,8 @@ class Resolved(Generic[S]):
     @property
     def fitted(self) -> bool:
         """Whether a lattice's springs are fitted to targets."""
-        return _fitted(self.spec)
+        named = isinstance(self.spec, Lattice) and self.spec.k is None and self.spec.calibration
+        return isinstance(named, str) and named in CALIBRATIONS and CALIBRATIONS[named].fitted
 
     @cached_property
     def springs(self) -> Calibration:
@@ -113,7 +114,7 @@ class Resolved(Generic[S]):
         else:
             knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
             lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
-        if _fitted(spec):
+        if self.fitted:
             from comparisons.models.training import fitted
 
             return fitted(sheet, material, self.grid, spec.calibration, training=training, **own)
@@ -147,9 +148,9 @@ def resolve(
         _check_external(spec)
         found = Resolved(scene, spec)
     if not context().large:
-        if use != "springs" or _fitted(found.spec):
+        if use != "springs" or found.fitted:
             require_room(scene, found.spec, option)
-        if _fitted(found.spec):
+        if found.fitted:
             from comparisons.models.training import ELEMENTS
 
             require_room(scene, Elements("shell", ELEMENTS), instead="take a calibration that is not fitted")
@@ -180,12 +181,6 @@ def resolve_each(
         if why := meant.reasons.get("calibration_reason"):
             methods.append(f"calibration {meant.spec.calibration}: {why}")
     return found, tuple(dict.fromkeys((*methods, *gradings)))
-
-
-def _fitted(spec: Spec) -> bool:
-    """Return whether the springs are fitted to targets."""
-    named = isinstance(spec, Lattice) and spec.k is None and spec.calibration
-    return isinstance(named, str) and named in CALIBRATIONS and CALIBRATIONS[named].fitted
 
 
 def _check_lattice(spec: Lattice) -> None:

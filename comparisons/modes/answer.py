@@ -122,6 +122,10 @@ class Spectra(Answer):
             spectrum.model: [asdict(mode) for mode in modes]
             for spectrum, modes in zip(self.found, self.damping, strict=False)
         }
+        buckling = {
+            "solutions": [one.as_dict() for one in self.buckling],
+            "pairs": [pair.as_dict() for pair in self.buckling_pairs],
+        }
         return {
             "scene": self.scene.document(),
             "about": self.about,
@@ -129,13 +133,7 @@ class Spectra(Answer):
             "solutions": [spectrum.as_dict() for spectrum in self.found],
             "pairs": [pair.as_dict() for pair in self.pairs],
             **({"damping": damping} if damping else {}),
-            **({"buckling": self._buckling()} if self.buckling else {}),
-        }
-
-    def _buckling(self) -> dict[str, Any]:
-        return {
-            "solutions": [one.as_dict() for one in self.buckling],
-            "pairs": [pair.as_dict() for pair in self.buckling_pairs],
+            **({"buckling": buckling} if self.buckling else {}),
         }
 
     def tables(self) -> tuple[Table, ...]:

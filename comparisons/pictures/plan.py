@@ -7,7 +7,6 @@ edge, of a pressure all over the sheet, along its normal.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 
 import numpy as np
 
@@ -116,13 +115,9 @@ def edge_ends(
     """Both ends [m] of every part of an edge that the sheet reaches; where: in a shape."""
     if not scene.pierced and where is None:
         return [scene.sheet.edge_ends(edge)]
-    normal, along, far = EDGES[edge]
-    at = partial(_point, scene.sheet.lengths[normal] if far else 0.0, along)
-    return [(at(start), at(stop)) for start, stop in edge_parts(scene, edge, where)]
-
-
-def _point(across: float, along: int, at: float) -> tuple[float, float]:
-    return (at, across) if along == 0 else (across, at)
+    across, turn = scene.sheet.edge_at(edge), -1 if EDGES[edge].along_axis else 1  # x, y of along, across
+    parts = edge_parts(scene, edge, where)
+    return [((start, across)[::turn], (stop, across)[::turn]) for start, stop in parts]
 
 
 def _divided(ends: tuple[Sequence[float], Sequence[float]], count: int) -> np.ndarray:

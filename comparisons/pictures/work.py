@@ -78,14 +78,11 @@ class Pace:
 
     def remaining(self, reached: float) -> str:
         """Return how long it still takes, in words behind a comma; nothing as long as that is unknown."""
-        left = self.left(reached)
-        return "" if left is None else f", {duration(left)} left"
-
-    def left(self, reached: float) -> float | None:
-        """Seconds, None as long as nothing has gone on."""
         now = perf_counter()
         began, start = self._first = self._first or (now, reached)
-        return (now - began) * (self._end - reached) / (reached - start) if reached > start else None
+        if not reached > start:
+            return ""
+        return f", {duration((now - began) * (self._end - reached) / (reached - start))} left"
 
 
 class _Silent:

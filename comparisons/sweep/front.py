@@ -61,8 +61,7 @@ def order(x: Sequence[float], y: Sequence[float]) -> float | None:
     if len({a for a, _ in points}) < 2:
         return None
     logs = np.log(points)
-    slope: float = np.polyfit(logs[:, 0], logs[:, 1], 1)[0]
-    return float(slope)
+    return float(np.polyfit(logs[:, 0], logs[:, 1], 1)[0])
 
 
 def error_order(

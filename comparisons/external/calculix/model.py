@@ -202,10 +202,9 @@ class CalculiX(Code):
 
 
 def _read(folder: Path, ending: str) -> str:
-    try:
+    with suppress(OSError):
         return (folder / f"{JOB}.{ending}").read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return ""
+    return ""
 
 
 @cache

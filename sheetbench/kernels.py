@@ -370,6 +370,11 @@ def _save(self: caching.FunctionCache, signature: object, compiled: object) -> N
         _save_as_numba(self, signature, compiled)
 
 
+def _magic(self: codegen.JITCPUCodegen) -> tuple[str, ...]:
+    """What a kept function is found by beside its arguments: `Library` keeps it otherwise than numba does."""
+    return *_magic_of_numba(self), Library.__module__
+
+
 def _load_index(self: caching.IndexDataCacheFile) -> dict[Any, str]:
     """Return what is kept of a function; nothing where a type of its arguments is gone from our sources."""
     try:
@@ -386,8 +391,9 @@ setattr(caching.FunctionCache, "save_overload", _save)  # noqa: B010
 setattr(caching.IndexDataCacheFile, "_load_index", _load_index)  # noqa: B010
 caching.CacheImpl._locator_classes.insert(0, Locator)
 codegen.JITCPUCodegen._library_class = Library
-_set_environment_as_numba = codegen.JITCPUCodegen.set_env
+_magic_of_numba, _set_environment_as_numba = codegen.JITCPUCodegen.magic_tuple, codegen.JITCPUCodegen.set_env
 setattr(codegen.JITCPUCodegen, "set_env", _set_environment)  # noqa: B010
+setattr(codegen.JITCPUCodegen, "magic_tuple", _magic)  # noqa: B010
 # names of functions, which the cache keeps, differ from those that other processes give
 bytecode.FunctionIdentity._unique_ids = count(int.from_bytes(os.urandom(5)))
 ffi.lib._lock._cblist.clear()  # numba's clock of LLVM's lock, at every call of LLVM: a twentieth of compiling

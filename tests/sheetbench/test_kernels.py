@@ -139,6 +139,19 @@ def test_a_kernel_of_the_cache_serves_one_that_is_compiled(tmp_path, code, found
     assert said == [f"0\n{found}\n", f"1\n{found}\n"]
 
 
+def test_functions_of_others_are_kept_apart_from_those_that_numba_alone_keeps(tmp_path):
+    """Which one program may load after the other, with numba's settings of the user."""
+    code = "from numba import njit\n\n@njit(cache=True)\ndef twice(x):\n    return 2.0 * x\n"
+    (tmp_path / "others.py").write_text(code)
+    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "NUMBA_CPU_NAME": "generic"}
+    for first in ("", "import sheetbench.kernels; ") * 2:
+        call = f"{first}from others import twice; print(twice(3.0))"
+        assert (
+            python("-c", call, PYTHONPATH=os.pathsep.join([str(tmp_path), str(ROOT)]), **cache).stdout
+            == "6.0\n"
+        )
+
+
 GONE = """
 import collections, sheetbench.numerics.maps as maps
 maps.Gone = collections.namedtuple("Gone", maps.Rows._fields)

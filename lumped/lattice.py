@@ -28,7 +28,7 @@ import numpy as np
 from lumped.grid_lines import Lines, grid_lines
 from lumped.pattern import SHARED_UP_TO, cells_of
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import frozen, kept
+from sheetbench.numerics.cache import cached, frozen
 from sheetbench.scenes import Sheet
 from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import Grid
@@ -176,7 +176,7 @@ STEPS: tuple[tuple[str, str, tuple[int, int, int]], ...] = (
 DIRECTIONS = np.array([step for *_, step in STEPS])
 
 
-@kept(last=16, most=SHARED_UP_TO, size=lambda sheet, grid, *_, **__: math.prod(grid))
+@cached(last=16, most=SHARED_UP_TO, size=lambda sheet, grid, *_, **__: math.prod(grid))
 def build(
     sheet: Sheet,
     grid: Grid,
@@ -239,7 +239,7 @@ def build(
     )
 
 
-@kept(last=16, most=SHARED_UP_TO, size=math.prod)
+@cached(last=16, most=SHARED_UP_TO, size=math.prod)
 def _links(grid: Grid) -> tuple[np.ndarray, ...]:
     """The nodes, steps, cells and shares, as `GridLinks` has them, of the links on a grid without holes; a
     cell beyond the sheet has no share."""

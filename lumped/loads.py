@@ -26,7 +26,7 @@ from lumped.lattice import Lattice
 from lumped.masses import masses
 from lumped.mid_surface import MidSurface
 from lumped.pressure import add_couples, add_forces, add_tangent
-from sheetbench.numerics.kept import frozen
+from sheetbench.numerics.cache import frozen
 from sheetbench.scenes import (
     EDGES,
     AreaLoad,

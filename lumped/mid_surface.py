@@ -24,7 +24,7 @@ import scipy.sparse as sp
 
 from lumped.lattice import Lattice
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 
 REACH = 2  # cells beside a point's, by their sides
 ON_LINE = 1e-6  # of a cell's side
@@ -53,7 +53,7 @@ class MidSurface:
         return np.pad(self._shares.T @ values, ((0, size - masses), (0, 0)))
 
 
-@kept(last=8, most=2**16, size=lambda lattice, points, _: points.nbytes + 8 * lattice.mass_count)
+@cached(last=8, most=2**16, size=lambda lattice, points, _: points.nbytes + 8 * lattice.mass_count)
 def _shares(lattice: Lattice, points: np.ndarray, order: int) -> sp.csr_array:
     """What share every mass has in the value at plan points (n, 2) [m], (n, masses). Raises BadInput for
     points off the sheet."""

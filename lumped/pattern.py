@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
+from sheetbench.numerics.cache import cached
 from sheetbench.numerics.fronts import CoupledCells
-from sheetbench.numerics.kept import kept
 from sheetbench.scenes.objects.grid import Grid
 
 SHARED_UP_TO = 3000  # masses up to which what is the same for all sheets on a grid is kept for the next one
@@ -68,7 +68,7 @@ class MassPattern:
         return self.slots(nodes[:, :, None], nodes[:, None, :])
 
 
-@kept(last=16, most=SHARED_UP_TO, size=lambda grid, present=None: math.prod(grid))
+@cached(last=16, most=SHARED_UP_TO, size=lambda grid, present=None: math.prod(grid))
 def of_grid(grid: Grid, present: np.ndarray | None = None) -> MassPattern:
     """The pattern of a lattice on a grid alone, without cells that are not `present`; that of a small one is
     the same object every time."""

@@ -14,8 +14,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sheetbench.numerics.memory import empty, zeros
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.aliasing import empty, zeros
+from sheetbench.numerics.options import njit
 
 WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M by how many corners farther in turn
 

@@ -24,9 +24,9 @@ from lumped.actuators import Coupling
 from lumped.coverage import Reach, held_columns, reached_parts
 from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
-from sheetbench.numerics.kept import frozen, kept
-from sheetbench.numerics.maps import Rows, csr_arrays, product
-from sheetbench.numerics.reduced import ReducedSystem, reduced
+from sheetbench.numerics.cache import cached, frozen
+from sheetbench.numerics.reduced_system import ReducedSystem, reduced
+from sheetbench.numerics.sparse_products import Rows, csr_arrays, product
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted, shifts
 from sheetbench.scenes.objects.supports import named
@@ -115,7 +115,7 @@ def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) 
     return _constrain(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
 
 
-@kept(
+@cached(
     last=16,
     most=SHARED_UP_TO,
     size=lambda _supports, _reached, _sheet, lattice, coupling: math.inf if coupling else lattice.mass_count,

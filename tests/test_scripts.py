@@ -75,7 +75,7 @@ MODULES = [
     "lumped.statics.solver",
     "lumped.vibration",
     "sheetbench.numerics.eigenmodes",
-    "sheetbench.numerics.kept",
+    "sheetbench.numerics.cache",
     "sheetbench.numerics.stability",
 ]
 

@@ -26,7 +26,7 @@ from comparisons.sweep.load import warnings as doubts
 from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
-from sheetbench.kernels import kept
+from sheetbench.kernels import compiled_before
 from sheetbench.numerics import fronts
 from sheetbench.scenes import AnyScene, Scene, SceneError, require_static, scene_of
 
@@ -63,7 +63,7 @@ def compare(
     for other in models:
         beside = resolve(scene, parse(other))
         named[unlike(shown_name(beside.spec.model), named)] = beside
-    if not kept(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first on this machine
+    if not compiled_before(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first on this machine
         warm_both(first.spec.model, against.spec.model)
     rows = []
     for name, model in named.items():

@@ -9,6 +9,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 
 PACKAGES = "libegl1 libgl1-mesa-dri (or libosmesa6)"
@@ -38,18 +40,31 @@ raise SystemExit(0 if low < high else 1)
 """
 
 
-@cache
 def why_not() -> str | None:
-    """None where off-screen drawing works; else why there is no picture and what to install.
+    """Return why there is no picture and what to install, None where off-screen drawing works."""
+    if _working_window() is None:
+        return f"off-screen drawing does not work on this system; on Debian install {PACKAGES}"
+    return None
 
-    The first kind of window that works is kept for this process.
-    """
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Have VTK make the kind of window that works here; it reads which in the environment."""
+    before = os.environ.get(_WINDOW)
+    os.environ[_WINDOW] = _working_window() or ""
+    try:
+        yield
+    finally:
+        del os.environ[_WINDOW]
+        os.environ.update({} if before is None else {_WINDOW: before})
+
+
+@cache
+def _working_window() -> str | None:
+    """Return the first kind of window that draws in a trial, None if none does."""
     requested = os.environ.get(_WINDOW)
-    for window in (requested,) if requested else _WINDOWS:
-        if _draws({**os.environ, _WINDOW: window}):
-            os.environ[_WINDOW] = window
-            return None
-    return f"off-screen drawing does not work on this system; on Debian install {PACKAGES}"
+    kinds = (requested,) if requested else _WINDOWS
+    return next((kind for kind in kinds if _draws({**os.environ, _WINDOW: kind})), None)
 
 
 def _draws(environment: dict[str, str]) -> bool:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import pyvista
 
+from comparisons.pictures import offscreen
 from comparisons.pictures.plan import (
     ALONG,
     edge_plan,
@@ -47,7 +48,8 @@ class Stage:
         self._line = pixels / REFERENCE_PIXELS
         self.scale = scale
         self.size = max(scene.sheet.lengths)
-        self.plotter = pyvista.Plotter(off_screen=True, window_size=[pixels, pixels])
+        with offscreen.drawing():
+            self.plotter = pyvista.Plotter(off_screen=True, window_size=[pixels, pixels])
         self.plotter.background_color = pyvista.Color("white")
         self._outline()
         self._supports(held)

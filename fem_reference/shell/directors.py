@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sheetbench.numerics.memory import empty
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.options import njit
 
 
 @njit

@@ -49,7 +49,7 @@ from fem_reference.surface.biquadratic import (
     shape,
 )
 from fem_reference.surface.materials import Section
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 
 # Sampling grids of the covariant components and their interpolation to the Gauss points.
 GRIDS = {**TYING, "rs": (THREE, THREE)}
@@ -169,7 +169,7 @@ def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
     return np.asarray((moduli @ strain[..., None])[..., 0])
 
 
-@kept(last=4, most=1 << 16)
+@cached(last=4, most=1 << 16)
 def built(
     nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -189,7 +189,7 @@ def upright(nodes: np.ndarray) -> np.ndarray:
     return reference
 
 
-@kept(last=4, most=1 << 16)
+@cached(last=4, most=1 << 16)
 def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """What makes Cartesian strains [xx, yy, 2xy] at the Gauss points of the sampled membrane and bending
     ones, (m, 9, 3, 21) each, and [xz, yz] of the shear ones, (m, 9, 2, 12), of elements with nodes (m, 9, 2);

@@ -15,8 +15,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sheetbench.numerics.memory import empty, zeros
-from sheetbench.numerics.typed import REORDERED, inner, njit
+from sheetbench.numerics.aliasing import empty, zeros
+from sheetbench.numerics.options import REORDERED, inner, njit
 
 PLANE, SHEARED = 21, 12  # in-plane points, and those of them that have shear
 

@@ -13,8 +13,8 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.shell.sampling import PLANE, sampled
-from sheetbench.numerics.memory import empty, zeros
-from sheetbench.numerics.typed import REORDERED, njit
+from sheetbench.numerics.aliasing import empty, zeros
+from sheetbench.numerics.options import REORDERED, njit
 
 MOVES, UNKNOWNS = 27, 45  # of an element: displacements, and with them rotations
 AT_ONCE = 3  # strains and unknowns that are gone through together, whose numbers by part it divides

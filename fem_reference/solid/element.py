@@ -40,7 +40,7 @@ from skfem.refdom import RefHex
 from fem_reference.solid.materials import SolidLaw
 from fem_reference.surface.biquadratic import IN_SPACE, THREE, TYING, lagrange, pulled_back
 from fem_reference.surface.materials import green
-from sheetbench.numerics.kept import frozen
+from sheetbench.numerics.cache import frozen
 from sheetbench.scenes import Constants, Material, Scene
 from sheetbench.scenes.meaning.composition import of_sheet
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at

@@ -12,7 +12,7 @@ from skfem import MeshQuad
 
 from fem_reference.surface.biquadratic import shape
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 
 SLACK = 1e-9  # how far outside, in element sizes, still counts as on the edge: rounding only
 BULGE = 0.05  # likewise, of elements with curved sides, which are not the shape's to the last digit
@@ -68,7 +68,7 @@ def shares(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return _shares(type(mesh), mesh.doflocs, mesh.t, points)
 
 
-@kept(last=8, most=1 << 18)
+@cached(last=8, most=1 << 18)
 def _shares(
     kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray, points: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:

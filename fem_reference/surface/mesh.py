@@ -17,7 +17,7 @@ from fem_reference.surface.alike import mesh_of_cells
 from fem_reference.surface.borders import borders_of, has_lines, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseCurve, Scene, Sheet, Symmetric
 from sheetbench.scenes.meaning.region import area_in, edge_length
 from sheetbench.scenes.objects.grading import is_mirrored, line_numbers
@@ -63,7 +63,7 @@ def rectangle(sheet: Sheet, elements: Elements, graded: bool = False) -> MeshQua
     return _tensor(*_lines(sheet, divisions(sheet, elements), graded, ()), *sheet.lengths)
 
 
-@kept(last=16, most=1 << 14)
+@cached(last=16, most=1 << 14)
 def _tensor(x: np.ndarray, y: np.ndarray, *lengths: float) -> MeshQuad:
     """The mesh between lines at x and y of a sheet with these sides [m]."""
     return _with_edges(MeshQuad.init_tensor(x, y), lengths)
@@ -108,7 +108,7 @@ def plan_of(mesh: MeshQuad) -> Plan:
     return Plan(mesh, *_nodes(type(mesh), mesh.doflocs, mesh.t))
 
 
-@kept(last=8, most=1 << 18)
+@cached(last=8, most=1 << 18)
 def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     mesh = kind(places, elements)
     curved = mesh if kind is MeshQuad2 else MeshQuad2.from_mesh(mesh)

@@ -31,7 +31,7 @@ from fem_reference.surface.mesh_points import (
     on_borders,
 )
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 from sheetbench.scenes.objects.plan_mesh import divided
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ TOO_CLOSE = (
 )
 
 
-@kept(last=8, most=1 << 16)
+@cached(last=8, most=1 << 16)
 def quadrilaterals(
     region: BaseGeometry, inner: BaseGeometry, spacing: tuple[float, float], graded: bool = False
 ) -> MeshQuad2:

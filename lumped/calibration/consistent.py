@@ -18,12 +18,12 @@ from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import CellSection
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.objects.grading import Graded
 
 
-@kept(  # of cells that are alike
+@cached(  # of cells that are alike
     last=16,
     most=0,
     size=lambda _, material, *__, grading=0.0, cells=None, **___: float(

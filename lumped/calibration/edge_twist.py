@@ -42,7 +42,7 @@ from lumped import moduli, sections
 from lumped.calibration.cell_by_cell import EachCell
 from lumped.grid_lines import Lines
 from lumped.spring_constants import Springs, of_faces
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 
 AT_CORNERS = 0.55  # f is at least this where two reductions may add, 1 − 2 (1 − f) > 0
 MOST = 3.0  # f is sought up to this, and from where the cell's own twisting stiffness is positive
@@ -124,7 +124,7 @@ def diagonals_share(each: EachCell, springs: Springs) -> np.ndarray:
     return np.divide(diagonals, whole, out=np.zeros_like(whole), where=whole != 0.0)
 
 
-@kept(last=32, most=1 << 14)  # strips along x and along y of a square sheet are one
+@cached(last=32, most=1 << 14)  # strips along x and along y of a square sheet are one
 def edge_factors(
     width: np.ndarray,
     twisting: np.ndarray,

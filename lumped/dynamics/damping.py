@@ -20,7 +20,7 @@ from lumped.springs.all_forces import add_forces as add_spring_forces
 from lumped.springs.all_forces import resist_again
 from lumped.springs.families import Family
 from lumped.springs.packing import Packing, Scratch
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.options import njit
 from sheetbench.scenes import Scene
 
 

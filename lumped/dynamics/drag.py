@@ -20,7 +20,7 @@ from lumped.assembly import Assembly
 from lumped.coverage import cell_shares
 from lumped.masses import sheet_masses
 from lumped.pressure import add_forces
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.options import njit
 from sheetbench.scenes import Scene
 
 TINY = np.finfo(float).tiny ** 0.5

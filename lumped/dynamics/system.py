@@ -27,8 +27,8 @@ from lumped.items import Placed
 from lumped.masses import masses
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
-from sheetbench.numerics.maps import csr_arrays, product
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.options import typed
+from sheetbench.numerics.sparse_products import csr_arrays, product
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.motion import kinks
 

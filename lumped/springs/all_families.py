@@ -25,9 +25,9 @@ from lumped.springs.cells import CellArrays
 from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, SpringCells
 from lumped.springs.links import LinkArrays
 from sheetbench.errors import BadInput
-from sheetbench.numerics.kept import kept
-from sheetbench.numerics.memory import zeros
-from sheetbench.numerics.typed import njit, typed
+from sheetbench.numerics.aliasing import zeros
+from sheetbench.numerics.cache import cached
+from sheetbench.numerics.options import njit, typed
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
@@ -303,7 +303,7 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     return _cells(faces.at_rest, pattern, stiffness, "face_shear", FACE, others)
 
 
-@kept(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
+@cached(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
 def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet) -> AllFamilies:
     """The springs of a spring set on a lattice; of a small one the same every time."""
     of = lattice, pattern, Constants.read(springs)

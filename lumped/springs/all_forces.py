@@ -13,7 +13,7 @@ from lumped.springs import tiles
 from lumped.springs.cell_laws import AreaAndStrains
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.options import njit
 
 CELLS, FACES, ONE, THREE = (np.uint64(number) for number in (kinds.CELLS, kinds.FACES, 1, 3))
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.springs.laws import Four, Three, Vector, less, plus, times
-from sheetbench.numerics.typed import inner
+from sheetbench.numerics.options import inner
 
 Pair = tuple[Vector, Vector]
 Rows = tuple[Pair, Pair, Pair]

@@ -16,8 +16,8 @@ from numba.extending import overload
 
 from lumped.springs import laws
 from lumped.springs.laws import Constants, Four, Six, Three, times_six
-from sheetbench.numerics.memory import load_each
-from sheetbench.numerics.typed import inner
+from sheetbench.numerics.aliasing import load_each
+from sheetbench.numerics.options import inner
 
 
 class AreaAndStrains(NamedTuple):

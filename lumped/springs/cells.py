@@ -44,8 +44,8 @@ from lumped.springs.laws import (
     plus,
     times,
 )
-from sheetbench.numerics.memory import empty
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.options import inner, njit
 
 
 class CellArrays(NamedTuple):

@@ -17,7 +17,7 @@ from lumped.springs import cells, laws, links
 from lumped.springs.cell_laws import AREA_AND_STRAINS, CellLaw
 from lumped.springs.cells import CellArrays
 from lumped.springs.links import LinkArrays
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.options import typed
 
 
 @dataclass(frozen=True, eq=False)

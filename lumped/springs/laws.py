@@ -38,7 +38,7 @@ import math
 
 import numpy as np
 
-from sheetbench.numerics.typed import inner
+from sheetbench.numerics.options import inner
 
 Vector = tuple[float, float, float]  # kept in registers, where small arrays are in memory
 Three = tuple[float, float, float]

@@ -21,8 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.springs.laws import Branches, Vector, dot, elongation, times
-from sheetbench.numerics.memory import empty
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.options import inner, njit
 
 
 class LinkArrays(NamedTuple):

@@ -21,7 +21,7 @@ from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO
 from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.families import NO_CELLS, Family, Links, SpringCells
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
-from sheetbench.numerics.kept import kept
+from sheetbench.numerics.cache import cached
 from sheetbench.scenes.objects.grid import Grid
 
 LINKS, CELLS, RUBBER_CELLS, FACES = range(4)
@@ -163,7 +163,7 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
         row[at] += values
 
 
-@kept(last=PATTERN_CACHE, most=SHARED_UP_TO, size=lambda grid, *_: math.prod(grid))
+@cached(last=PATTERN_CACHE, most=SHARED_UP_TO, size=lambda grid, *_: math.prod(grid))
 def _topology(grid: Grid, *nodes: np.ndarray) -> Topology:
     """The topology of springs (m, 2) or (m, 4, p) of one kind, by the distances between their masses, then in
     order; cut into runs."""

@@ -32,8 +32,8 @@ import numpy as np
 
 from lumped.springs.cell_laws import LAWS, Tag, constants, measures, respond
 from lumped.springs.laws import times_six
-from sheetbench.numerics.memory import load, load_each, store, store_each
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.aliasing import load, load_each, store, store_each
+from sheetbench.numerics.options import inner, njit
 
 WIDTH = 128
 LANES = np.uint64(8)  # springs of a run come in blocks of so many, as wide as the widest vectors
@@ -41,7 +41,7 @@ NUMBA_TRUE: Any = np.True_  # for Python's own numba compiles a kernel once for 
 NUMBA_FALSE: Any = np.False_
 STRIDE = WIDTH + 8  # of rows; a power of two would put them all in the same few places of a cache
 ROWS = tuple(np.uint64(row * STRIDE) for row in range(24))
-# kinds of memory that never overlap (`numerics.memory`): what is only read (rest data, displacements,
+# kinds of memory that never overlap (`numerics.aliasing`): what is only read (rest data, displacements,
 # velocities), what springs keep of their shape, rows of a tile, and the three components of forces
 GIVEN, KEPT, ROW, FORCE_X, FORCE_Y, FORCE_Z = range(6)
 OPTIONS: dict[str, Any] = {"fastmath": {"contract", "reassoc", "arcp", "nsz"}}

@@ -3,16 +3,16 @@ forces where it leads. With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from lumped.springs import all_families
 from lumped.springs.all_families import SpringArrays, Stresses
 from sheetbench.numerics import banded
-from sheetbench.numerics.maps import Rows, product, transposed_product
-from sheetbench.numerics.memory import empty, zeros
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.aliasing import empty, zeros
+from sheetbench.numerics.options import njit
+from sheetbench.numerics.sparse_products import Rows, product, transposed_product
 
 
 class Equations(NamedTuple):
@@ -32,14 +32,13 @@ def advance(
     u: np.ndarray,
     step: np.ndarray,
     moved: np.ndarray,
-    load_factor: float,
-    equations: Equations,
+    free: Rows,
     springs: SpringArrays,
-) -> tuple[np.ndarray, float, np.ndarray, Stresses, tuple[np.ndarray, np.ndarray, float, float]]:
-    """Return where a step (m,) [m] of the unknowns leads with what is `moved` (n, 3) [m] beside, if anything,
-    how far at most [m], the internal force (n, 3) [N] there, the stresses that the linearisation at u
-    predicts there, and `unbalanced_force`."""
-    move = product(equations.free, step).reshape(u.shape)
+) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
+    """Return the displacement (n, 3) [m] after a step (m,) [m] of the unknowns and the motion `moved` (n, 3)
+    [m] of the supports, empty without one; the largest component of the change [m]; the internal force (n, 3)
+    [N] there; and the stresses that the linearisation at u predicts there."""
+    move = product(free, step).reshape(u.shape)
     if len(moved):
         move += moved
     after, length = empty(u.shape), 0.0
@@ -48,9 +47,7 @@ def advance(
             after[i, q] = u[i, q] + move[i, q]
             length = max(length, abs(move[i, q]))
     stresses = all_families.extrapolated(u, move, springs)
-    internal = all_families.force(after, springs)[1]
-    residual = unbalanced_force(internal, equations.load, load_factor, equations, len(step))
-    return after, length, internal, stresses, residual
+    return after, length, all_families.force(after, springs)[1], stresses
 
 
 @njit
@@ -58,20 +55,16 @@ def correct(
     u: np.ndarray,
     stresses: Stresses,
     rows: np.ndarray,
-    load_factor: float,
-    equations: Equations,
+    band: banded.Band,
     springs: SpringArrays,
-) -> tuple[np.ndarray, np.ndarray, bool, np.ndarray, Any]:
-    """Return the tangent's blocks, factors in a band, whether they are such and give a finite step, that step
-    from u and what `advance` makes of it."""
-    none, band = empty(0), equations.band
+) -> tuple[np.ndarray, np.ndarray, bool, np.ndarray]:
+    """Return the blocks (b, 3, 3) [N/m] of the tangent at u, their factors in a band, whether the tangent is
+    positive definite and the step finite, and the step (m,) [m] that balances `rows` (m,) [N]."""
     predicted = len(stresses[0]) + len(stresses[1]) > 0
-    blocks = all_families.tangent(u, stresses, predicted, 1.0, 1.0, none, springs)
+    blocks = all_families.tangent(u, stresses, predicted, 1.0, 1.0, empty(0), springs)
     factors, definite = banded.factored(blocks, band)
     step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else zeros(len(rows))
-    definite = definite and np.isfinite(np.sum(step))
-    found = advance(u, step, empty((0, 3)), load_factor, equations, springs)
-    return blocks, factors, definite, step, found
+    return blocks, factors, definite and np.isfinite(np.sum(step)), step
 
 
 @njit

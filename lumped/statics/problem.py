@@ -30,9 +30,9 @@ from sheetbench.numerics.continuation.newton import SOLVED, Start
 from sheetbench.numerics.continuation.path import Fault, Path
 from sheetbench.numerics.continuation.structure import Structure
 from sheetbench.numerics.direct import Count, Factor, iterated
-from sheetbench.numerics.maps import product, transposed_product
-from sheetbench.numerics.reduced import ReducedSystem, banded_factor
-from sheetbench.numerics.typed import typed
+from sheetbench.numerics.options import typed
+from sheetbench.numerics.reduced_system import ReducedSystem, banded_factor
+from sheetbench.numerics.sparse_products import product, transposed_product
 from sheetbench.scenes import Scene, outside_model
 
 NOTHING = np.empty((0, 3))
@@ -257,14 +257,12 @@ class Problem(Structure[LatticeState, Residual]):
     ) -> LatticeState:
         springs, moved = self.assembly.at(load_factor).all_families, forces and forces.moved
         moved = NOTHING if moved is None else moved
-        after, length, internal, stresses, residual = advance(
-            state.u, step, moved, load_factor, self._equations, springs.springs
-        )
+        after, length, internal, stresses = advance(state.u, step, moved, self._free, springs.springs)
         if self._others or not springs.conservative:
             internal = springs.beside(after, internal)
             self._add_others(after, Drive(load_factor), internal)
-            residual = self._residual(internal, after, load_factor)
-        return LatticeState(after, load_factor, Residual(*residual), stresses, state.u, length)
+        residual = self._residual(internal, after, load_factor)
+        return LatticeState(after, load_factor, residual, stresses, state.u, length)
 
     def correct(
         self, state: LatticeState, forces: Residual, load_factor: float, count: Count
@@ -275,15 +273,13 @@ class Problem(Structure[LatticeState, Residual]):
         if others or band is None or self._iterates:
             return None
         count()
-        given = load_factor, self._equations, springs.springs
-        blocks, factors, definite, step, (after, length, _, stresses, residual) = correct(
-            state.u, state.stresses or NO_STRESSES, rows, *given
-        )
+        stresses = state.stresses or NO_STRESSES
+        blocks, factors, definite, step = correct(state.u, stresses, rows, band, springs.springs)
         if definite:
-            reached = LatticeState(after, load_factor, Residual(*residual), stresses, state.u, length)
-            return banded_factor(band, factors, partial(self.system.matrix, blocks)), step, rows, reached
-        factor = self.system.factor(blocks, count)
-        step = factor.solve(rows, SOLVED)
+            factor = banded_factor(band, factors, partial(self.system.matrix, blocks))
+        else:
+            factor = self.system.factor(blocks, count)
+            step = factor.solve(rows, SOLVED)
         return factor, step, rows, self.advance(state, forces, load_factor, step)
 
     def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:

@@ -29,7 +29,7 @@ from sheetbench.errors import BadInput, require_effect
 from sheetbench.numerics.continuation.path import Path, Progress
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.continuation.trace import trace_path
-from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.reduced_system import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import (
     AnyScene,

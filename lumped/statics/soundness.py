@@ -9,8 +9,8 @@ import math
 import numpy as np
 
 from lumped.springs.links import LinkArrays, strains
-from sheetbench.numerics.memory import empty, zeros
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.aliasing import empty, zeros
+from sheetbench.numerics.options import inner, njit
 
 TINY = float(np.finfo(float).tiny)
 TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named

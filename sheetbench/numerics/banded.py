@@ -3,7 +3,7 @@
 Storage: row j holds column j of the lower triangle from the diagonal on, band[j, i − j] = A_ij, then zeros.
 PANEL columns are eliminated together and the rest is updated two columns at a time: a rank-PANEL update whose
 operands stay in registers. Rows end with zeros, so that loops run over whole vectors, and what cannot overlap
-is said (`numerics.memory`). LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, which is
+is said (`numerics.aliasing`). LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, which is
 what small lattices have.
 """
 
@@ -15,7 +15,8 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from sheetbench.numerics.memory import empty, load, load_each, store, zeros
+from sheetbench.numerics.aliasing import empty, load, load_each, store, zeros
+from sheetbench.numerics.options import REORDERED, inner, njit
 from sheetbench.numerics.panels import (
     PANEL,
     dot,
@@ -24,7 +25,6 @@ from sheetbench.numerics.panels import (
     solve_forward,
     triangle,
 )
-from sheetbench.numerics.typed import REORDERED, inner, njit
 
 LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
 TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is looked at: beyond, bands do not pay

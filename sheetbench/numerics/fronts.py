@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import csr_array
 
-from sheetbench.numerics.memory import empty, zeros
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.aliasing import empty, zeros
+from sheetbench.numerics.options import njit
 
 LEAF = 128  # unknowns of its cells, together, up to which a part of more than two is not halved
 

@@ -16,8 +16,9 @@ from functools import partial
 
 import numpy as np
 
+from sheetbench.numerics.aliasing import empty, load, load_each, store, zeros
 from sheetbench.numerics.fronts import Fronts
-from sheetbench.numerics.memory import empty, load, load_each, store, zeros
+from sheetbench.numerics.options import REORDERED, inner, njit
 from sheetbench.numerics.panels import (
     NOTHING,
     PANEL,
@@ -28,7 +29,6 @@ from sheetbench.numerics.panels import (
     times,
     triangle,
 )
-from sheetbench.numerics.typed import REORDERED, inner, njit
 
 ROUNDING_PIVOT = 1e-13  # of the diagonal, up to which a pivot counts as rounding
 GROWTH = 1e3

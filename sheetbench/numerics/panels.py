@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.numerics.memory import load, load_each, store, store_each
-from sheetbench.numerics.typed import REORDERED, inner
+from sheetbench.numerics.aliasing import load, load_each, store, store_each
+from sheetbench.numerics.options import REORDERED, inner
 
 PANEL = 6  # the unknowns of a column of masses in two layers
 NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

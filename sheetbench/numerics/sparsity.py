@@ -12,10 +12,10 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.cache import cached
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
-from sheetbench.numerics.kept import kept
-from sheetbench.numerics.memory import empty
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.options import njit
 
 
 class Pattern:
@@ -82,7 +82,7 @@ class Pattern:
         return matrix
 
 
-@kept(last=8, most=1 << 20)
+@cached(last=8, most=1 << 20)
 def pattern_of(places: np.ndarray, *unknowns: np.ndarray, size: int) -> Pattern:
     """The pattern of elements at these places; of small ones the last few are kept."""
     return Pattern(*unknowns, size=size, places=places)

@@ -15,12 +15,12 @@ from math import isfinite, isnan, nan
 from typing import Any, Generic, Protocol, Self
 
 import numpy as np
-from numba import njit
 
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import number
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.options import njit
+from sheetbench.numerics.reduced_system import SingularMatrixError
 from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod, StepFailed
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore

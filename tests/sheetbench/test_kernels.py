@@ -1,11 +1,7 @@
-"""Compiled kernels: kept, compiled anew with what they are made of, and announced."""
+"""Compiled kernels: kept, compiled anew with the files whose kernels they call, and guests in the process."""
 
-import gc
 import json
-import os
-import platform
 import shutil
-import stat
 import subprocess
 import sys
 from typing import Any, NamedTuple
@@ -15,37 +11,24 @@ import pytest
 import scipy.sparse as sp
 from commands import python
 from dynamic_cases import make_scene, springs
-from llvmlite.binding import get_host_cpu_features
-from numba import njit, typeof, types
-from numba.core.datamodel import default_manager
-from numba.core.errors import TypingError
+from numba import njit, typeof
+from verbs import SMALL, write_inputs
 
 import lumped
 from comparisons.models import solve
 from lumped.dynamics.explicit.steps import march
-from sheetbench.kernels import NOTICE, ROOT, X86_64_V3, Locator, kept, made_of
-from sheetbench.numerics import maps
-from sheetbench.numerics.maps import csr_arrays
-from sheetbench.numerics.typed import TypedTuple, typed
+from sheetbench.kernels import NOTICE, ROOT, compiled_before
+from sheetbench.numerics import sparse_products
+from sheetbench.numerics.options import TypedTuple, typed
+from sheetbench.numerics.sparse_products import csr_arrays
 
 ASK = """
-import logging, sys
+import logging
 logging.basicConfig(level=logging.INFO, format="%(message)s")
 import numpy as np
-import sheetbench.numerics.threads
-from sheetbench.numerics.maps import Rows, product
+from sheetbench.numerics.sparse_products import Rows, product
 product(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
 """
-
-
-def test_a_kernel_is_made_of_the_files_whose_kernels_it_calls():
-    found = {str(path.relative_to(ROOT)) for path in made_of(ROOT / "lumped/springs/all_families.py")}
-    assert {"lumped/springs/cells.py", "lumped/springs/links.py", "lumped/springs/laws.py"} <= found
-    tuples = {path.name for path in made_of(ROOT / "lumped/springs/all_forces.py")}
-    assert {"packing.py", "tiles.py", "cell_laws.py"} <= tuples  # a tuple's fields count too
-    assert "assembly.py" not in {
-        path.name for path in made_of(ROOT / "lumped/dynamics/implicit/compiled_newton.py")
-    }
 
 
 def test_matrices_are_alike_to_kernels_whatever_integers_scipy_takes():
@@ -65,144 +48,187 @@ def test_steps_are_compiled_once_whether_edges_are_driven_or_not():
     assert layouts == {"C"}
 
 
-def ask(place, cache):
-    """What is said, compiling included, by a process that runs a kernel from a checkout at `place`."""
-    done = python("-c", ASK, place=place, NUMBA_CACHE_DIR=str(cache), PYTHONPATH=str(place))
-    assert done.returncode == 0
+def ask(place, cache, code=ASK):
+    """What is logged, compiling included, by a process that runs a kernel from a checkout at `place`."""
+    done = python("-c", code, place=place, NUMBA_CACHE_DIR=str(cache), PYTHONPATH=str(place))
+    assert done.returncode == 0, done.stderr
     return done.stderr
 
 
-@pytest.mark.sweep(2)
-@pytest.mark.parametrize("at", ["the cache", "a kernel's folder"])
-def test_a_folder_that_others_may_write_to_is_refused(tmp_path, at):
-    """What lies there is unpickled: somebody else's was executed."""
-    cache = tmp_path / "cache"
-    cache.mkdir(mode=0o755)
-    opened = cache if at == "the cache" else cache / Locator.get_suitable_cache_subpath(maps.__file__)
-    opened.mkdir(exist_ok=True)
-    opened.chmod(0o775)
-    small = ("compare", "one-edge-clamped", "--lumped", "3")
-    done = python("-m", "sheetbench", *small, NUMBA_CACHE_DIR=str(cache))
-    said = f"{opened}: other users may write here, and what is kept here is run: remove the folder"
-    assert (done.returncode, done.stdout) == (2, "")
-    assert said in done.stderr and "Traceback" not in done.stderr
-    assert not [path for path in cache.rglob("*") if path.is_file()]
-
-
-@pytest.mark.nightly
-def test_a_copy_of_the_checkout_finds_what_the_checkout_compiled_and_what_came_with_it(tmp_path):
-    unneeded = shutil.ignore_patterns("__pycache__")
-    copy, cache, empty = tmp_path / "copy", tmp_path / "cache", tmp_path / "empty"
+def test_a_kernel_is_compiled_anew_where_any_file_with_kernels_changed(tmp_path):
+    """It may call them: numba alone looks at the kernel's own file, and would go on with old machine code."""
+    copy, cache = tmp_path / "copy", tmp_path / "cache"
     for package in ("sheetbench", "lumped"):
-        shutil.copytree(ROOT / package, copy / package, ignore=unneeded)
-    assert [ask(ROOT, cache), ask(copy, cache)] == [NOTICE + "\n", ""]
-    shutil.copytree(cache, copy / "sheetbench" / "compiled")
-    assert ask(copy, empty) == "" and not list(empty.rglob("*.nbi"))
+        shutil.copytree(ROOT / package, copy / package, ignore=shutil.ignore_patterns("__pycache__"))
+    assert [ask(copy, cache), ask(copy, cache)] == [NOTICE + "\n", ""]
+    with (copy / "lumped/springs/laws.py").open("a", encoding="utf-8") as file:
+        file.write("# another law\n")
+    assert [ask(copy, cache), ask(copy, cache)] == [NOTICE + "\n", ""]
 
 
-LINKED = """
-from numba import njit
+USERS = """
+import sys
+import numpy as np, numba as nb
+from numba.core import config, event
+from numba.extending import overload, register_jitable
 
-@njit
-def twice(rows, x):
-    return 2.0 * product(rows, x)
+def show(name, call, *given):
+    try:
+        print(name, call(*given), flush=True)
+    except Exception as error:
+        print(name, type(error).__name__, error, flush=True)
 
-print(sum(product.stats.cache_hits.values()))
-print(twice(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0])))
+@nb.njit
+def before(a):
+    return np.sort(a).sum() + np.linalg.norm(a) + np.zeros(3).sum()
+
+@nb.njit(cache=True)
+def area(x):
+    return x * x
+
+if sys.argv[1] != "without":
+    if sys.argv[1] == "after":
+        show("before", before, np.ones(3)), show("area", area, 3.0)
+    import sheetbench.kernels
+    from sheetbench.numerics.sparse_products import Rows, product
+    product(Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
+if sys.argv[1] != "after":
+    show("before", before, np.ones(3)), show("area", area, 3.0)
+
+show("another type", before, np.ones(3, np.float32)), show("another type", area, 3)
+show("calls an old one", nb.njit(lambda x, h: area(x) * h), 3.0, 2.0)
+show("sorts anew", nb.njit(lambda a: np.sort(a).sum()), np.ones(3))
+
+def overloaded(x): ...
+
+@overload(overloaded)
+def _(x):
+    def implementation(x):
+        print("printed", x)
+        if x > 1.0:
+            raise ValueError("big", x)
+        return x
+    return implementation
+
+@register_jitable
+def in_python(x):
+    with nb.objmode(y="f8"):
+        y = float(repr(x))
+    return y
+
+@nb.njit(no_cpython_wrapper=True)
+def unwrapped(x):
+    print("printed", x)
+    return x
+
+@nb.njit
+def assigned(a, b):
+    a[:] = b
+
+show("overload", nb.njit(lambda x: overloaded(x)), 1.0)
+show("overload that raises", nb.njit(lambda x: overloaded(x)), 2.0)
+show("jitable", nb.njit(lambda x: in_python(x)), 2.0)
+show("unwrapped", nb.njit(lambda x: unwrapped(x)), 2.0)
+show("shapes", assigned, np.zeros(3), np.zeros(4))
+with event.install_recorder("numba:llvm_lock") as recorder:
+    nb.njit(lambda x: x + 1)(1)
+print(len(recorder.buffer) > 0, config.CPU_NAME, config.CPU_FEATURES, config.CACHE_DIR)
+print(area.stats.cache_path)
 """
 
 
-CALLED = """
-import numpy as np
-from sheetbench.numerics.banded import factor, solve_unrefined
-from numba import njit
+def test_functions_of_the_user_are_as_without_this_project(tmp_path):
+    """Compiled before it or after, from an empty cache: answers, error texts, events, settings, cache."""
+    (tmp_path / "users.py").write_text(USERS)
 
-@njit
-def factored(band, order, b):
-    factor(band, len(b), 1)
-    return solve_unrefined(band, 1, order, b)
+    def said(when):
+        done = python(
+            str(tmp_path / "users.py"), when, NUMBA_CACHE_DIR=str(tmp_path / when), PYTHONPATH=str(ROOT)
+        )
+        assert done.returncode == 0, done.stderr
+        return done.stdout.replace(str(tmp_path / when), "")
 
-band = np.zeros((8, 16))
-band[:6, 0] = 4.0
-x = factored(band, np.arange(6), np.ones(6))
-print(sum(factor.stats.cache_hits.values()))
-print(x[:1])
+    without = said("without")
+    assert "cannot assign slice of shape (3,) from input of shape (4,)" in without
+    assert "overload that raises ValueError ('big', 2.0)" in without
+    assert said("first") == without
+    assert sorted(said("after").splitlines()) == sorted(without.splitlines())
+
+
+COMPILED = """
+import contextlib, io, json, sys
+from numba.core import event
+from comparisons.cli.app import main
+
+with event.install_recorder("numba:compile") as recorder:
+    for line in json.loads(sys.argv[1]):
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
+            main(line.split())
+compiled = {e.data["dispatcher"].py_func.__qualname__ for _, e in recorder.buffer}
+print(json.dumps(sorted(compiled)))
 """
 
 
 @pytest.mark.parametrize(
-    ("code", "found"), [(ASK + LINKED, "[12.]"), (CALLED, "[0.25]")], ids=["short", "long"]
+    "verbs", [("compare", "simulate", "modes"), pytest.param(tuple(SMALL), marks=pytest.mark.nightly)]
 )
-def test_a_kernel_of_the_cache_serves_one_that_is_compiled(tmp_path, code, found):
-    """What is short is linked, its LLVM code read only then; what is long is called."""
-    said = [python("-c", code, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stdout for _ in range(2)]
-    assert said == [f"0\n{found}\n", f"1\n{found}\n"]
+def test_a_second_run_compiles_nothing(verbs, tmp_path):
+    write_inputs(tmp_path)
+    lines = json.dumps([f"{SMALL[verb]} --no-pictures" for verb in verbs])
+    runs = [python("-c", COMPILED, lines, place=tmp_path, PYTHONPATH=str(ROOT)) for _ in range(2)]
+    assert runs[-1].returncode == 0, runs[-1].stderr
+    assert json.loads(runs[-1].stdout.splitlines()[-1]) == []
 
 
-def test_functions_of_others_are_kept_apart_from_those_that_numba_alone_keeps(tmp_path):
-    """Which one program may load after the other, with numba's settings of the user."""
-    code = "from numba import njit\n\n@njit(cache=True)\ndef twice(x):\n    return 2.0 * x\n"
-    (tmp_path / "others.py").write_text(code)
-    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "NUMBA_CPU_NAME": "generic"}
-    for first in ("", "import sheetbench.kernels; ") * 2:
-        call = f"{first}from others import twice; print(twice(3.0))"
-        assert (
-            python("-c", call, PYTHONPATH=os.pathsep.join([str(tmp_path), str(ROOT)]), **cache).stdout
-            == "6.0\n"
-        )
+STATE = """
+import gc, logging, os, signal, sys, threading, warnings
+import multiprocessing
+import matplotlib
+import numpy as np
+import pyvista
+from threadpoolctl import threadpool_info
 
+def state():
+    return {
+        "environment": dict(os.environ),
+        "garbage": (gc.isenabled(), gc.get_threshold(), gc.get_freeze_count(), len(gc.callbacks)),
+        "warnings": list(warnings.filters),
+        "logging": (logging.root.level, list(logging.root.handlers), logging.raiseExceptions),
+        "numpy": (np.geterr(), np.geterrcall(), np.get_printoptions()),
+        "blas": [(each["filepath"], each["num_threads"]) for each in threadpool_info()],
+        "signals": {number: signal.getsignal(number) for number in signal.valid_signals()},
+        "start": multiprocessing.get_start_method(allow_none=True),
+        "hooks": (sys.excepthook, threading.excepthook, sys.displayhook, sys.getrecursionlimit()),
+        "matplotlib": (dict(matplotlib.rcParams), matplotlib.get_backend(auto_select=False)),
+        "pyvista": (pyvista.global_theme.to_dict(), pyvista.OFF_SCREEN),
+    }
 
-GONE = """
-import collections, sheetbench.numerics.maps as maps
-maps.Gone = collections.namedtuple("Gone", maps.Rows._fields)
-maps.Gone.__module__ = maps.__name__
+import scipy.linalg, numba, skfem, shapely, pydantic, meshio, rich  # what they set is theirs
+
+before = state()
+import sheetbench as sb
+
+def check(when):
+    now = state()
+    for name, value in before.items():
+        assert now[name] == value, (when, name, value, now[name])
+
+check("import")
+sb.solve("one-edge-clamped", grid=3)
+check("solve")
+answer = sb.compare("one-edge-clamped", grid=3, elements=2)
+check("compare")
+answer.report()
+answer.save("out")
+check("figures")
+sb.simulate("one-edge-clamped", 1e-3, grid=3)
+check("simulate")
 """
 
 
-def test_what_is_kept_for_arguments_that_are_gone_is_compiled_anew(tmp_path):
-    """Of a tuple whose class was removed from another file than the kernel's."""
-    before = GONE + ASK.replace("product(Rows(", "product(maps.Gone(")
-    kept_then = python("-c", before, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stderr
-    assert [kept_then, ask(ROOT, tmp_path / "cache")] == [NOTICE + "\n"] * 2
-
-
-ALONE = """
-import fcntl, os
-from numba.core import caching
-
-kept = caching.IndexDataCacheFile.save
-
-def save(self, key, data):
-    with open(os.path.join(self._cache_path, "lock"), "w") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            print("another could write")
-        except BlockingIOError:
-            print("alone")
-    kept(self, key, data)
-
-caching.IndexDataCacheFile.save = save
-"""
-
-
-def test_a_kernel_is_kept_by_one_process_at_a_time_in_folders_of_its_user_alone(tmp_path):
-    """Else a process would load what another compiled for other arguments, and crash."""
-    said = python("-c", f"import os\nos.umask(0)\n{ALONE}{ASK}", NUMBA_CACHE_DIR=str(tmp_path / "cache"))
-    assert said.returncode == 0 and set(said.stdout.split("\n")) == {"alone", ""}
-    made = [tmp_path / "cache", *(tmp_path / "cache").iterdir()]
-    assert len(made) > 1 and {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o700}
-
-
-def test_the_processor_is_the_common_one_unless_numba_is_there_before():
-    show = "import os; print(os.environ.get('NUMBA_CPU_NAME'))"
-    unset = dict.fromkeys(name for name in os.environ if name.startswith("NUMBA_CPU"))
-
-    def printed(*lines):
-        return python("-c", "\n".join([*lines, show]), place=ROOT, **unset).stdout
-
-    common = all(map(get_host_cpu_features().get, X86_64_V3)) and platform.machine() == "x86_64"
-    assert printed("import sheetbench.kernels") == f"{'x86-64-v3' if common else None}\n"
-    assert printed("import numba", "import sheetbench.kernels") == "None\n"
+def test_a_process_is_left_as_it_was(tmp_path):
+    done = python("-c", STATE, place=tmp_path, PYTHONPATH=str(ROOT))
+    assert done.returncode == 0, done.stderr
 
 
 class Inner(NamedTuple):
@@ -263,29 +289,6 @@ def numbers():
 """
 
 
-def test_compiling_collects_garbage_again_afterwards_and_counts_an_arrays_memory_alone():
-    @njit
-    def wrong(a):
-        return a.nothing
-
-    with pytest.raises(TypingError):
-        wrong(np.zeros(2))
-    assert gc.isenabled()
-    ((kind, _),) = default_manager.lookup(typeof(np.zeros((2, 2, 2, 2)))).traverse(None)
-    assert isinstance(kind, types.MemInfoPointer)
-
-    @njit
-    def passed(pair):
-        first, second = pair
-        return first, (second, first + second)
-
-    pair = np.zeros(2), np.ones(2)
-    before = [sys.getrefcount(each) for each in pair]
-    for _ in range(3):
-        passed(pair)
-    assert [sys.getrefcount(each) for each in pair] == before
-
-
 @pytest.mark.nightly  # half a minute of Python
 def test_they_give_what_compiled_ones_do():
     ran = python("-c", f"{UNCOMPILED}\nprint(json.dumps(numbers()))", NUMBA_DISABLE_JIT="1")
@@ -297,7 +300,7 @@ def test_they_give_what_compiled_ones_do():
         assert same == pytest.approx(flat, rel=1e-6, abs=1e-9 * max(map(abs, flat))), name
 
 
-def test_what_two_models_need_is_compiled_side_by_side_where_none_is_kept(monkeypatch, tmp_path):
+def test_what_two_models_need_is_compiled_side_by_side_where_none_is_compiled_before(monkeypatch):
     started = []
 
     def beside(command, **options):
@@ -307,7 +310,8 @@ def test_what_two_models_need_is_compiled_side_by_side_where_none_is_kept(monkey
     monkeypatch.setattr(solve, "Popen", beside)
     solve.warm_both("lumped", "shell")
     assert [code.split("; ")[-1] for code in started] == ["warm('shell')"]
-    maps.product(maps.Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0]))
-    assert kept(maps.__file__)
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    assert not kept(maps.__file__)
+    sparse_products.product(
+        sparse_products.Rows(np.array([0, 1]), np.array([0]), np.array([2.0])), np.array([3.0])
+    )
+    assert compiled_before(sparse_products.__file__)
+    assert not compiled_before(__file__)

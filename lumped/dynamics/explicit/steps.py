@@ -19,8 +19,8 @@ from lumped.pressure import add_couples, add_surface_forces
 from lumped.springs.all_forces import THREE, at_places, average, share_out
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_FALSE, NUMBA_TRUE, OPTIONS
-from sheetbench.numerics.memory import zeros
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.aliasing import zeros
+from sheetbench.numerics.options import inner, njit
 
 
 class ExplicitLoads(NamedTuple):

@@ -15,8 +15,8 @@ from lumped.dynamics.damping import MovingForces, add_forces
 from lumped.dynamics.system import System
 from lumped.springs.tiles import NUMBA_TRUE
 from sheetbench.numerics import banded
-from sheetbench.numerics.maps import Rows, add_product, csr_arrays
-from sheetbench.numerics.typed import njit, typed
+from sheetbench.numerics.options import njit, typed
+from sheetbench.numerics.sparse_products import Rows, add_product, csr_arrays
 
 
 class Arrays(NamedTuple):

@@ -20,8 +20,8 @@ from lumped.dynamics.implicit.compiled_newton import (
     iterate,
 )
 from lumped.springs.tiles import NUMBA_FALSE
-from sheetbench.numerics.memory import empty
-from sheetbench.numerics.typed import njit
+from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.options import njit
 
 
 class Stages(NamedTuple):

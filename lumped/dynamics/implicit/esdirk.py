@@ -29,7 +29,7 @@ from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of, natural_power, obstacle_power
 from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.newton import SOLVED
-from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.reduced_system import SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, require_error

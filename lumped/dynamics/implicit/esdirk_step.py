@@ -19,7 +19,7 @@ from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMM
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of
-from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.reduced_system import SingularMatrixError
 from sheetbench.numerics.time.method import StepFailed
 
 POWERS = np.arange(len(CUMULATIVE))

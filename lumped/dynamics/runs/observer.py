@@ -18,10 +18,10 @@ from lumped.mid_surface import MidSurface
 from lumped.springs.tiles import NUMBA_TRUE
 from lumped.statics.faults import fastest, inspect
 from lumped.statics.problem import STRETCH
+from sheetbench.numerics.aliasing import empty
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.numerics.maps import Rows, add_product, csr_arrays, product
-from sheetbench.numerics.memory import empty
-from sheetbench.numerics.typed import njit, typed
+from sheetbench.numerics.options import njit, typed
+from sheetbench.numerics.sparse_products import Rows, add_product, csr_arrays, product
 from sheetbench.runs.record import columns_of, width
 from sheetbench.scenes import outside_model
 

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from sheetbench.numerics.reduced import SingularMatrixError
+from sheetbench.numerics.reduced_system import SingularMatrixError
 
 SAFETY = 0.9
 

@@ -89,7 +89,7 @@ def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, mod
     scene = load("one-edge-clamped")
     monkeypatch.setattr(direct, "signed_factors", lambda data, fronts: None)
     monkeypatch.setattr(direct, "rslab", None)
-    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr("sheetbench.numerics.reduced_system.BANDED_LIMIT", 0.0)
     monkeypatch.setattr(direct, "_superlu", lambda matrix, columns: Factor(matrix, splu(columns).solve))
     found = equilibrium(scene, model, (7, 6), 4)  # whose factors no other test has kept
     monkeypatch.undo()

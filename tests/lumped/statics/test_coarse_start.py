@@ -18,7 +18,7 @@ def counts_as_large(monkeypatch):
     """Lattices of a few hundred unknowns count as large."""
     monkeypatch.setattr(solver, "FROM", 500)
     monkeypatch.setattr(problem, "ITERATED", 500)
-    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr("sheetbench.numerics.reduced_system.BANDED_LIMIT", 0.0)
 
 
 def answers(scene, grid, monkeypatch, **options):

@@ -15,7 +15,7 @@ from sheetbench.numerics import banded, direct
 from sheetbench.numerics.direct import CHOLESKY, DirectSolver, SingularMatrixError
 from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.multifrontal import signed_factors
-from sheetbench.numerics.reduced import reduction
+from sheetbench.numerics.reduced_system import reduction
 from sheetbench.numerics.saddle_point import ROUNDED
 from sheetbench.numerics.sparsity import Pattern
 from sheetbench.scenes import load
@@ -208,7 +208,7 @@ def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_o
         gravity=None, supports=({"edge": "x0", "kind": "clamped"},),
         loads=({"kind": "edge", "edge": "x1", "force_per_length": (-30.0, 0.0, 0.0)},),
     )  # fmt: skip
-    monkeypatch.setattr("sheetbench.numerics.reduced.BANDED_LIMIT", 0.0)
+    monkeypatch.setattr("sheetbench.numerics.reduced_system.BANDED_LIMIT", 0.0)
     monkeypatch.setattr(direct, "rslab", None)
     monkeypatch.setattr(direct, "splu", None)
     problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))

@@ -14,19 +14,18 @@ from typing import Any
 import numpy as np
 from numba.core import cgutils, config, types
 from numba.core.errors import TypingError
-from numba.core.typing.npydecl import parse_dtype
 from numba.extending import intrinsic
-from numba.np import arrayobj
-from numba.np.arrayobj import make_array
+
+from sheetbench.numerics.options import inner
 
 KINDS = 6  # of memory, 0 to 5: what an access of one kind reaches no access of another does
 
 
 def _access(kind: Any, context: Any, builder: Any, signature: Any, args: Any) -> tuple[Any, Any]:
     """A function from places to pointers, and one that marks an instruction with the scopes of an access."""
-    array = make_array(signature.args[1])(context, builder, args[1])
+    array = context.make_array(signature.args[1])(context, builder, args[1])
     module = builder.module
-    domain = module.add_metadata(["sheetbench.numerics.memory"])
+    domain = module.add_metadata(["sheetbench.numerics.aliasing"])
     scopes = [module.add_metadata([f"memory {other}", domain]) for other in range(KINDS)]
     own = scopes.pop(kind.literal_value)
 
@@ -89,25 +88,17 @@ def _store_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, values: Any) 
     return types.none(kind, array, types.uint64, types.uint64, given), generate
 
 
-def _made(zero: bool) -> Any:
-    """A function from a shape and a type of numbers, float64 unless given, to a new array, in place: numba
-    compiles NumPy's for each kind of shape, numbers and options anew, a tenth of what kernels take."""
+@inner()
+def empty(shape: Any, dtype: Any = np.float64) -> np.ndarray:
+    """Return a new array; of one compiled function for all shapes of so many axes, where numba compiles
+    NumPy's for each kind of its arguments."""
+    return np.empty(shape, dtype)
 
-    def made(_: Any, shape: Any, dtype: Any = None) -> Any:
-        numbers = types.float64 if dtype is None else parse_dtype(dtype)
-        axes = len(shape) if isinstance(shape, types.BaseTuple) else 1
-        found = types.Array(numbers, axes, "C")
 
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            sizes = arrayobj._parse_shape(context, builder, shape, args[0])
-            array = arrayobj._empty_nd_impl(context, builder, found, sizes)
-            if zero:
-                cgutils.memset(builder, array.data, builder.mul(array.itemsize, array.nitems), 0)
-            return array._getvalue()
-
-        return found(shape, types.none if dtype is None else dtype), generate
-
-    return intrinsic(made)
+@inner()
+def zeros(shape: Any, dtype: Any = np.float64) -> np.ndarray:
+    """Return a new array of zeros, as `empty`."""
+    return np.zeros(shape, dtype)
 
 
 constant: Any = intrinsic(prefer_literal=True)  # kinds and counts: types of literals are tried first
@@ -115,11 +106,8 @@ load: Any = constant(_load)
 load_each: Any = constant(_load_each)
 store: Any = constant(_store)
 store_each: Any = constant(_store_each)
-empty, zeros = _made(zero=False), _made(zero=True)
 
 if getattr(config, "DISABLE_JIT", False):  # the same in Python, where kernels are not compiled
-    empty, zeros = np.empty, np.zeros
-
     def load(kind: int, array: np.ndarray, i: int) -> Any:
         return load_each(kind, array, i, 0, 1)[0]
 

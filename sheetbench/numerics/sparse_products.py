@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
-from sheetbench.numerics.memory import zeros
-from sheetbench.numerics.typed import inner, njit, typed
+from sheetbench.numerics.aliasing import zeros
+from sheetbench.numerics.options import inner, njit, typed
 
 
 class Rows(NamedTuple):

@@ -1,5 +1,8 @@
-"""What was found for the same arrays before: meshes, patterns and orders of elimination are the same from one
-solution to the next, whatever the material and the loads. Arrays that several hold cannot be written to."""
+"""Cache of results by the content of array arguments.
+
+Meshes, patterns and orders of elimination are equal from one solution to the next, whatever the material and
+the loads. Arrays of a cached result are read-only.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ Found = TypeVar("Found")
 
 
 def frozen(shared: Found) -> Found:
-    """What is shared, its arrays read-only: an array, or tuples of them."""
+    """Make an array, or the arrays in nested tuples, read-only; return it."""
     if isinstance(shared, np.ndarray):
         shared.flags.writeable = False
     elif isinstance(shared, tuple):
@@ -28,14 +31,15 @@ def _bytes(*given: object, **_: object) -> float:
     return sum(one.nbytes for one in given if isinstance(one, np.ndarray))
 
 
-def kept(
+def cached(
     last: int, most: int, size: Callable[..., float] = _bytes
 ) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
-    """For a function of arrays and of what can be hashed: its last results, read-only, are given again where
-    all arguments are the same; of arguments whose `size`, in bytes unless given, is beyond `most` none is
-    kept. `forget` drops them.
+    """Decorate a function of arrays and hashable arguments with a cache of its `last` results, read-only.
 
-    >>> square = kept(last=2, most=100)(lambda a: a**2)
+    Results for arguments whose `size`, in bytes unless given, exceeds `most` are not cached. The function's
+    attribute `forget` empties the cache.
+
+    >>> square = cached(last=2, most=100)(lambda a: a**2)
     >>> square(np.arange(3)) is square(np.arange(3))
     True
     """

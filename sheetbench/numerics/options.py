@@ -15,6 +15,8 @@ from numba import typeof
 from numba.core import config
 from numba.extending import register_jitable, typeof_impl
 
+import sheetbench.kernels  # noqa: F401  # where compiled kernels are kept
+
 # the same for all, since numba compiles a function again for callers with other options; no wrappers for C,
 # a tenth of what compiling takes
 COMMON: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}

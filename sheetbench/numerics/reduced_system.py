@@ -18,6 +18,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from sheetbench.numerics import banded
+from sheetbench.numerics.aliasing import empty, zeros
+from sheetbench.numerics.cache import cached
 from sheetbench.numerics.direct import (
     CHOLESKY,
     Count,
@@ -27,10 +29,8 @@ from sheetbench.numerics.direct import (
     SingularMatrixError,
 )
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
-from sheetbench.numerics.kept import kept
-from sheetbench.numerics.memory import empty, zeros
+from sheetbench.numerics.options import njit
 from sheetbench.numerics.saddle_point import Saddle
-from sheetbench.numerics.typed import njit
 
 BANDED_LIMIT = (
     2.0e7  # multiplications, n × bandwidth², below which the banded Cholesky is quicker than the sparse one
@@ -170,7 +170,7 @@ def reduced(pattern: BlockPattern, transform: sp.csr_array, symmetric: bool) -> 
     return _reduced(pattern, transform.shape, pointers, columns, transform.data, symmetric)
 
 
-@kept(last=16, most=150_000)
+@cached(last=16, most=150_000)
 def _reduced(
     pattern: BlockPattern,
     shape: tuple[int, int],

@@ -16,8 +16,8 @@ from lumped.calibration import Calibration
 from lumped.lattice import Lattice
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
-from lumped.springs.cell_laws import AREA_AND_STRAINS, ENERGIES
 from lumped.springs.families import Links, SpringCells
+from lumped.springs.law_table import AREA_AND_STRAINS, ENERGIES
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve
 from sheetbench.answers.solution import Status
@@ -42,7 +42,7 @@ class LinkTable:
 
 @dataclass(frozen=True)
 class CellTable:
-    """Springs of one kind of `lumped.springs.cell_laws.ENERGIES`: corners (c, 4, p), the masses whose mean
+    """Springs of one kind of `lumped.springs.law_table.ENERGIES`: corners (c, 4, p), the masses whose mean
     each corner is; rest_area (c,) [m²]; natural (c, 3) [m²], A·A, B·B and A·B of the mean sides without
     stress; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n) [N·s/m]; energy: its
     formula."""

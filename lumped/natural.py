@@ -22,8 +22,8 @@ from dataclasses import replace
 import numpy as np
 
 from lumped.lattice import Lattice
-from lumped.springs.cell_laws import AREA_AND_STRAINS
 from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
+from lumped.springs.law_table import AREA_AND_STRAINS
 from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState

@@ -16,9 +16,9 @@ import numpy as np
 from lumped.assembly import Assembly
 from lumped.dynamics import drag
 from lumped.springs.all_families import AllFamilies, table_dampers
-from lumped.springs.all_forces import add_forces as add_spring_forces
-from lumped.springs.all_forces import resist_again
 from lumped.springs.families import Family
+from lumped.springs.packed_forces import add_forces as add_spring_forces
+from lumped.springs.packed_forces import resist_again
 from lumped.springs.packing import Packing, Scratch
 from sheetbench.numerics.options import njit
 from sheetbench.scenes import Scene

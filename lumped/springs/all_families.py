@@ -20,9 +20,9 @@ from lumped.pattern import SHARED_UP_TO, MassPattern
 from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
 from lumped.springs import cells, links
-from lumped.springs.cell_laws import FACE, RUBBER, measures
 from lumped.springs.cells import CellArrays
 from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, SpringCells
+from lumped.springs.law_table import FACE, RUBBER, measures
 from lumped.springs.links import LinkArrays
 from sheetbench.errors import BadInput
 from sheetbench.numerics.aliasing import zeros

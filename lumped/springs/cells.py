@@ -4,7 +4,7 @@ A cell whose four corners, in turn, are the means of p masses each has the mean 
 b = (d1 + d2)/2, d1 and d2 its diagonals, and the measure g = (a·a, b·b, a·b); its area is √(det g), exact for
 a flat cell, that of the mid-point parallelogram doubled for a warped one. What its corners have beside mean
 sides, warped or bent in the plane, is q = p₀ − p₁ + p₂ − p₃, 0 at rest, and s = q·q. What its springs store
-is a law of g, of rubber also of s (`lumped.springs.cell_laws`); rigid motions leave both alone. With S =
+is a law of g, of rubber also of s (`lumped.springs.law_table`); rigid motions leave both alone. With S =
 dW/dg, D = d²W/dg² and the change δ of g,
 
     forces      f_a = 2 S₁ a + S₃ b,   f_b = 2 S₂ b + S₃ a,   f_q = 2 S₄ q
@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.springs.cell_blocks import add_blocks, by_sides, by_warp, to_diagonals
-from lumped.springs.cell_laws import (
+from lumped.springs.law_table import (
     Tag,
     constants_of,
     extrapolate,

@@ -14,8 +14,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from lumped.springs import cells, laws, links
-from lumped.springs.cell_laws import AREA_AND_STRAINS, CellLaw
 from lumped.springs.cells import CellArrays
+from lumped.springs.law_table import AREA_AND_STRAINS, CellLaw
 from lumped.springs.links import LinkArrays
 from sheetbench.numerics.options import typed
 

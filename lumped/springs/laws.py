@@ -11,7 +11,7 @@ part M = Σ k ∇ε ∇εᵀ of the strains ε that an energy ½ Σ k ε² is of
 have the stress M ġ. Laws take the change δg since rest, not g alone: where it is small no digits are lost.
 
 Laws of cells take and return one measure more, s = q·q of what the corners have beside mean sides
-(`lumped.springs.cells`); they are the rows of `lumped.springs.cell_laws.LAWS`.
+(`lumped.springs.cells`); they are the rows of `lumped.springs.law_table.LAWS`.
 
 A rubber membrane, at any strain, is per volume and with C the cell's deformation tensor in its plane,
 T = tr C, A = det C and θ = t² of the thickness stretch t at which nothing pulls there

@@ -18,8 +18,8 @@ import numpy as np
 
 from lumped.lattice import Lattice
 from lumped.pattern import PATTERN_CACHE, SHARED_UP_TO
-from lumped.springs.cell_laws import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.families import NO_CELLS, Family, Links, SpringCells
+from lumped.springs.law_table import AREA_AND_STRAINS, FACE, RUBBER, AreaAndStrains, Tag
 from lumped.springs.tiles import CELL_DATA, CELL_SHAPE, LANES, LAW, LINK_DATA, LINK_SHAPE, STRIDE, USED, WIDTH
 from sheetbench.numerics.cache import cached
 from sheetbench.scenes.objects.grid import Grid

@@ -30,7 +30,7 @@ from typing import Any
 
 import numpy as np
 
-from lumped.springs.cell_laws import LAWS, Tag, constants, measures, respond
+from lumped.springs.law_table import LAWS, Tag, constants, measures, respond
 from lumped.springs.laws import times_six
 from sheetbench.numerics.aliasing import load, load_each, store, store_each
 from sheetbench.numerics.options import inner, njit

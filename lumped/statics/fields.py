@@ -14,8 +14,8 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.springs import cells
-from lumped.springs.cell_laws import FACE
 from lumped.springs.families import SpringCells
+from lumped.springs.law_table import FACE
 from sheetbench.answers.solution import FieldMesh
 
 NO_FIELDS: Mapping[str, np.ndarray] = {}

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.pressure import add_couples, add_surface_forces
-from lumped.springs.all_forces import THREE, at_places, average, share_out
+from lumped.springs.packed_forces import THREE, at_places, average, share_out
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_FALSE, NUMBA_TRUE, OPTIONS
 from sheetbench.numerics.aliasing import zeros

@@ -32,7 +32,7 @@ def test_importing_the_command_line_imports_nothing_heavy():
 
 
 UNUSED = ("matplotlib", "pyvista", "vtkmodules", "meshio", "pandas", "fem_reference.solid", "lumped.dynamics")
-UNUSED += ("scipy.optimize", "scipy.interpolate", "scipy.spatial", "scipy.stats", "numba.cpython.printimpl")
+UNUSED += ("scipy.optimize", "scipy.interpolate", "scipy.spatial", "scipy.stats")
 UNUSED += ("multiprocessing", "sqlite3", "shapely")
 COMPARE = """
 import sys

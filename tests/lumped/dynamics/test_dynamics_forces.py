@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from lattice_cases import ALL, assembly_of, dense, derivative, state
 
 from lumped.springs.all_families import AllFamilies
-from lumped.springs.all_forces import add_forces
+from lumped.springs.packed_forces import add_forces
 from lumped.springs.packing import pack, scratch
 
 pytestmark = pytest.mark.smoke

@@ -5,8 +5,8 @@ import pytest
 from lattice_cases import derivative
 
 from lumped.springs import cells
-from lumped.springs.cell_laws import AREA_AND_STRAINS, LAWS, AreaAndStrains, mean_stress
 from lumped.springs.cells import CellArrays
+from lumped.springs.law_table import AREA_AND_STRAINS, LAWS, AreaAndStrains, mean_stress
 from lumped.springs.laws import area_and_strains, of_stiffness
 
 SIDES = {

@@ -10,7 +10,7 @@ import numpy as np
 
 from lumped.springs import packing as kinds
 from lumped.springs import tiles
-from lumped.springs.cell_laws import AreaAndStrains
+from lumped.springs.law_table import AreaAndStrains
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import LANES, NUMBA_FALSE, NUMBA_TRUE, OPTIONS, R6, R11
 from sheetbench.numerics.options import njit

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numba.extending import overload
@@ -39,6 +39,7 @@ class Face(NamedTuple):
 
 
 Tag = AreaAndStrains | Rubber | Face
+T = TypeVar("T", bound=Callable[..., Any])
 
 
 @inner()
@@ -172,25 +173,56 @@ LAWS = (AREA_AND_STRAINS, RUBBER, FACE)
 _OF = {law.tag: law for law in LAWS}
 
 
-def _of_law(part: str) -> Any:
-    """Return the function of a tag that stands for this part of its law, a function or a number; compiled, it
-    is that part."""
-
-    def call(tag: Tag, *given: Any) -> Any:
-        found = getattr(_OF[type(tag)], part)
-        return found(*given) if given else found
+def _compiled_by_tag(call: T) -> T:
+    """Have compiled callers of a function of a tag call the part of its name of that tag's law."""
+    part = call.__name__
 
     @overload(call, strict=False)
     def _(tag: Any, *given: Any) -> Any:
-        found = getattr(_OF[tag.instance_class], part)
-        return (lambda tag, *given: found(*given)) if given else (lambda tag, *given: found)
+        of_law = getattr(_OF[tag.instance_class], part)
+        return (lambda tag, *given: of_law(*given)) if given else (lambda tag, *given: of_law)
 
     return call
 
 
-respond, stiffness = _of_law("respond"), _of_law("stiffness")
-extrapolate, of_extrapolated = _of_law("extrapolate"), _of_law("of_extrapolated")
-measures, count = _of_law("measures"), _of_law("count")
+@_compiled_by_tag
+def respond(tag: Tag, d: Four, g: Three, area: float, k: Constants) -> tuple[float, Any, Four]:
+    """Return the energy [J], the memory that `stiffness` takes, and the stress S (`CellLaw.respond`)."""
+    return _OF[type(tag)].respond(d, g, area, k)  # type: ignore[no-any-return]
+
+
+@_compiled_by_tag
+def stiffness(
+    tag: Tag, d: Four, g: Three, area: float, memory: Any, share: float, k: Constants
+) -> tuple[Six, Four]:
+    """Return M + share (D − M), of g and of s (`CellLaw.stiffness`)."""
+    return _OF[type(tag)].stiffness(d, g, area, memory, share, k)  # type: ignore[no-any-return]
+
+
+@_compiled_by_tag
+def extrapolate(
+    tag: Tag, d: Four, g: Three, area: float, memory: Any, stress: Four, k: Constants, rate: Four
+) -> Four:
+    """Return the prediction of the linearisation for this rate of g and s (`CellLaw.extrapolate`)."""
+    return _OF[type(tag)].extrapolate(d, g, area, memory, stress, k, rate)  # type: ignore[no-any-return]
+
+
+@_compiled_by_tag
+def of_extrapolated(tag: Tag, d: Four, g: Three, memory: Any, predicted: Four) -> tuple[Any, Four]:
+    """Return the memory and the stress of a prediction (`CellLaw.of_extrapolated`)."""
+    return _OF[type(tag)].of_extrapolated(d, g, memory, predicted)  # type: ignore[no-any-return]
+
+
+@_compiled_by_tag
+def measures(tag: Tag) -> int:
+    """Return the number of measures, 3, or 4 with s."""
+    return _OF[type(tag)].measures
+
+
+@_compiled_by_tag
+def count(tag: Tag) -> int:
+    """Return the number of constants of a cell."""
+    return _OF[type(tag)].count
 
 
 def constants(tag: Tag, first: Any, apart: Any) -> Any:

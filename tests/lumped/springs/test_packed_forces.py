@@ -9,7 +9,7 @@ from lattice_cases import state as lattice_state
 import lumped
 from lumped import System, build_problem
 from lumped.springs.all_families import AllFamilies
-from lumped.springs.all_forces import add_forces
+from lumped.springs.packed_forces import add_forces
 from lumped.springs.packing import pack, scratch
 from sheetbench import scenes
 from sheetbench.scenes import PerDirection

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from comparisons.cli.options import LatticeOptions, Seconds
+from comparisons.cli.options import LatticeOptions, Models, Seconds
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from sheetbench.choices import REFERENCE
@@ -24,7 +24,7 @@ def command(
     *,
     elements: str | None = None,
     law: str | None = None,
-    model: list[str] | None = None,
+    model: Models = None,
     uncertainty: bool | None = None,
     branch: str | None = None,
     duration: Seconds = None,

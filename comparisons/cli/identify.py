@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-from comparisons.cli.options import Kind, LatticeOptions, Listed, Metres
+from comparisons.cli.options import Kind, LatticeOptions, Metres
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 
@@ -16,7 +16,7 @@ OF_SCENE = "scene measured unknown model elements law offset refine lattice grid
 def command(
     scene: str | None = None,
     measured: Path | None = None,
-    unknown: Listed = None,
+    unknown: list[str] | None = None,
     *,
     lattice: LatticeOptions,
     tensile: list[str] | None = None,
@@ -45,11 +45,11 @@ def command(
         unknown (NAMES): young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other
             constants of fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE,
             tilt_EDGE (of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch,
-            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z; several with
-            commas. Default: young.
-        tensile (FILE): A tensile test instead: CSV with stretch, strain or displacement, and
+            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z. Default:
+            young.
+        tensile (FILES): A tensile test instead: CSV with stretch, strain or displacement, and
             engineering_stress, true_stress or force, each with its unit (force [N]); pure-shear=FILE or
-            equibiaxial=FILE of other tests. May be repeated.
+            equibiaxial=FILE of other tests.
         up_to (STRETCH): With --tensile: ignore data beyond this stretch.
         area (M2): With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².
         gauge (M): With --tensile and a displacement: undeformed length, 33mm.

@@ -28,7 +28,9 @@ HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "n
 
 OURS = ("sheetbench", "comparisons", "lumped", "fem_reference", "studies")
 HELPED = {"sheetbench", "sheetbench.choices", "sheetbench.clock", "sheetbench.heap"}
-HELPED |= {f"comparisons{name}" for name in ("", ".sweep", ".sweep.interrupts", ".tradeoff", ".tradeoff.usual")}
+HELPED |= {
+    f"comparisons{name}" for name in ("", ".sweep", ".sweep.interrupts", ".tradeoff", ".tradeoff.usual")
+}
 IMPORTED = """
 import sys
 from comparisons.cli import main

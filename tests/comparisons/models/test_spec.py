@@ -94,8 +94,8 @@ def held(*edges, poisson=0.3, softer=1.0):
 
 def test_a_trade_names_the_springs_that_auto_takes():
     """Each once, on every grid, with the reason; what is named outright stays."""
-    methods = "consistent,consistent-membrane,auto"
-    found, reasons = of_lattices(RUBBER, Lattice(), "3,5", methods)
+    methods = ["consistent", "consistent-membrane", "auto"]
+    found, reasons = of_lattices(RUBBER, Lattice(), ["3", "5"], methods)
     names = [candidate.settings["calibration"] for candidate in found]
     assert names == [*2 * ["consistent"], *2 * [MEMBRANE]]
     assert reasons == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)

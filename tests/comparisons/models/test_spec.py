@@ -57,7 +57,7 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
     (lambda scene: sb.simulate(scene, lattice=sb.Lattice(masses="gregory")), "masses: no effect on motion"),
     (lambda scene: sb.tradeoff(scene, tolerance=0.1, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
     (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),
-    (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'"),
+    (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'; it has elements, graded"),
 ])  # fmt: skip
 def test_what_does_not_go_with_a_question_is_refused(ask, said):
     with pytest.raises(sb.BadInput, match=said):

@@ -9,7 +9,7 @@ from comparisons.cli.options import Kind, LatticeOptions, Metres
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 
-OF_SCENE = "scene measured unknown model elements law offset refine lattice grid calibration k"
+OF_SCENE = "scene measured uncertainty unknown model elements law offset refine lattice grid calibration k"
 
 
 @no_effect(with_tensile=f"{OF_SCENE} layer_distance grading", without_tensile="area gauge up_to")
@@ -27,6 +27,7 @@ def command(
     elements: str | None = None,
     law: str | None = None,
     offset: Metres = None,
+    uncertainty: Metres = None,
     refine: bool = True,
     large: bool = False,
     output: PictureOptions,
@@ -57,6 +58,8 @@ def command(
         elements (N): The shell's or solid's elements along the shorter side, or 8x4 along x and y; default:
             {ELEMENTS}.
         offset (M): Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.
+        uncertainty (M): Standard deviation of every measured number, 0.001 or 1mm; a column sd [mm] has that
+            of each row. Default: that of the residuals.
         refine: Look at other cells or elements too, for their error.
     """
     from sheetbench.errors import BadInput
@@ -87,6 +90,7 @@ def command(
                 elements=None if elements is None else parse_elements(elements),
                 law=law,
                 offset=offset or 0.0,
+                uncertainty=uncertainty,
                 refine=refine,
             )
         except NotReached as error:

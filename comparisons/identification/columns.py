@@ -26,7 +26,7 @@ from sheetbench.scenes.objects.quantities import LARGEST
 
 LARGEST_FILE = 2**28  # bytes
 SEPARATORS = ";\t,"
-MOTION = {"time": "s", "seconds": "s", **dict.fromkeys(("x", "y", "z", "ux", "uy", "uz"), "m")}
+MOTION = {"time": "s", "seconds": "s", **dict.fromkeys(("x", "y", "z", "ux", "uy", "uz", "sd"), "m")}
 _COMMA, _POINT = (re.compile(rf"[+-]?(\d+{mark}\d*|{mark}\d+)([eE][+-]?\d+)?") for mark in (",", r"\."))
 _NUMBER = re.compile(r"[+-]?[\d.,]+([eE][+-]?\d+)?")
 _CELL, _HEADED = re.compile(rf"[^{SEPARATORS}]+"), re.compile(r"(.*?)\s*(?:[\[(]([^\])]*)[\])])?")

@@ -66,7 +66,7 @@ def check(model: str, requested: Mapping[str, Any]) -> None:
         if name == "elements":
             continue
         if name not in known:
-            raise BadInput(f"{model}: no option '{name}'; it has {', '.join(known)}")
+            raise BadInput(f"{model}: no option '{name}'; it has {', '.join(['elements', *known])}")
         if isinstance(known[name], bool | int | str) and type(value) is not type(known[name]):
             raise BadInput(f"{model}: {name} = {value!r}: not a value like {known[name]!r}")
         if name == "law":

@@ -101,6 +101,7 @@ OF_VERB = {
     ("modes", "--reference"): "plate",
     ("verify", "--case"): "strain-laws",
     ("identify", "--model"): "solid",
+    ("identify", "--uncertainty"): "1mm",
 }
 SHELL = f"{SEED} --measured measured.csv --model shell --elements 2"
 MOVING = f"{SETTLING} --lumped 3,4 --plate= --shell 2 --solid= --elements 3 --workers 1 --duration 0.002"

@@ -66,12 +66,16 @@ def _version_or_help(
     version: bool = typer.Option(False, "-V", "--version", help="Print the version and stop."),
 ) -> None:
     if version:
-        from importlib.metadata import version as version_of
-
-        print(f"sheetbench {version_of('sheetbench')}")
+        _print_version()
         raise typer.Exit
     if context.invoked_subcommand is None:
         print(context.get_help(), end="")
+
+
+def _print_version() -> None:
+    from importlib.metadata import version
+
+    print(f"sheetbench {version('sheetbench')}")
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -89,6 +93,9 @@ def main(arguments: list[str] | None = None) -> None:
             raise SystemExit(BAD_INPUT)
     if arguments == sys.argv[1:]:
         startup.begin()
+    if arguments in (["--version"], ["-V"]):  # typer would import pydantic to read the flag
+        _print_version()
+        raise SystemExit(0)
     called = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one is read sooner
     command = verb_group(called, boxes=get_terminal_size().columns >= BOXES)
     with interruption.heeded(), messages.in_lines():

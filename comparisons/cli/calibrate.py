@@ -60,7 +60,7 @@ def command(
             side.
         hinge (WEIGHT): With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height,
             w = 3 length² over the area of both triangles. Default: length.
-        coefficient (NAME=VALUE): With --cell: use this in place of the one found. May be repeated.
+        coefficient (NAME=VALUE): With --cell: use this in place of the one found.
         loss_factor (ETA): Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band; of a decay
             2Λ/√(4π² + Λ²), Λ = ln(peak/next peak).
         at (HZ): One damper per spring: the loss factor is right at this frequency only.

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from comparisons.cli.options import LatticeOptions, Seconds
+from comparisons.cli.options import LatticeOptions, Models, Seconds
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
-from sheetbench.answers.solution import Solution
 from sheetbench.choices import REFERENCE
+
+if TYPE_CHECKING:
+    from sheetbench.answers.solution import Solution
 
 FRAMES = 100  # of a motion
 
@@ -22,7 +24,7 @@ def command(
     *,
     elements: str | None = None,
     law: str | None = None,
-    model: list[str] | None = None,
+    model: Models = None,
     uncertainty: bool | None = None,
     branch: str | None = None,
     duration: Seconds = None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from comparisons.cli.options import CampaignOptions, Listed, SpringOptions
+from comparisons.cli.options import CampaignOptions, SpringOptions
 from comparisons.cli.output import PictureOptions
 
 SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
@@ -14,13 +14,13 @@ def command(
     scenes: list[str],
     lattice: SpringOptions,
     *,
-    grid: Listed = None,
+    grid: list[str] | None = None,
     calibration: str | None = None,
-    plate: Listed = None,
-    shell: Listed = None,
-    solid: Listed = None,
-    judges: Listed = None,
-    meshes: Listed = None,
+    plate: list[str] | None = None,
+    shell: list[str] | None = None,
+    solid: list[str] | None = None,
+    judges: list[str] | None = None,
+    meshes: list[str] | None = None,
     large: bool = False,
     campaign: CampaignOptions,
     output: PictureOptions,
@@ -38,17 +38,16 @@ def command(
             {SIZES[shell]}.
         solid (N,N,N): Elements of the nonlinear solid along the shorter side, in rising order. Default:
             {SIZES[solid]}.
-        judges (NAMES): External codes, with commas, or FILE.py:OBJECT; default: all that are installed.
+        judges (NAMES): External codes, or FILE.py:OBJECT; default: all that are installed.
         meshes (N,N,N): Elements of external codes. Default: each code's own.
     """
     from comparisons.comparison.crosscheck import candidates, crosscheck, load_scenes
     from comparisons.external.answer import find_codes
-    from comparisons.models.spec import items
     from sheetbench.errors import require_effect
 
-    codes = find_codes(None if judges is None else items(judges))
+    codes = find_codes(judges)
     given = dict(zip(SIZES, (grid, plate, shell, solid), strict=True))
-    sizes = {name: SIZES[name] if text is None else text for name, text in given.items()}
+    sizes = {name: SIZES[name].split(",") if of is None else of for name, of in given.items()}
     if not codes:
         require_effect("without external codes", {"--meshes": meshes})
     models = candidates(sizes.pop("lumped"), lattice.spec.but(calibration=calibration), sizes, codes, meshes)

@@ -5,18 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-from comparisons.cli.options import Kind, LatticeOptions, Listed, Metres
+from comparisons.cli.options import Kind, LatticeOptions, Metres
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 
-OF_SCENE = "scene measured unknown model elements law offset refine lattice grid calibration k"
+OF_SCENE = "scene measured uncertainty unknown model elements law offset refine lattice grid calibration k"
 
 
 @no_effect(with_tensile=f"{OF_SCENE} layer_distance grading", without_tensile="area gauge up_to")
 def command(
     scene: str | None = None,
     measured: Path | None = None,
-    unknown: Listed = None,
+    unknown: list[str] | None = None,
     *,
     lattice: LatticeOptions,
     tensile: list[str] | None = None,
@@ -27,6 +27,7 @@ def command(
     elements: str | None = None,
     law: str | None = None,
     offset: Metres = None,
+    uncertainty: Metres = None,
     refine: bool = True,
     large: bool = False,
     output: PictureOptions,
@@ -45,11 +46,11 @@ def command(
         unknown (NAMES): young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other
             constants of fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE,
             tilt_EDGE (of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch,
-            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z; several with
-            commas. Default: young.
-        tensile (FILE): A tensile test instead: CSV with stretch, strain or displacement, and
+            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z. Default:
+            young.
+        tensile (FILES): A tensile test instead: CSV with stretch, strain or displacement, and
             engineering_stress, true_stress or force, each with its unit (force [N]); pure-shear=FILE or
-            equibiaxial=FILE of other tests. May be repeated.
+            equibiaxial=FILE of other tests.
         up_to (STRETCH): With --tensile: ignore data beyond this stretch.
         area (M2): With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².
         gauge (M): With --tensile and a displacement: undeformed length, 33mm.
@@ -57,6 +58,8 @@ def command(
         elements (N): The shell's or solid's elements along the shorter side, or 8x4 along x and y; default:
             {ELEMENTS}.
         offset (M): Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.
+        uncertainty (M): Standard deviation of every measured number, 0.001 or 1mm; a column sd [mm] has that
+            of each row. Default: that of the residuals.
         refine: Look at other cells or elements too, for their error.
     """
     from sheetbench.errors import BadInput
@@ -87,6 +90,7 @@ def command(
                 elements=None if elements is None else parse_elements(elements),
                 law=law,
                 offset=offset or 0.0,
+                uncertainty=uncertainty,
                 refine=refine,
             )
         except NotReached as error:

@@ -17,7 +17,7 @@ def command(
     scene: str,
     lattice: LatticeOptions,
     *,
-    elements: int = ELEMENTS,
+    elements: str = str(ELEMENTS),
     port: int = 0,
     browser: bool = True,
 ) -> None:
@@ -41,11 +41,12 @@ def command(
     from comparisons.comparison.comparison import load_static
     from comparisons.live.panel import Panel
     from comparisons.live.server import Server
+    from comparisons.models.grids import parse_elements
     from comparisons.models.resolve import resolve
 
     loaded = load_static(scene)
     meant = resolve(loaded, lattice.spec).spec
-    panel = Panel(loaded, elements, meant.but(grid=lattice.grid))
+    panel = Panel(loaded, parse_elements(elements), meant.but(grid=lattice.grid))
 
     # a browser's command line can be read by every user of the machine: it gets a file that only this one can
     with (

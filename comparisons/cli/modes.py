@@ -39,7 +39,7 @@ def command(
         count (N): How many modes, lowest first.
         masses (NAME): How the lattice's mass is lumped: {MASSES}. Default: higher-order, or the masses that
             springs were fitted with.
-        reference (MODEL): {REFERENCES}; may be repeated. Default: {REFERENCE}.
+        reference (MODELS): {REFERENCES}. Default: {REFERENCE}.
         about (flat|deformed): About the flat, stress-free sheet, or its equilibrium under its loads (lattice
             and shell). Default: flat; deformed with --state-space.
         buckling: Also the load factors at which the flat sheet buckles, with the shapes paired.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-from comparisons.cli.options import Listed, SheetOptions
+from comparisons.cli.options import SheetOptions
 
 SHEET = {"length_x": 0.3, "length_y": 0.2, "thickness": 0.002}  # unless given
 MATERIAL = {"young": 1.2e6, "poisson": 0.45, "density": 1100.0}
@@ -15,7 +15,7 @@ def command(
     file: Path,
     sheet: SheetOptions,
     *,
-    clamped: Listed = None,
+    clamped: list[str] | None = None,
     overwrite: bool = False,
 ) -> Path:
     """Write a commented scene to start from.
@@ -25,7 +25,8 @@ def command(
 
     Args:
         file (FILE, argument): The TOML file to write.
-        clamped (EDGES): x0, x1, y0, y1; several with commas. Default: x0.
+        density (KG/M3): Density: 1100 or 1.1g/cm3; default: 1100 kg/m³.
+        clamped (EDGES): x0, x1, y0, y1. Default: x0.
         overwrite: Replace the file where there is one.
     """
     from comparisons.cli import console
@@ -47,7 +48,7 @@ def command(
     of_sheet, of_material = (
         {key: given.get(key, usual[key]) for key in usual} for usual in (SHEET, MATERIAL)
     )
-    edges = list(dict.fromkeys(edge.strip() for edge in (clamped or "x0").split(",")))
+    edges = list(dict.fromkeys(clamped or ["x0"]))
     for edge in edges:
         require_choice("--clamped", edge, EDGES)
     text = template(file.stem, checked(Sheet, of_sheet), checked(Material, of_material), edges)

@@ -25,8 +25,8 @@ Args:
     elements (N): The reference's elements along the shorter side, or 8x4 along x and y.
     law (NAME): Law of strain of a shell or solid: {STRAIN_LAWS}. Default: the material's own, else
         {STRAIN_LAW}.
-    model (MODEL): A further model: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped,
-        plate, shell, solid; settings after it, as NAME:grid=9x5. May be repeated.
+    model (MODELS): Further models: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped,
+        plate, shell, solid; settings after it, as NAME:grid=9x5,k=550.
     export (DIR): Write the lattice for another simulator: masses, springs, supports, loads, values to check
         by.
     large: Solve models that need more memory than is free, instead of refusing them.
@@ -55,16 +55,16 @@ ENTRY = re.compile(r"\n    (\w+)(?: \(([^)]*)\))?: (.*(?:\n {8}.*)*)")
 @dataclass(frozen=True)
 class Kind:
     """What an option takes beyond its type. unit: SI, of a number that may have a unit of its own, as
-    `--thickness "2 mm"`; listed: several with commas; choices: these alone, checked before the command runs;
-    least: of a number."""
+    `--thickness "2 mm"`; choices: these alone, checked before the command runs; least: of a number;
+    separator: a regular expression of what stands between the items of a list."""
 
     unit: str | None = None
-    listed: bool = False
     choices: tuple[str, ...] = ()
     least: int | None = None
+    separator: str = ","
 
 
-Listed = Annotated[str | None, Kind(listed=True)]
+Models = Annotated[list[str] | None, Kind(separator=r",(?!\w+=)")]  # settings go on after a comma
 Metres = Annotated[float | None, Kind("m")]
 Seconds = Annotated[float | None, Kind("s")]
 Share = Annotated[float | None, Kind("")]
@@ -158,7 +158,7 @@ class SheetOptions(Group):
         young (PA): Young's modulus E: 6e5 or 0.6MPa.
         poisson (NU): Poisson's ratio ν.
         thickness (M): Thickness: 0.002 or 2mm.
-        density (KG/M3): Density: 1100 or 1.1g/cm3; default: 1000 kg/m³, of new 1100.
+        density (KG/M3): Density: 1100 or 1.1g/cm3; default: 1000 kg/m³.
         side (M): Sides: 0.188, 0.188x0.3 (x by y) or 12x4cm.
     """
 

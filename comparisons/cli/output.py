@@ -189,8 +189,15 @@ class OutputOptions(Group):
     json: bool = False
     out: str | None = None
     overwrite: bool = False
-    figure: str | None = None
+    figure: list[str] | None = None
     no_pictures: bool = False
+
+    @property
+    def styles(self) -> tuple[FigureStyle, ...]:
+        """The styles of pictures. Raises BadInput for formats that do not exist."""
+        from sheetbench.answers.figure_style import parse_figure
+
+        return parse_figure(None if self.figure is None else ",".join(self.figure))
 
     @contextmanager
     def open(
@@ -209,12 +216,11 @@ class OutputOptions(Group):
         the command.
         """
         from comparisons.models.context import running
-        from sheetbench.answers.figure_style import parse_figure
         from sheetbench.errors import NoEquilibrium
 
         if self.terminal:
             startup.end()
-        styles = parse_figure(self.figure)
+        styles = self.styles
         with ExitStack() as stack:
             folder = None
             if scene is not None:
@@ -249,8 +255,8 @@ class PictureOptions(OutputOptions):
     """The output of a verb that draws pictures.
 
     Args:
-        figure (FORMAT): With --out: pictures for a paper, without a title, as pdf, svg or png, several with
-            commas; pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).
+        figure (FORMATS): With --out: pictures for a paper, without a title, as pdf, svg or png;
+            pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).
         no_pictures: With --out: all files but the pictures.
     """
 

@@ -20,7 +20,7 @@ def command(
     With which sheets come nearest to the published tables, and what in them no sheet can have.
 
     Args:
-        part (NAME): Only {REPRODUCED}; may be repeated. Default: all.
+        part (NAMES): Only {REPRODUCED}. Default: all.
     """
     from comparisons.models.grids import parse_elements
     from comparisons.reproduction.reproduction import reproduce

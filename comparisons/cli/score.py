@@ -31,7 +31,7 @@ def command(
             is listed.
         suite (NAME): The suite answered or listed: {SUITES}. Default: by the header and cases of ANSWERS; all
             are listed.
-        case (NAME): Only this case; may be repeated.
+        case (NAMES): Only these cases.
     """
     from comparisons.scoring.score import score
     from comparisons.scoring.suite import Suite

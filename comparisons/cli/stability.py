@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from comparisons.cli.options import ClusterOptions, Count, Kind, LatticeOptions
+from comparisons.cli.options import ClusterOptions, Kind, LatticeOptions
 from comparisons.cli.output import PictureOptions
 from sheetbench.choices import REFERENCE, VARIED
 
@@ -15,7 +15,7 @@ def command(
     *,
     vary: Annotated[list[str] | None, Kind(choices=tuple(VARIED))] = None,
     reference: str = REFERENCE,
-    elements: Count = 12,
+    elements: str = "12",
     large: bool = False,
     campaign: ClusterOptions,
     output: PictureOptions,
@@ -26,16 +26,16 @@ def command(
     integrators the largest stable step is shown. With --out an interrupted run is resumed.
 
     Args:
-        vary (NAME): Only {VARIED}; may be repeated. Default: all.
+        vary (NAMES): Only {VARIED}. Default: all.
         reference (MODEL): What errors are measured from: {REFERENCES}.
-        elements (N): Elements of the references along the shorter side.
+        elements (N): Elements of the references along the shorter side, or 8x4 along x and y.
     """
+    from comparisons.models.grids import parse_elements
     from comparisons.stability.extremes import stability
-    from sheetbench.answers.figure_style import parse_figure
     from sheetbench.errors import BadInput
     from sheetbench.scenes import scene_of
 
-    if any(style.narrow for style in parse_figure(output.figure)):
+    if any(style.narrow for style in output.styles):
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     loaded = scene_of(scene)
     with output.open(scene=loaded) as out:
@@ -46,6 +46,6 @@ def command(
                 varied=vary or VARIED,
                 lattice=lattice.spec,
                 reference=reference,
-                elements=elements,
+                elements=parse_elements(elements),
             )
         return out.show(maps)

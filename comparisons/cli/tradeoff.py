@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated, Any
 
-from comparisons.cli.options import ClusterOptions, Kind, Listed, Seconds, Share, SpringOptions
+from comparisons.cli.options import ClusterOptions, Kind, Models, Seconds, Share, SpringOptions
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from comparisons.tradeoff import usual
@@ -26,16 +26,16 @@ def command(
     *,
     tolerance: Share = None,
     budget: Seconds = None,
-    grid: Listed = None,
-    calibration: Listed = None,
-    plate: Listed = None,
-    shell: Listed = None,
-    solid: Listed = None,
-    model: list[str] | None = None,
+    grid: list[str] | None = None,
+    calibration: list[str] | None = None,
+    plate: list[str] | None = None,
+    shell: list[str] | None = None,
+    solid: list[str] | None = None,
+    model: Models = None,
     elements: str | None = None,
     repeats: Annotated[int | None, Kind(least=1)] = None,
     duration: Seconds = None,
-    integrator: Listed = None,
+    integrator: list[str] | None = None,
     large: bool = False,
     campaign: ClusterOptions,
     output: PictureOptions,
@@ -55,7 +55,7 @@ def command(
         calibration (NAMES): Calibrations of every grid: {CALIBRATIONS}; auto: by the scene. Default:
             {usual.SPRINGS}; with --duration that of `simulate`.
         plate (ELEMENTS): Elements of the linear plate along the shorter side, or NxM; default:
-            {usual.MESHES[plate]}; {usual.MOVING[plate]} with --duration.
+            {usual.MESHES[plate]}.
         shell (ELEMENTS): Elements of the nonlinear shell along the shorter side, or NxM; default:
             {usual.MESHES[shell]}; {usual.MOVING[shell]} with --duration.
         solid (ELEMENTS): Elements of the nonlinear solid along the shorter side, or NxM; default:
@@ -69,7 +69,7 @@ def command(
     """
     from comparisons.comparison.comparison import load_static
     from comparisons.models.grids import parse_elements
-    from comparisons.models.spec import Elements, items, parse
+    from comparisons.models.spec import Elements, parse
     from comparisons.tradeoff import choices
     from comparisons.tradeoff.advisor import advise
     from comparisons.tradeoff.motion import dynamic_tradeoff
@@ -81,20 +81,21 @@ def command(
     meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
     if tolerance is not None or budget is not None:
         lists = {"lumped": grid, **meshes}
-        require_effect(
-            "with --tolerance or --budget", {f"--{name}": of or None for name, of in lists.items()}
-        )
+        require_effect("with --tolerance or --budget", {f"--{name}": of for name, of in lists.items()})
+        if len(calibration or ()) > 1:
+            raise BadInput("--calibration: with --tolerance or --budget one calibration")
         models = [name for name, of in lists.items() if of is None and name != "solid"]
+        springs = lattice.spec if not calibration else lattice.spec.but(calibration=calibration[0])
         with output.open(scene=loaded, variant={"--tolerance": True}) as out:
-            found = advise(loaded, tolerance, budget, lattice.spec, models=models, calibration=calibration)
+            found = advise(loaded, tolerance, budget, springs, models=models)
             return out.show(replace(found, called=scene) if isinstance(scene, str) else found)
-    own, meshes_of = lattice.spec, usual.MESHES if duration is None else usual.MOVING
+    own, meshes_of = lattice.spec, usual.MESHES | ({} if duration is None else usual.MOVING)
     others, extra = choices.of_references(meshes, meshes_of), list(map(parse, model or ()))
     reference = None if elements is None else Elements(REFERENCE, parse_elements(elements))
     if duration is not None:
         more: dict[str, Any] = {"lattices": choices.moving_lattices(own, grid, calibration)}
         measure: Any = dynamic_tradeoff
-        more |= {"duration": duration, "integrators": items(integrator) or sorted(INTEGRATORS)}
+        more |= {"duration": duration, "integrators": integrator or sorted(INTEGRATORS)}
         more |= {"others": [*others, *extra]}
     else:
         measure = tradeoff

@@ -9,26 +9,23 @@ the choices of its `Kind`; both are refused in one way for all.
 from __future__ import annotations
 
 import re
-import reprlib
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack, nullcontext, redirect_stdout
 from functools import cache, wraps
 from inspect import Parameter, Signature, cleandoc, isclass, signature
 from io import StringIO
-from numbers import Number
-from os import PathLike
-from pathlib import Path
-from typing import Annotated, Any, get_args, get_origin
+from typing import Annotated, Any
 
 import typer
 
 from comparisons.cli import interruption, options
-from comparisons.cli.options import CampaignOptions, Group, Kind, LatticeOptions, Words, words_of
+from comparisons.cli.arguments import conversion, items_of, kind_of, plain
+from comparisons.cli.options import CampaignOptions, Group, LatticeOptions, Words, words_of
 from comparisons.cli.output import OutputOptions
 
 NAMES = {"grid": ("--lumped", "--grid"), "grids": ("--grids", "--grid", "--lumped")}  # of one option
-OURS = ("sheetbench", "comparisons", "lumped", "fem_reference")  # packages
 TERMINAL = ("json",)  # options of the terminal alone
+SEVERAL = "Several with commas, or the option again."
 OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
 Command = Callable[..., Any]
 
@@ -60,6 +57,11 @@ class _Declared:
         for kind in described:
             for rule, names in vars(kind).get("no_effect", {}).items():
                 self.rules[rule] = f"{self.rules.get(rule, '')} {names}"
+        self.separators = {  # of the options that are lists
+            one.name: kind_of(one).separator
+            for one in self.each()
+            if "list[" in str(plain(one).annotation) and not self.words.get(one.name, Words()).argument
+        }
 
     @property
     def prose(self) -> str:
@@ -77,7 +79,7 @@ class _Declared:
             name: value
             for name, value in values.items()
             if name in usual
-            and not (value is None or value in ([], ()))
+            and value is not None
             and not (type(value) is type(usual[name]) and value == usual[name])
         }
 
@@ -93,10 +95,15 @@ class _Declared:
                 options = {shown(name): name in given for name in names.split()}
                 require_effect(f"{how} {shown(other)}", options)
         for one in self.each():
-            if (choices := _kind(one).choices) and one.name in given:
+            if (choices := kind_of(one).choices) and one.name in given:
                 value = given[one.name]
-                for each in value if isinstance(value, list | tuple) else str(value).split(","):
-                    require_choice(shown(one.name), str(each).strip(), choices)
+                for each in value if isinstance(value, list) else [value]:
+                    require_choice(shown(one.name), str(each), choices)
+
+    def itemised(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values with every list's texts split at its commas."""
+        lists = {name: of for name, of in self.separators.items() if values.get(name) is not None}
+        return {**values, **{name: items_of(name, values[name], of) for name, of in lists.items()}}
 
     def grouped(self, values: dict[str, Any], **of_output: Any) -> dict[str, Any]:
         """Return the values with those of each group in one."""
@@ -114,13 +121,14 @@ class _Declared:
         one = one.replace(kind=Parameter.KEYWORD_ONLY)
         if one.annotation is typer.Context:
             return one
-        words, kind, plain = self.words.get(one.name, Words()), _kind(one), _plain(one).annotation
-        settings: dict[str, Any] = {"help": words.text.replace("[", "\\["), "metavar": words.metavar}
+        words, kind, own = self.words.get(one.name, Words()), kind_of(one), plain(one).annotation
+        text = f"{words.text} {SEVERAL}" if one.name in self.separators else words.text
+        settings: dict[str, Any] = {"help": text.replace("[", "\\["), "metavar": words.metavar}
         if words.argument:
-            return one.replace(annotation=Annotated[plain, typer.Argument(**settings)])
+            return one.replace(annotation=Annotated[own, typer.Argument(**settings)])
         settings |= {} if kind.unit is None else {"parser": _quantity_in(kind.unit)}
         info = typer.Option(*_names(one), hidden=hidden, min=kind.least, **settings)
-        return one.replace(annotation=Annotated[plain, info])
+        return one.replace(annotation=Annotated[own, info])
 
 
 def _flag(name: str) -> str:
@@ -150,9 +158,10 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
     def run(*, quiet: bool, verbose: bool, **values: Any) -> None:
         resumed = of_campaign or values.get("duration") is not None
         interruption.promise(name, values.get("out"), resumed)
+        values = declared.itemised(values)
         declared.require(values, shown)
-        plain = {} if draws else {"no_pictures": values.pop("no_pictures")}
-        grouped = declared.grouped(values, verb=name, **plain)
+        undrawn = {} if draws else {"no_pictures": values.pop("no_pictures")}
+        grouped = declared.grouped(values, verb=name, **undrawn)
         with ExitStack() as stack:
             if quiet or verbose:
                 from comparisons.cli import console  # with rich: help must not wait for it
@@ -176,12 +185,6 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
     run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return run
-
-
-def _kind(parameter: Parameter) -> Kind:
-    """Return what an option takes beyond its type."""
-    more = getattr(parameter.annotation, "__metadata__", ())
-    return next((one for one in more if isinstance(one, Kind)), Kind())
 
 
 def _names(parameter: Parameter) -> tuple[str, ...]:
@@ -213,7 +216,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
     """Return the verb as a function of `import sheetbench`, which returns what the command shows.
 
     It takes what the command takes: a Scene or a Lattice as well as their names, a list where the command's
-    option is repeated or has commas, a number as well as a quantity in words; `out` and what goes with it for
+    option may have several, a number as well as a quantity in words; `out` and what goes with it for
     files; `progress`, called with what is being done. Raises BadInput in Python's names. Warns of what is
     hardly meant in a Scene.
     """
@@ -234,8 +237,8 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
     def place(one: Parameter) -> tuple[int, bool]:
         return one.kind, one.kind is Parameter.KEYWORD_ONLY and one.default is not Parameter.empty
 
-    own = Signature(sorted((_plain(one) for one in found if one.name not in TERMINAL), key=place))
-    converted = {one.name: _conversion(one) for one in declared.each()}
+    own = Signature(sorted((plain(one) for one in found if one.name not in TERMINAL), key=place))
+    converted = {one.name: conversion(one, declared.separators.get(one.name)) for one in declared.each()}
 
     @wraps(command)
     def run(*values: Any, **named: Any) -> Any:
@@ -280,53 +283,6 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 def _in_python(option: re.Match[str]) -> str:
     name = option[1].replace("-", "_")
     return f"{name}_" if name in ("for", "open") else name
-
-
-def _plain(parameter: Parameter) -> Parameter:
-    """Return a parameter without what typer knows of it."""
-    annotation = parameter.annotation
-    if get_origin(annotation) is Annotated:
-        annotation = get_args(annotation)[0]
-    return parameter.replace(annotation=annotation)
-
-
-def _conversion(parameter: Parameter) -> Callable[[Any], Any]:
-    """Return what makes of an argument in Python what the terminal makes of an option's text."""
-    kind = str(_plain(parameter).annotation)
-    of, unit = _kind(parameter), _kind(parameter).unit
-
-    def convert(value: Any) -> Any:
-        if value is None:
-            return None
-        if unit is not None or kind in ("<class 'float'>", "float | None"):
-            from sheetbench.scenes.language.units import amount
-
-            return amount(parameter.name, value, unit or "")
-        if of.listed and not isinstance(value, str):
-            each = value if isinstance(value, list | tuple) else [value]
-            return ",".join("x".join(map(str, n)) if isinstance(n, list | tuple) else str(n) for n in each)
-        if kind.startswith("list["):
-            value = [f"{key}={one}" for key, one in value.items()] if isinstance(value, Mapping) else value
-            each = value if isinstance(value, list | tuple) else [value]
-            return [str(one) if isinstance(one, Path) else _single(parameter.name, one) for one in each]
-        if "Path" in kind and isinstance(value, str):
-            return Path(value)
-        return value if "tuple" in kind else _single(parameter.name, value, numbers="Path" not in kind)
-
-    return convert
-
-
-def _single(name: str, value: Any, numbers: bool = True) -> Any:
-    """Return a text, a path, an object of ours, or where they may be one or several numbers. Raises BadInput
-    for any other."""
-    if isinstance(value, str | PathLike) or type(value).__module__.startswith(OURS):
-        return value
-    each = value if value and isinstance(value, list | tuple) else [value]
-    if numbers and all(isinstance(one, Number) for one in each):
-        return value
-    from sheetbench.errors import BadInput
-
-    raise BadInput(f"{name} = {reprlib.repr(value)}: a {type(value).__name__} is not taken")
 
 
 def _explained(declared: _Declared) -> Iterable[str]:

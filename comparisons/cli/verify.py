@@ -17,7 +17,7 @@ def command(
     One row each: exit status 3 unless all pass.
 
     Args:
-        case (NAME): Only this case; may be repeated. Default: all.
+        case (NAMES): Only these cases. Default: all.
     """
     from fem_reference.verification import verify
 

@@ -11,7 +11,7 @@ from comparisons.comparison.crosscheck_answer import Crosscheck
 from comparisons.external.answer import ExternalCode
 from comparisons.models.grids import parse_elements
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Elements, External, Lattice, Spec, items
+from comparisons.models.spec import Elements, External, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.limits import Limit
 from comparisons.sweep.solved import Ask, sweep
@@ -74,11 +74,11 @@ def load_scenes(names: Sequence[str]) -> list[Scene]:
 
 
 def candidates(
-    grids: str,
+    grids: Sequence[str],
     lattice: Lattice,
-    meshes: Mapping[str, str],
+    meshes: Mapping[str, Sequence[str]],
     codes: Mapping[str, ExternalCode],
-    code_meshes: str | None,
+    code_meshes: Sequence[str] | None,
 ) -> dict[str, list[Spec]]:
     """Return lattice, references and installed external codes, each on its meshes, coarsest first.
 
@@ -87,8 +87,8 @@ def candidates(
     models: dict[str, list[Spec]] = {}
     if sizes := _numbers("--lumped", grids, 3):
         models[lattice.model] = [lattice.but(grid=n) for n in sizes]
-    for name, text in meshes.items():
-        if sizes := _numbers(f"--{name}", text, 1):
+    for name, counts in meshes.items():
+        if sizes := _numbers(f"--{name}", counts, 1):
             models[name] = [Elements(name, n) for n in sizes]
     for model, code in codes.items():
         if code.version() is not None:
@@ -99,10 +99,10 @@ def candidates(
     return models
 
 
-def _numbers(option: str, text: str, least: int) -> list[int]:
+def _numbers(option: str, counts: Sequence[str], least: int) -> list[int]:
     """Sizes along the shorter side, rising. Raises BadInput, for one alone too: two at least show a
     change."""
-    sizes = [parse_elements(part, option) for part in items(text)]
+    sizes = [parse_elements(part, option) for part in counts]
     numbers = [size for size in sizes if isinstance(size, int)]
     fine = (
         len(numbers) == len(sizes) != 1
@@ -110,5 +110,8 @@ def _numbers(option: str, text: str, least: int) -> list[int]:
         and min(numbers, default=3) >= least
     )
     if not fine:
-        raise BadInput(f"{option} = '{text}': two sizes or three along the shorter side, rising, as 8,12,16")
+        listed = ",".join(counts)
+        raise BadInput(
+            f"{option} = '{listed}': two sizes or three along the shorter side, rising, as 8,12,16"
+        )
     return numbers

@@ -51,7 +51,10 @@ class Identification(Answer):
 
     @property
     def contains(self) -> str:
-        """What the intervals contain: the measurements' noise, and the error of the grid or mesh."""
+        """What the intervals contain: the measurements' noise, and the error of the grid or mesh; "" where
+        there are none."""
+        if all(u.interval is None for u in self.unknowns.values()):
+            return ""
         if all(u.interval == u.noise_interval for u in self.unknowns.values()):
             return "noise only"
         return "noise and grid" if self.model == "lumped" else "noise and mesh"
@@ -63,6 +66,7 @@ class Identification(Answer):
             "scene": self.scene.name,
             "unknowns": {name: asdict(u) for name, u in self.unknowns.items()},
             "points": self.measured.points,
+            "deviation": self.measured.deviation,
             "runs": {**asdict(self.runs), "probability": self.runs.probability},
             "outliers": [asdict(one) for one in self.outliers],
         }
@@ -88,12 +92,12 @@ class Identification(Answer):
             (
                 name,
                 unit(u.unit),
-                *((u.value, *u.interval, u.refined) if u.determined else [None] * 4),
+                *((u.value, *(u.interval or [None] * 2), u.refined) if u.determined else [None] * 4),
                 u.start,
             )
             for name, u in self.unknowns.items()
         ]
-        caption = f"Values and their 95 % intervals, of {self.contains}"
+        caption = f"Values and their 95 % intervals, of {self.contains}" if self.contains else "Values"
         return Table.listed(caption, UNKNOWNS, rows, "unknowns")
 
     def _residuals(self, points: np.ndarray, caption: str) -> Table:
@@ -115,13 +119,7 @@ class Identification(Answer):
 
     def result(self) -> str:
         """Return the values and their intervals."""
-        return "; ".join(
-            f"{name} {quantity(u.value, u.unit, '.4g')} "
-            f"({quantity(u.interval[0], u.unit, '.4g')} to {quantity(u.interval[1], u.unit, '.4g')})"
-            if u.determined
-            else f"{name} not determined"
-            for name, u in self.unknowns.items()
-        )
+        return "; ".join(f"{name} {_in_words(u)}" for name, u in self.unknowns.items())
 
     def notes(self) -> tuple[str, ...]:
         return *choice_notes(self.settings), self._explanation()
@@ -131,15 +129,24 @@ class Identification(Answer):
         size = "×".join(map(str, self.settings.get("grid") or self.settings["elements"]))
         tried = " → ".join("×".join(map(str, grid)) for grid in self.grids)
         cells = f" (cells chosen by the fit: {tried})" if len(self.grids) > 1 else ""
+        model = f"{self.model} {size}{cells}"
+        if not self.contains:
+            return (
+                f"{model}: as many unknowns as measured numbers: there is no interval; measure more points, "
+                "or give the standard deviation of a number (--uncertainty)."
+            )
         contained = {
             "noise only": "It contains no ",
             "noise and grid": "It contains the grid's error, twice the change on finer cells, and no other ",
             "noise and mesh": "It contains the mesh's error, found on elements twice as large, and no other ",
         }[self.contains]
+        noise = "equal variance"
+        if self.measured.deviation is not None:
+            noise = "the standard deviation given, or of the residuals' where that is larger"
         return (
-            f"{self.model} {size}{cells}: residuals have a standard deviation of {1e3 * self.noise:.3g} mm, "
+            f"{model}: residuals have a standard deviation of {1e3 * self.noise:.3g} mm, "
             f"{100 * self.noise / self.measured.scale:.3g} % of the largest measurement, and reach "
-            f"{100 * self.relative:.3g} %. The interval assumes independent noise of equal variance. "
+            f"{100 * self.relative:.3g} %. The interval assumes independent noise of {noise}. "
             f"{contained}error of the model."
         )
 
@@ -153,3 +160,11 @@ class Identification(Answer):
     @property
     def succeeded(self) -> bool:
         return self.converged
+
+
+def _in_words(found: Estimate) -> str:
+    """Return a value with its interval."""
+    value, *ends = (quantity(one, found.unit, ".4g") for one in (found.value, *(found.interval or ())))
+    if not found.determined:
+        return "not determined"
+    return f"{value} ({' to '.join(ends) or 'no interval'})"

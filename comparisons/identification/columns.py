@@ -2,10 +2,10 @@
 
 The first line with the names of two columns that are looked for, in any order and case, is the header: what a
 machine writes above it is passed over. A name may have several words, and a unit may follow it in brackets,
-as in "uz [mm]": numbers are converted to SI units, which they are in where no unit is given. Lines that begin
-with # are comments. Cells are separated by commas, semicolons or tabs, whichever the header has; where commas
-do not separate they may be decimal commas, as long as no number has a point. An empty cell, or NaN, is a
-number that was not measured.
+as in "uz [mm]", or stand below it in a row of units: numbers are converted to SI units, which they are in
+where no unit is given. Lines that begin with # are comments. Cells are separated by commas, semicolons or
+tabs, whichever the header has; where commas do not separate they may be decimal commas, as long as no number
+has a point. An empty cell, or NaN, is a number that was not measured.
 """
 
 from __future__ import annotations
@@ -26,8 +26,9 @@ from sheetbench.scenes.objects.quantities import LARGEST
 
 LARGEST_FILE = 2**28  # bytes
 SEPARATORS = ";\t,"
-MOTION = {"time": "s", "seconds": "s", **dict.fromkeys(("x", "y", "z", "ux", "uy", "uz"), "m")}
+MOTION = {"time": "s", "seconds": "s", **dict.fromkeys(("x", "y", "z", "ux", "uy", "uz", "sd"), "m")}
 _COMMA, _POINT = (re.compile(rf"[+-]?(\d+{mark}\d*|{mark}\d+)([eE][+-]?\d+)?") for mark in (",", r"\."))
+_NUMBER = re.compile(r"[+-]?[\d.,]+([eE][+-]?\d+)?")
 _CELL, _HEADED = re.compile(rf"[^{SEPARATORS}]+"), re.compile(r"(.*?)\s*(?:[\[(]([^\])]*)[\])])?")
 _SHOWN = 40  # characters of a cell that a refusal repeats
 
@@ -105,6 +106,8 @@ def read_columns(path: Path, units: Mapping[str, str] = MOTION) -> Columns:
     kept = kept[next((at for at, count in enumerate(known) if count > 1), 0) :]
     separator = next((mark for mark in SEPARATORS if mark in kept[0][1]), ",")
     (_, header), *parsed = _parsed(path, kept, separator)
+    if parsed and (with_units := _with_units(header, parsed[0][1], units)) is not None:
+        header, parsed = with_units, parsed[1:]
     named = [_quantity(path, cell, units) for cell in header]
     names, scales = tuple(name for name, _ in named), dict(named)
     repeated = [name for name in names if name and names.count(name) > 1]
@@ -135,7 +138,33 @@ def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator
 def _headed(cell: str) -> tuple[str, str]:
     match = _HEADED.fullmatch(cell.strip(' "'))
     name, unit = (match[1], match[2] or "") if match else (cell.strip(), "")
-    return "_".join(name.lower().split()), unit.strip()
+    return "_".join(name.lower().split()), unit.strip().removeprefix("-")  # [-] of a pure number
+
+
+def _with_units(header: list[str], row: list[str], units: Mapping[str, str]) -> list[str] | None:
+    """Return the header with the units of the row below it, None where that is no row of units: one in
+    brackets, or one that its column can have, for every column that is looked for and has something there."""
+    found, seen = list(header), False
+    for at, (title, cell) in enumerate(zip(header, map(str.strip, row), strict=False)):
+        name, own = _headed(title)
+        if not cell or name not in units:
+            continue
+        unit = _headed(cell)[1] if _headed(cell)[0] == "" else cell
+        if unit == cell and not _is_unit(unit, units[name]):
+            return None
+        found[at], seen = title if own else f"{name} [{unit}]", True
+    return found if seen else None
+
+
+def _is_unit(text: str, of: str) -> bool:
+    """Return whether a text is a unit of the same quantity as an SI unit; - is that of a pure number."""
+    if text == "-":
+        return not of
+    try:
+        quantity(f"1 {text}", of)
+    except BadInput:
+        return False
+    return not _NUMBER.fullmatch(text)
 
 
 def _quantity(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, float]:

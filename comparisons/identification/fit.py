@@ -2,9 +2,10 @@
 
 Residuals are shares of the largest measurement: u_model − u_measured at every measured component, or the
 distances of a cloud's points from the model's surface, along its normals
-(`comparisons.identification.surface`). The search is least squares in the unknowns' x by a trust region
-(SciPy's `least_squares`), with a pull of PULL towards the scene's own values, x = 0, that holds what the data
-do not see at all. Where the model has no answer the residuals are REFUSED, and the step is shortened.
+(`comparisons.identification.surface`), weighted by the inverse of standard deviations that are given. The
+search is least squares in the unknowns' x by a trust region (SciPy's `least_squares`), with a pull of PULL
+towards the scene's own values, x = 0, that holds what the data do not see at all. Where the model has no
+answer the residuals are REFUSED, and the step is shortened.
 
 A motion that is out of step by half a period has a minimum of its own. So the first part of the record is
 fitted first, in which no phase has gone astray, and what is found there starts the fit of twice as much of
@@ -25,7 +26,13 @@ from scipy.optimize import least_squares
 from scipy.stats.qmc import Halton
 
 from comparisons.identification import surface
-from comparisons.identification.measurements import Displacements, Measured, Surface
+from comparisons.identification.measurements import (
+    Displacements,
+    Measured,
+    Surface,
+    typical_deviation,
+    weights,
+)
 from comparisons.identification.model import Model, NotReached, Prediction
 from comparisons.identification.unknowns import Unknown
 from comparisons.models.context import context
@@ -42,9 +49,9 @@ EVALUATIONS = 60
 
 @dataclass(frozen=True)
 class Nearest:
-    """Where a search ended: x (n,); residuals (m,) there, in units of the largest measurement, and their
-    slopes (m, n) by x; against_bounds: (n,), -1 or 1 where an unknown ended at its lower or upper bound;
-    converged: whether at a minimum."""
+    """Where a search ended: x (n,); weighted residuals (m,) there, in units of the largest measurement, and
+    their slopes (m, n) by x; against_bounds: (n,), -1 or 1 where an unknown ended at its lower or upper
+    bound; converged: whether at a minimum."""
 
     x: np.ndarray
     residuals: np.ndarray
@@ -70,7 +77,7 @@ class Fit:
     offset: float = 0.0
 
     def residuals(self, predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
-        """Residuals (m,) and their slopes (m, n) by the unknowns' x."""
+        """Weighted residuals (m,) and their slopes (m, n) by the unknowns' x."""
         measured, scale, axes = self.measured, self.measured.scale, self.model.axes
         if isinstance(measured, Displacements):
             given = measured.measured
@@ -83,7 +90,22 @@ class Fit:
                 for slope in predicted.slopes
             ]
             residuals = self.offset - found.distances
-        return residuals / scale, np.stack(slopes, axis=1) / scale
+        by = self.weights / scale
+        return by * residuals, by[:, None] * np.stack(slopes, axis=1)
+
+    @property
+    def weights(self) -> np.ndarray:
+        """Of the residuals (m,)."""
+        of_rows = weights(self.measured)
+        if isinstance(self.measured, Surface):
+            return of_rows
+        return np.broadcast_to(of_rows[:, None], self.measured.displacement.shape)[self.measured.measured]
+
+    @property
+    def deviation(self) -> float:
+        """The standard deviation of weighted residuals that the measurements come with, 0 where it is not
+        known."""
+        return typical_deviation(self.measured) / self.measured.scale
 
     def predict(self, x: np.ndarray) -> Prediction:
         """Return what the model has where it was measured. Raises NotReached where it has no answer."""
@@ -97,10 +119,11 @@ class Fit:
 
     def per_point(self, residuals: np.ndarray) -> np.ndarray:
         """Residuals [m] in the shape of the measurements, nan where nothing was measured."""
+        metres = residuals * self.measured.scale / self.weights
         if isinstance(self.measured, Surface):
-            return residuals * self.measured.scale
+            return metres
         out = np.full(self.measured.displacement.shape, np.nan)
-        out[self.measured.measured] = residuals * self.measured.scale
+        out[self.measured.measured] = metres
         return out
 
     def require_same_way(self, predicted: Prediction) -> None:

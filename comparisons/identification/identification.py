@@ -7,7 +7,9 @@ Least squares in the unknowns' x (`comparisons.identification.unknowns`),
 
 by a trust region (SciPy's `least_squares`), from the values that the scene gives. Every measured component
 weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
-with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. It does not know of the model's own
+with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. Where standard deviations are given
+residuals are weighted by their inverse, and x ± 1.96 max(s, σ) √C_ii is one, of as many unknowns as numbers
+too. It does not know of the model's own
 errors, but for those of its grid or mesh, which are added to it.
 
 The search is made from several starts, and over growing parts of a motion (`fit`); what is left is tested
@@ -54,12 +56,13 @@ from lumped import Identifiability, identifiability
 from sheetbench.choices import REFERENCES
 from sheetbench.errors import BadInput, require_choice, require_effect
 from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
-from sheetbench.scenes.meaning.region import off_sheet
+from sheetbench.scenes.meaning.region import nearest_on_sheet
 from sheetbench.scenes.objects.grading import of_settings
 
 SHARE = 1.0 / 3.0
 NEGLIGIBLE = 2e-3  # of x
 GRID_ERROR = 2.0
+ON_EDGE = 1e-4  # of the longer side
 FITTED, CHECKED = 20_000, 30_000  # unknowns of a lattice that is fitted, and of one that gives a step
 
 
@@ -80,8 +83,8 @@ def refined(
         finer = (2 * nx - 1, 2 * ny - 1, layers)
         room = has_room(scene, Lattice(finer))
         unknowns = 3 * finer[0] * finer[1] * layers
-        widths = np.array([*identifiability(names, best.slopes, best.residuals).half_widths.values()])
-        enough = np.maximum(SHARE * widths, NEGLIGIBLE)
+        known = identifiability(names, best.slopes, best.residuals, fit.deviation)
+        enough = np.fmax(SHARE * np.array([*known.half_widths.values()]), NEGLIGIBLE)
         foretold = step / 2.0  # nan on the first grid
         if not room or (len(grids) > 1 and (unknowns > CHECKED or (np.abs(foretold) <= enough).all())):
             return fit, best, foretold, grids
@@ -139,6 +142,7 @@ def identify(
     elements: Count | None = None,
     law: str | None = None,
     offset: float = 0.0,
+    uncertainty: float | None = None,
     refine: bool = True,
 ) -> Identification:
     """Return the unknowns of these names, from measurements or a file of them (`measurements.read`).
@@ -146,7 +150,8 @@ def identify(
     Unless the lattice has a grid, cells become smaller until the grid moves the unknowns less than the noise
     does; its grading may be "auto", by the scene's own values. elements: of a reference; law: its law of
     strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's
-    normal, 0 on the mid-surface. refine: whether to look at other cells or elements too (not for motions).
+    normal, 0 on the mid-surface; uncertainty [m]: standard deviation of every measured number. refine:
+    whether to look at other cells or elements too (not for motions).
 
     Raises BadInput for names, models and data that contradict each other, and NotReached where the model has
     no stable answer with the scene's own values.
@@ -154,6 +159,7 @@ def identify(
     scene = scene_of(scene)
     require_static(scene)
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
+    measured = _on_sheet(_with_deviation(measured, uncertainty), scene)
     names = items(unknown) if isinstance(unknown, str) else unknown
     unknowns = tuple(unknown_of(scene, name) for name in names)
     reference = None
@@ -181,18 +187,18 @@ def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> I
     def enough(one: Nearest) -> bool:
         nonlocal odd
         odd = outliers(fit, one)
-        return bool(odd) or explained(one.noise, runs(measured, fit.per_point(one.residuals)))
+        return bool(odd) or explained(one.noise, runs(measured, fit.per_point(one.residuals)), fit.deviation)
 
     best, starts = nearest(fit, enough)
     step = bound = np.full(len(unknowns), np.nan)
     grids: list[Any] = [fit.model.settings.get("grid")]
+    free = isinstance(spec, Lattice) and spec.grid is None and not (scene.springs and scene.springs.grid)
     if refine and isinstance(spec, Lattice):
-        own = scene.springs and scene.springs.grid
-        fit, best, step, grids = refined(scene, spec, fit, best, free=spec.grid is None and not own)
+        fit, best, step, grids = refined(scene, spec, fit, best, free)
         bound = GRID_ERROR * np.abs(step)
     elif refine and isinstance(spec, Elements):
         bound = mesh_error(scene, spec, fit, best)
-    known = identifiability([u.name for u in unknowns], best.slopes, best.residuals)
+    known = identifiability([u.name for u in unknowns], best.slopes, best.residuals, fit.deviation)
     found = {
         u.name: _estimate(u, x, known.half_widths[u.name], *steps)
         for u, x, *steps in zip(unknowns, best.x, bound.tolist(), step.tolist(), strict=True)
@@ -200,11 +206,13 @@ def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> I
     residuals = fit.per_point(best.residuals)
     left = runs(measured, residuals)
     warnings = [
+        *remarks.on_start(fit, best, found),
         *(f"{one}. Is it a mistake? Empty its cells for the values without it" for one in odd),
         *known.warnings,
         *([] if odd else remarks.on_residuals(fit, best, left, starts)),
+        *remarks.on_ties(fit, best),
         *remarks.on_bounds(fit, best),
-        *remarks.on_grid(found, spec.model, refine),
+        *remarks.on_grid(found, spec.model, refine, fit.model.settings.get("grid") if free else None),
     ]
     return Identification(
         scene=scene,
@@ -214,12 +222,12 @@ def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> I
         unknowns=found,
         residuals=residuals,
         noise=measured.scale * best.noise,
-        relative=float(np.abs(best.residuals).max()),
+        relative=float(np.nanmax(np.abs(residuals))) / measured.scale,
         evaluations=best.evaluations,
         converged=best.converged,
         warnings=tuple(warnings),
         runs=left,
-        explained=not odd and explained(best.noise, left),
+        explained=not odd and explained(best.noise, left, fit.deviation),
         starts=starts,
         grids=tuple(tuple(one) for one in grids if one),
         outliers=odd,
@@ -229,14 +237,15 @@ def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> I
 def _estimate(u: Unknown, x: float, noise: float, bound: float, step: float) -> Estimate:
     """Return an unknown's value at x; noise: half-width of its interval; bound: what the grid or mesh does to
     x at most, step: of x on cells half as large; nan where they are not known."""
+    known = not np.isnan(noise)
     return Estimate(
         value=u.value(x),
-        interval=u.interval(x, noise + float(np.nan_to_num(bound))),
+        interval=u.interval(x, noise + float(np.nan_to_num(bound))) if known else None,
         start=u.start,
         unit=u.unit,
         refined=u.value(float(np.clip(x + step, *u.bounds()))) if np.isfinite(step) else None,
-        noise_interval=u.interval(x, noise),
-        determined=bool(np.isfinite(noise)),
+        noise_interval=u.interval(x, noise) if known else None,
+        determined=not np.isinf(noise),
     )
 
 
@@ -268,25 +277,42 @@ def _check(scene: Scene, fit: Fit) -> None:
             f"offset = {fit.offset:g} m: of a cloud's points from the mid-surface; displacements are "
             "the mid-surface's"
         )
-    _require_on_sheet(measured, scene)
     count = int(measured.measured.sum()) if isinstance(measured, Displacements) else len(measured.points)
-    if count <= len(names):
-        raise BadInput(f"{count} measured numbers cannot give intervals of {len(names)} unknowns")
+    if count < len(names):
+        numbers = "1 measured number" if count == 1 else f"{count} measured numbers"
+        raise BadInput(f"{numbers} cannot determine {len(names)} unknowns")
 
 
-def _require_on_sheet(measured: Measured, scene: Scene) -> None:
-    """Raise BadInput for a point where there is no sheet, and for a cloud of a sheet that is no rectangle."""
+def _with_deviation(measured: Measured, uncertainty: float | None) -> Measured:
+    """Return the measurements with one standard deviation [m] of every number, where it is given. Raises
+    BadInput where it is not above 0, and where the file has a column of them."""
+    if uncertainty is None:
+        return measured
+    if not uncertainty > 0.0:
+        raise BadInput(f"uncertainty = {uncertainty:g} m: must be greater than 0")
+    if measured.deviation is not None:
+        raise BadInput(f"uncertainty = {uncertainty:g} m: {measured.source} has a column sd; leave one out")
+    return replace(measured, deviation=np.full(len(measured.points), uncertainty))
+
+
+def _on_sheet(measured: Measured, scene: Scene) -> Measured:
+    """Return the measurements with points that lie off the sheet by rounding alone, within ON_EDGE of its
+    longer side, on its edge. Raises BadInput for others, and for a cloud of a sheet that is no rectangle."""
     if isinstance(measured, Surface):
         if scene.pierced:
             raise BadInput(
                 f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a "
                 "sheet with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
             )
-        return
-    for row, (x, y) in enumerate(measured.points.tolist()):
-        if off_sheet(scene, (x, y)):
-            raise BadInput(
-                f"{measured.name_of(row)}: x, y = {x:g}, {y:g} is off the sheet: 0 ≤ x ≤ "
-                f"{scene.sheet.length_x:g} m, 0 ≤ y ≤ {scene.sheet.length_y:g} m, in its outline, not in a "
-                "cutout"
-            )
+        return measured
+    points = nearest_on_sheet(scene, measured.points)
+    off = np.hypot(*(points - measured.points).T) > ON_EDGE * max(scene.sheet.lengths)
+    if off.any():
+        row = int(np.argmax(off))
+        x, y = measured.points[row].tolist()
+        raise BadInput(
+            f"{measured.name_of(row)}: x, y = {x:g}, {y:g} is off the sheet: 0 ≤ x ≤ "
+            f"{scene.sheet.length_x:g} m, 0 ≤ y ≤ {scene.sheet.length_y:g} m, in its outline, not in a "
+            "cutout"
+        )
+    return replace(measured, points=points)

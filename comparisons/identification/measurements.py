@@ -6,8 +6,9 @@ CSV (`comparisons.identification.columns`), in metres and in the scene's axes, w
     x,y,uz          the same of deflections alone
     x,y,z           points of the deformed surface, a height map or a scan
 
-In the place of x,y a column probe may name probes of the scene. With a further column time [s] displacements
-are samples of a motion from rest. Other columns are passed over.
+A further column sd is the standard deviation of the numbers of each row. In the place of x,y a column probe
+may name probes of the scene. With a further column time [s] displacements are samples of a motion from rest.
+Other columns are passed over.
 
 VTP or PLY: points (x, y, z) [m] of the deformed surface, in the scene's axes. Which material point each of
 them is need not be known.
@@ -41,13 +42,15 @@ STILL = 0.1  # of the largest displacement: what may move at time 0, as noise
 class Displacements:
     """points: (n, 2) [m] of the flat sheet; displacement: (n, 3) [m], nan where not measured; time: (n,) [s]
     of each row, or None for an equilibrium; source: where they come from, to be named in a refusal; lines: of
-    the file that each row was read from."""
+    the file that each row was read from; deviation: the standard deviation (n,) [m] of each row's numbers,
+    None where it is not known."""
 
     points: np.ndarray
     displacement: np.ndarray
     time: np.ndarray | None = None
     source: str = "measured"
     lines: tuple[str, ...] = ()
+    deviation: np.ndarray | None = None
 
     @property
     def measured(self) -> np.ndarray:
@@ -69,8 +72,14 @@ class Displacements:
         """Return the rows of a motion up to a time [s]."""
         assert self.time is not None
         rows = np.flatnonzero(self.time <= end)
-        lines = tuple(self.lines[i] for i in rows) if self.lines else ()
-        return Displacements(self.points[rows], self.displacement[rows], self.time[rows], self.source, lines)
+        return replace(
+            self,
+            points=self.points[rows],
+            displacement=self.displacement[rows],
+            time=self.time[rows],
+            lines=tuple(self.lines[i] for i in rows) if self.lines else (),
+            deviation=None if self.deviation is None else self.deviation[rows],
+        )
 
     def name_of(self, row: int) -> str:
         """Return a row's name in a sentence: its line in the file, else its number."""
@@ -79,10 +88,11 @@ class Displacements:
 
 @dataclass(frozen=True)
 class Surface:
-    """points: (n, 3) [m] of the deformed surface; source: as of `Displacements`."""
+    """points: (n, 3) [m] of the deformed surface; source, deviation: as of `Displacements`."""
 
     points: np.ndarray
     source: str = "measured"
+    deviation: np.ndarray | None = None
     time: ClassVar[None] = None  # a cloud is of an equilibrium
 
     @property
@@ -92,6 +102,19 @@ class Surface:
 
 
 Measured = Displacements | Surface
+
+
+def weights(measured: Measured) -> np.ndarray:
+    """Return the weights (n,) of rows: in inverse proportion to their standard deviations, with a mean square
+    of 1."""
+    if measured.deviation is None:
+        return np.ones(len(measured.points))
+    return typical_deviation(measured) / measured.deviation
+
+
+def typical_deviation(measured: Measured) -> float:
+    """Return the standard deviation [m] of a number of weight 1, 0 where it is not known."""
+    return 0.0 if measured.deviation is None else float(np.mean(measured.deviation**-2.0) ** -0.5)
 
 
 def read(path: Path, scene: Scene) -> Measured:
@@ -149,7 +172,7 @@ def _table(path: Path, scene: Scene) -> Measured:
     _require_metres(displacement, scene.sheet, lines)
     if time is not None:
         require_flat_start(path, time, displacement)
-    return Displacements(np.array(points), displacement, time, str(path), lines)
+    return Displacements(np.array(points), displacement, time, str(path), lines, _deviation(columns))
 
 
 def _heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:
@@ -157,8 +180,20 @@ def _heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:
     if "time" in columns.names:
         raise BadInput(f"{path}: column time: a motion is measured as ux,uy,uz of marked points")
     found = [[row.number("x"), row.number("y"), row.measured("z")] for row in columns.rows]
-    points = np.array(found, dtype=float).reshape(-1, 3)
-    return _surface(path, points[np.isfinite(points[:, 2])], sheet)
+    points, deviation = np.array(found, dtype=float).reshape(-1, 3), _deviation(columns)
+    measured = np.isfinite(points[:, 2])
+    surface = _surface(path, points[measured], sheet)
+    return surface if deviation is None else replace(surface, deviation=deviation[measured])
+
+
+def _deviation(columns: Columns) -> np.ndarray | None:
+    """Return the column sd (n,) [m], None where there is none. Raises BadInput unless all are above 0."""
+    if "sd" not in columns.names:
+        return None
+    deviation = columns.numbers("sd")
+    if not (deviation > 0.0).all():
+        raise columns.rows[int(np.argmin(deviation > 0.0))].refused("sd", "must be greater than 0")
+    return deviation
 
 
 def _probe(row: Row, scene: Scene) -> list[float]:

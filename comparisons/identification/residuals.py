@@ -14,8 +14,9 @@ off. Up to MOST rows are tried in turn, one in FEWEST at most.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import log
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -25,12 +26,14 @@ from scipy.special import bdtrc
 
 from comparisons.identification.fit import Fit, Nearest
 from comparisons.identification.measurements import MOVED, Displacements, Measured
+from comparisons.identification.model import NotReached
 from comparisons.identification.unknowns import Estimate
 from sheetbench.answers.table import quantity
 from sheetbench.scenes.language.summary import few
 
 UNLIKELY = 1e-3  # probability below which as many equal signs are not noise
 SMALL = 2e-3  # standard deviation of residuals, of the largest measurement, below which no test is made
+FACTOR = 3.0  # between a value and the scene's own: one of them is wrong
 POOR = 0.05  # and one that is more than noise usually is
 NEIGHBOURS = 12  # of a point, among which the spanning tree is looked for
 
@@ -64,10 +67,10 @@ def runs(measured: Measured, residuals: np.ndarray) -> Runs:
     return Runs(int((products > 0.0).sum()), int((products != 0.0).sum()), along)
 
 
-def explained(noise: float, found: Runs) -> bool:
-    """Return whether residuals of this standard deviation, in units of the largest measurement, are small or
-    noise."""
-    return noise < SMALL or (noise < POOR and found.probability > UNLIKELY)
+def explained(noise: float, found: Runs, deviation: float = 0.0) -> bool:
+    """Return whether residuals of this standard deviation, in units of the largest measurement, are small,
+    not larger than those of the measurements, or noise."""
+    return noise < max(SMALL, deviation) or (noise < POOR and found.probability > UNLIKELY)
 
 
 def _pairs(measured: Measured) -> tuple[np.ndarray, str]:
@@ -155,11 +158,56 @@ def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
         return [
             f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
         ]
-    if explained(best.noise, left):
+    if explained(best.noise, left, fit.deviation):
         return []
     return [
         f"not explained: {size}, and are not noise: {left}. Something is missing in the model (supports, "
         "loads, an unknown, finer cells), and the interval, which assumes noise, is too narrow",
+    ]
+
+
+def on_start(fit: Fit, best: Nearest, found: Mapping[str, Estimate]) -> list[str]:
+    """Return the values that are more than FACTOR times the scene's, or less than a FACTOR-th of it, and the
+    largest measurement beside the model's with the scene's own values."""
+    far = [
+        f"{u.name} = {quantity(u.value(x), u.unit, '.3g')} is {few(u.value(x) / u.start, 3)} times the "
+        f"scene's {quantity(u.start, u.unit, '.3g')}"
+        for u, x in zip(fit.unknowns, best.x, strict=True)
+        if u.step is None and u.given and found[u.name].determined and abs(x) > log(FACTOR)
+    ]
+    question = "Is a value, a dimension, a support or a unit of the scene wrong?"
+    return [f"{'; '.join(far)}{_beside(fit)}. {question}"] if far else []
+
+
+def _beside(fit: Fit) -> str:
+    """Return the largest measured displacement at rest beside the model's with the scene's own values."""
+    measured = fit.measured
+    if not isinstance(measured, Displacements) or measured.time is not None:
+        return ""
+    row, axis = np.unravel_index(np.nanargmax(np.abs(measured.displacement)), measured.displacement.shape)
+    try:
+        own = fit.predict(np.zeros(len(fit.unknowns))).displacement[row, axis]
+    except NotReached:
+        return ""
+    values = (quantity(float(value), "m", ".3g") for value in (own, measured.displacement[row, axis]))
+    return ", with which {} = {} where {} were measured".format(MOVED[int(axis)], *values)
+
+
+def on_ties(fit: Fit, best: Nearest) -> list[str]:
+    """Return whether numbers are rounded so far that their scatter says less than the rounding does: half of
+    them are equal to another one, and the residuals are below a rounding's to the nearest other number."""
+    measured = fit.measured
+    if not isinstance(measured, Displacements) or measured.deviation is not None:
+        return []
+    values = measured.displacement[measured.measured]
+    different = np.unique(values)
+    gap = float(np.diff(different).min(initial=np.inf))
+    if 2 * len(different) > len(values) or measured.scale * best.noise > gap / 12**0.5:
+        return []
+    return [
+        f"the {len(values)} measured numbers are equal, or equal in pairs: they are rounded, and the "
+        "interval, of their scatter, is too narrow; give --uncertainty (rounding to 1 mm has a standard "
+        "deviation of 0.29 mm)"
     ]
 
 
@@ -172,14 +220,19 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
     ]
 
 
-def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str]:
-    """Return what the lattice's cells, or the elements of another model, do to the values."""
+def on_grid(
+    found: Mapping[str, Estimate], model: str, looked: bool, chosen: Sequence[int] | None = None
+) -> list[str]:
+    """Return what the lattice's cells, or the elements of another model, do to the values; chosen: the grid
+    that the fit left the search with."""
     lattice = model == "lumped"
     other, error = (CELLS, "grid's") if lattice else ("elements twice as large", "mesh's")
-    seen = [u for u in found.values() if u.determined]
+    seen = [u for u in found.values() if u.determined and u.interval is not None]
     if looked and seen and all(u.interval == u.noise_interval for u in seen):
         return [f"{other} could not be solved: the {error} error is not known, nor in the interval"]
     more = "masses (--lumped), or leave the grid to the fit" if lattice else "--elements"
+    if chosen is not None:
+        more = f"masses than the fit did, --lumped {2 * chosen[0] - 1}x{2 * chosen[1] - 1}"
     finer = {
         name: "" if u.refined is None else f" would be {quantity(u.refined, u.unit)} on {CELLS}"
         for name, u in found.items()
@@ -191,5 +244,7 @@ def on_grid(found: Mapping[str, Estimate], model: str, looked: bool) -> list[str
 
 def _wide(found: Estimate) -> bool:
     """Return whether the grid widens an interval to more than twice the noise's."""
+    if found.interval is None or found.noise_interval is None:
+        return False
     whole, noise = np.ptp(found.interval), np.ptp(found.noise_interval)
     return bool(whole > 2.0 * noise and whole > 1e-2 * abs(found.value))

@@ -26,7 +26,8 @@ FARTHEST = 1e6  # times the scene's own value, up or down, that a parameter abov
 
 @dataclass(frozen=True)
 class Unknown:
-    """A parameter of a scene: its name and unit, the value the scene gives it, bounds, and the unit of x."""
+    """A parameter of a scene: its name and unit, the value the scene gives it, bounds, and the unit of x;
+    given: whether the scene gives it that value, and not FIRST_RATIO."""
 
     name: str
     unit: str
@@ -34,6 +35,7 @@ class Unknown:
     low: float
     high: float
     step: float | None = None
+    given: bool = True
 
     def value(self, x: float) -> float:
         """Return the parameter at x."""
@@ -68,16 +70,16 @@ class Estimate:
     """An unknown's value, its 95 % interval, the value the search started from and the unit.
 
     refined: about where a lattice with cells half as large would put it, None where that is not known;
-    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh;
-    determined: whether the data see it by itself.
+    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh; both None of
+    as many unknowns as numbers without a standard deviation; determined: whether the data see it by itself.
     """
 
     value: float
-    interval: tuple[float, float]
+    interval: tuple[float, float] | None
     start: float
     unit: str
     refined: float | None
-    noise_interval: tuple[float, float]
+    noise_interval: tuple[float, float] | None
     determined: bool
 
 
@@ -98,7 +100,7 @@ def unknown(scene: Scene, name: str) -> Unknown:
         step = 1.0 / max(scene.sheet.lengths) if name.startswith("curvature_") else 1.0
         return Unknown(name, found.unit, found.value, found.low, found.high, step)
     if found.value == 0.0 and name in DAMPING:
-        return Unknown(name, found.unit, _first_damping(scene, name), found.low, found.high)
+        return Unknown(name, found.unit, _first_damping(scene, name), found.low, found.high, given=False)
     if found.value == 0.0:
         raise BadInput(
             f"unknown = '{name}': scene '{scene.name}' has it at 0; give a first guess above 0 there"

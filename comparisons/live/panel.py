@@ -14,7 +14,8 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from comparisons.models.spec import Lattice
+from comparisons.models.grids import Elements as Count
+from comparisons.models.spec import Lattice, counted
 from comparisons.pages.sheets import eye, outline
 from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
@@ -71,7 +72,7 @@ class Question(NamedTuple):
 class Panel:
     """The sliders of a scene."""
 
-    def __init__(self, scene: Scene, elements: int = ELEMENTS, lattice: Lattice | None = None) -> None:
+    def __init__(self, scene: Scene, elements: Count = ELEMENTS, lattice: Lattice | None = None) -> None:
         """elements, lattice: to start with; k has a slider where the lattice has one. Raises BadInput for
         what is beyond the bounds."""
         self.scene = scene
@@ -134,7 +135,7 @@ class Panel:
         return Question(message.number, scene, Lattice() if name == OWN else lattice, int(values["elements"]))
 
 
-def _sliders(scene: Scene, elements: int, lattice: Lattice) -> Iterator[Slider]:
+def _sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[Slider]:
     """The scene's, then those of the models."""
     material, thickness = scene.material, scene.sheet.thickness
     moduli = {"young_1": "Young's modulus along the fibres", "young_2": "Young's modulus across the fibres"}
@@ -160,8 +161,9 @@ def _sliders(scene: Scene, elements: int, lattice: Lattice) -> Iterator[Slider]:
             yield Slider(found.name, f"Curvature of edge {edge}", "1/m", 1.0, -bend, bend, found.value)
     masses, fine = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
     grid, grading = str(lattice.grid or min(MASSES, masses)), lattice.grading or 0.0
-    if not (grid.isdecimal() and isinstance(grading, float | int)):
-        raise BadInput(f"grid = {grid}, grading = {grading}: a number each (near-square cells, all edges)")
+    if not (grid.isdecimal() and isinstance(grading, float | int) and isinstance(elements, int)):
+        shown = f"grid = {grid}, grading = {grading}, elements = {counted(elements)}"
+        raise BadInput(f"{shown}: a number each (near-square cells, all edges)")
     yield Slider("grid", "Masses along the shorter side", "", 1.0, 3, masses, int(grid), whole=True)
     yield Slider("grading", "Grading towards the edges", "", 1.0, 0.0, 1.0, grading)
     if (k := lattice.k) is not None:

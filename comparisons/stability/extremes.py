@@ -24,6 +24,7 @@ from typing import Any, Unpack
 import numpy as np
 
 import lumped
+from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.stability.answer import Stability
@@ -66,14 +67,14 @@ def stability(
     varied: Collection[str] = tuple(VARIED),
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str = REFERENCE,
-    elements: int = 12,
+    elements: Count = 12,
     **how: Unpack[CampaignKeywords],
 ) -> Stability:
     """Vary a scene's sheet and solve it by every model, through a campaign's store.
 
     varied: some of `choices.VARIED`. lattice: with what is not varied. elements: of the references, along the
-    shorter side. Raises BadInput for what cannot be varied, for settings that contradict each other, and for
-    models that take more memory than there is.
+    shorter side or along x and y. Raises BadInput for what cannot be varied, for settings that contradict
+    each other, and for models that take more memory than there is.
     """
     resolve(scene, lattice, "motion")
     resolve(scene, Elements(reference, elements))
@@ -119,11 +120,12 @@ def _scaled(scene: Scene, name: str, models: Mapping[str, Spec], truth: Spec) ->
 
 
 def _grids(scene: Scene, models: Mapping[str, Any], truth: Any) -> Iterator[Cell]:
-    meshes = sorted({*CELLS["references"], truth.count})
-    against = Ask(scene, truth.but(count=meshes[-1]), label=f"{truth.model} {meshes[-1]} cells")
+    meshes = {n: n for n in CELLS["references"]} | {min(truth.counts(scene)[:2]): truth.count}
+    finest = max(meshes)
+    against = Ask(scene, truth.but(count=meshes[finest]), label=f"{truth.model} {finest} cells")
     for model, spec in models.items():
-        for count in CELLS.get(model) or meshes:
-            sized = spec.but(grid=count + 1) if spec.MASSES else spec.but(count=count)
+        for count in CELLS.get(model) or sorted(meshes):
+            sized = spec.but(grid=count + 1) if spec.MASSES else spec.but(count=meshes[count])
             tags = _tags("grid", cells=count, model=model)
             yield Ask(scene, sized, tags=tags, label=f"{model} {count} cells"), against
 

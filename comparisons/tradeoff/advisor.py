@@ -39,14 +39,13 @@ def advise(
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     *,
     models: Sequence[str] | None = None,
-    calibration: str | None = None,
 ) -> Advice:
     """Return the cheapest model predicted to meet `tolerance` (a fraction; 0.01 unless a budget
     alone is given), or the most accurate in `budget` [s].
 
     models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
     tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
-    lattice, calibration: springs and grading of the lattices that may be chosen. Models that take more memory
+    lattice: springs and grading of the lattices that may be chosen. Models that take more memory
     than there is are left out. Raises SceneError for a scene without a static answer; BadInput where not even
     the coarsest reference fits into memory, for a grid, and for springs and grading that contradict each
     other.
@@ -58,8 +57,7 @@ def advise(
         tolerance = 0.01
     if tolerance is not None and not 0.0 < tolerance < 1.0:
         raise BadInput(f"tolerance = {tolerance:g}: a fraction between 0 and 1, as 0.01 for one percent")
-    own = lattice if calibration is None else lattice.but(calibration=calibration)
-    trials = TrialSolves(scene, own, models)
+    trials = TrialSolves(scene, lattice, models)
     for _ in range(3):
         trials.refine()
     while not trials.reference.stable and trials.refine():

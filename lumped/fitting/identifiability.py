@@ -2,8 +2,10 @@
 
 With residuals r (m,) at the fit, and their Jacobian J (m, n) with respect to the parameters scaled to order
 one (here logarithms, or values over a scale), the covariance is s² (Jᵀ J)⁻¹, s² = r·r/(m − n), and a 95 %
-interval ± t_{0.975, m − n} times the standard deviation. A singular value of J below THRESHOLD of the largest
-is a combination of parameters that the data do not see; the parameters in it are named.
+interval ± t_{0.975, m − n} times the standard deviation. Where the residuals' standard deviation σ is given
+the interval is ± 1.96 times that of max(s, σ); with m = n there is one then alone. A singular value of J
+below THRESHOLD of the largest is a combination of parameters that the data do not see; the parameters in it
+are named.
 Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 """
 
@@ -24,7 +26,8 @@ CONFIDENCE = 0.95
 @dataclass(frozen=True)
 class Identifiability:
     """singular_values: (n,) of the scaled Jacobian; half_widths: parameter → half width of its 95 % interval
-    in the scaled parameter (inf where the data do not see it); warnings: sentences."""
+    in the scaled parameter, inf where the data do not see it, nan where m = n and σ is not known; warnings:
+    sentences."""
 
     threshold: ClassVar[float] = THRESHOLD
 
@@ -33,22 +36,28 @@ class Identifiability:
     warnings: tuple[str, ...]
 
 
-def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarray) -> Identifiability:
-    """Of parameters whose scaled Jacobian (m, n) and residuals (m,) at the fit are given.
+def identifiability(
+    names: list[str], jacobian: np.ndarray, residuals: np.ndarray, deviation: float = 0.0
+) -> Identifiability:
+    """Of parameters whose scaled Jacobian (m, n) and residuals (m,) at the fit are given; deviation: the
+    residuals' standard deviation, 0 where it is not known.
 
-    Raises BadInput unless there are more residuals than parameters.
+    Raises BadInput where there are fewer residuals than parameters.
     """
     m, n = jacobian.shape
-    if m <= n:
-        raise BadInput(f"{m} residuals cannot give intervals of {n} parameters")
+    if m < n:
+        raise BadInput(f"{m} residuals cannot determine {n} parameters")
     _, singular, directions = np.linalg.svd(jacobian, full_matrices=False)
     seen = singular > THRESHOLD * singular[0]
-    variance = float(residuals @ residuals) / (m - n)
     spread = (directions[seen] / singular[seen, None]).T  # (n, seen)
-    covariance = variance * spread @ spread.T
-    from scipy.special import stdtrit
+    covariance = spread @ spread.T
+    from scipy.special import ndtri, stdtrit
 
-    quantile = float(stdtrit(m - n, 0.5 + CONFIDENCE / 2.0))
+    scatter = float(np.sqrt(residuals @ residuals / (m - n))) if m > n else 0.0
+    if deviation:
+        reach = float(ndtri(0.5 + CONFIDENCE / 2.0)) * max(scatter, deviation)
+    else:
+        reach = float(stdtrit(m - n, 0.5 + CONFIDENCE / 2.0)) * scatter if m > n else np.nan
 
     warnings, unseen = [], np.zeros(n, dtype=bool)
     for direction in directions[~seen]:
@@ -59,12 +68,12 @@ def identifiability(names: list[str], jacobian: np.ndarray, residuals: np.ndarra
             f"the data do not see a combination of {names_in}: changed together they leave what was measured "
             "as it is; seek fewer, or measure what distinguishes them"
         )
-    deviation = np.sqrt(np.diag(covariance))
-    known = np.where(unseen, 0.0, deviation)
+    size = np.sqrt(np.diag(covariance))
+    known = np.where(unseen, 0.0, size)
     scale = np.outer(known, known)
     correlation = np.divide(covariance, scale, out=np.zeros_like(scale), where=scale > 0.0)
     for i, j in np.argwhere(np.tril(np.abs(correlation), -1) > CORRELATED):
         shown = f"{correlation[i, j]:+.3f}".replace("-", "−")
         warnings.append(f"the data cannot tell {names[j]} from {names[i]} (correlation {shown})")
-    widths = np.where(unseen, np.inf, quantile * deviation)
+    widths = np.where(unseen, np.inf, reach * size)
     return Identifiability(singular, dict(zip(names, widths.tolist(), strict=True)), tuple(warnings))

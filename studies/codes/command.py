@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from comparisons.cli import console
-from comparisons.cli.options import Kind
+from comparisons.cli.options import Kind, Models
 from comparisons.cli.output import PictureOptions
 from studies.codes.answer import codes
 from studies.codes.models import LADDERS, climb, stand
@@ -18,7 +18,7 @@ def command(
     budget: float = 1e9,
     ladder: Annotated[list[str] | None, Kind(choices=tuple(LADDERS))] = None,
     standing: bool = False,
-    model: list[str] | None = None,
+    model: Models = None,
     suite: Annotated[str, Kind(choices=("statics", "curves"))] = "statics",
     *,
     output: PictureOptions,
@@ -31,10 +31,9 @@ def command(
         code (CODE=PYTHON, argument): newton=.venv-newton/bin/python; none: the stored rows.
         seconds: Limit of a run, of processor time.
         budget: Seconds after which no further run of a code begins.
-        ladder (NAME): Measure sizes of {LADDERS} on test 1;
-            may be repeated.
+        ladder (NAMES): Measure sizes of {LADDERS} on test 1.
         standing: Measure models on a suite, into the reference set's file.
-        model (MODEL): With --standing: as mujoco:grid=9.
+        model (MODELS): With --standing: as mujoco:grid=9.
         suite (SUITE): With --standing: statics or curves.
     """
     with output.open() as out:

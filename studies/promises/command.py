@@ -30,10 +30,10 @@ def command(
     Exit status 3 unless as many hold as required. With --out an interrupted study is resumed.
 
     Args:
-        part (NAME): Only {PARTS}; may be repeated. All unless given.
+        part (NAMES): Only {PARTS}. All unless given.
         scenes (N): Scenes drawn, for bars half a minute of one processor each.
         seed (N): Seed of the scenes.
-        model (NAME): Bars of {REFERENCES}; may be repeated.
+        model (NAMES): Bars of {REFERENCES}.
         anew: Solve the stored scenes of expected errors again.
     """
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()

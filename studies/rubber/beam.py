@@ -174,7 +174,7 @@ def beam(data: Path, progress: Callable[[str], None]) -> Block:
             progress(f"{load}: run {run}, E and loss factor")
             swings.append(replace(swing, load=load, what=f"measured {run}"))
             found = identified(mass, swing, time, tip)
-            values = [(u.value, *u.interval) for u in found.unknowns.values()]
+            values = [(u.value, *(u.interval or (np.nan, np.nan))) for u in found.unknowns.values()]
             off = [rms(np.interp(time, at, there) - tip) for _, at, there in shells.values()]
             left = found.residuals[:, 2]
             fits.append(Fitted(load, run, *values[0], *values[1], rms(left), *off))

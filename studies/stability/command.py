@@ -6,7 +6,6 @@ from typing import Annotated
 
 from comparisons.cli.options import ClusterOptions, Kind
 from comparisons.cli.output import PictureOptions
-from sheetbench.answers.figure_style import parse_figure
 from sheetbench.errors import BadInput
 from studies.stability.study import PARTS, maps
 
@@ -23,9 +22,9 @@ def command(
     run is resumed.
 
     Args:
-        part (NAME): Only {PARTS}; may be repeated.
+        part (NAMES): Only {PARTS}.
     """
-    if any(style.narrow for style in parse_figure(output.figure)):
+    if any(style.narrow for style in output.styles):
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     with output.open() as out:
         with out.campaign(campaign) as run:

@@ -8,19 +8,18 @@ from typing import Annotated
 from comparisons.cli import console
 from comparisons.cli.options import CampaignOptions, Count, Kind
 from comparisons.cli.output import OutputOptions
-from comparisons.models.spec import items
 from sheetbench.choices import AUTO, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
 from studies.transfer.scenes import transfer_scenes
-from studies.transfer.study import METHODS, PARTS, transfer
+from studies.transfer.study import GRIDS, METHODS, PARTS, transfer
 from studies.transfer.training import write_table
 
 
 def command(
-    methods: str | None = None,
-    grids: str = "9,17,33",
+    methods: list[str] | None = None,
+    grids: list[str] | None = None,
     grading: str | None = None,
-    scenes: str | None = None,
+    scenes: list[str] | None = None,
     part: Annotated[list[str] | None, Kind(choices=tuple(PARTS))] = None,
     elements: Count = 24,
     train: bool = False,
@@ -34,16 +33,16 @@ def command(
     On drawn sheets lattices stand beside the shell with its bar. With --out an interrupted study is resumed.
 
     Args:
-        methods (NAMES): Calibrations, with commas; all unless given.
-        grids (N,N,…): Masses along the shorter side, 4 n + 1, coarsest first.
+        methods (NAMES): Calibrations; all unless given.
+        grids (N,N,N): Masses along the shorter side, 4 n + 1, coarsest first. Default: 9,17,33.
         scenes (NAMES): Scenes of the study; all unless given.
-        part (NAME): Only {PARTS}; may be repeated. All unless given.
+        part (NAMES): Only {PARTS}. All unless given.
         elements (N): Elements of the shell along a side.
         train: Only train the calibration central, and write its table.
     """
-    calibrations = _known("--methods", items(methods), (*CALIBRATIONS, AUTO))
-    names = _known("--scenes", items(scenes), transfer_scenes())
-    sizes = _masses(grids)
+    calibrations = _known("--methods", methods, (*CALIBRATIONS, AUTO))
+    names = _known("--scenes", scenes, transfer_scenes())
+    sizes = list(GRIDS) if grids is None else _masses(grids)
     if train:
         console.tell(f"{write_table()}: written")
         return
@@ -69,12 +68,14 @@ def _known(name: str, values: Sequence[str] | None, known: Collection[str]) -> S
     return values or ()
 
 
-def _masses(text: str) -> list[int]:
+def _masses(counts: Sequence[str]) -> list[int]:
     """Return masses a side. Raises BadInput unless every one is 4 n + 1 and they grow."""
     try:
-        sizes = [int(part) for part in items(text)]
+        sizes = [int(part) for part in counts]
     except ValueError:
         sizes = []
     if not sizes or sizes != sorted(set(sizes)) or any(n < 5 or n % 4 != 1 for n in sizes):
-        raise BadInput(f"--grids = '{text}': masses a side, 4 n + 1 of them and rising, as 9,17,33")
+        raise BadInput(
+            f"--grids = '{','.join(counts)}': masses a side, 4 n + 1 of them and rising, as 9,17,33"
+        )
     return sizes

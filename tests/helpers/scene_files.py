@@ -18,7 +18,10 @@ layer_distance = 0.001"""
 BAD = {
     "unknown table": (GOOD + "[moon]\nspeed = 3.0\n", ["moon", "unknown key"]),
     "millimetres": (GOOD.replace("0.003", "3.0"), ["thickness", "metres"]),
-    "incompressible": (GOOD.replace("0.48", "0.5"), ["material.poisson", "0.5", "less than 0.5"]),
+    "incompressible": (
+        GOOD.replace("0.48", "0.5"),
+        ["material.poisson", "0.5", "less than 0.5; write 0.4999"],
+    ),
     "text for a number": (GOOD.replace("0.003", '"three mm"'), ["sheet.thickness", "three mm", "number"]),
     "infinite": (GOOD.replace("54.5e6", "inf"), ["material.young", "inf", "finite"]),
     "probe off the sheet": (GOOD.replace("P4 = [0.188, 0.188]", "P4 = [0.188, 0.2]"), ["probes.P4", "0.2"]),

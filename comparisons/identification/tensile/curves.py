@@ -2,7 +2,10 @@
 
 stress: engineering P = force/undeformed area, or true σ = P λ of an incompressible sheet
 strain: engineering λ − 1, or true ln λ; or the displacement of the grips over the gauge length
-test: uniaxial, pure-shear (a wide strip held along its width) or equibiaxial
+test: uniaxial, pure-shear (a wide strip held along its width) or equibiaxial; Abaqus calls the latter two
+    planar and biaxial
+
+A curve may be of tension, of compression (stretch below 1) or of both.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ from comparisons.identification.columns import Columns, read_columns
 from sheetbench.errors import BadInput, require_choice
 
 TESTS = ("uniaxial", "pure-shear", "equibiaxial")
+NAMES = dict(zip(TESTS, TESTS, strict=True)) | {"planar": "pure-shear", "biaxial": "equibiaxial"}
 ENGINEERING, TRUE = ("engineering_stress", "nominal_stress"), ("true_stress", "cauchy_stress")
 STRETCH: dict[str, Callable[[np.ndarray], np.ndarray]] = {  # of a column's numbers
     "stretch": np.asarray,
@@ -50,7 +54,10 @@ def read(
     """Return the curve of `FILE`, uniaxial, or `TEST=FILE`; area [m²]: undeformed cross-section, where forces
     were measured; gauge [m]: undeformed length, where displacements were; up_to: the largest stretch to take.
     Raises BadInput naming file, line and remedy."""
-    test, _, name = text.rpartition("=") if text.partition("=")[0] in TESTS else ("uniaxial", "", text)
+    test, equals, name = text.partition("=")
+    if not equals or (test not in NAMES and Path(text).is_file()):
+        test, name = "uniaxial", text
+    require_choice("test", test, NAMES)
     path = Path(name)
     columns = read_columns(path, UNITS)
     stretch, stress = _stretch(path, columns, gauge), _stress(path, columns, area)
@@ -60,7 +67,7 @@ def read(
         if up_to <= 1.0:
             raise BadInput(f"--up-to = {up_to:g}: a stretch, above 1; a strain of 50 % is a stretch of 1.5")
         stretch, stress = stretch[stretch <= up_to], stress[stretch <= up_to]
-    curve = Curve(test, stretch, stress, str(path))
+    curve = Curve(NAMES[test], stretch, stress, str(path))
     require_loading(curve, columns)
     return curve
 
@@ -80,7 +87,7 @@ def require_loading(curve: Curve, columns: Columns | None = None) -> None:
         raise BadInput(
             f"{where}: stretch = {stretch.min():g}: must be greater than 0; of strains write strain"
         )
-    way = 1.0 if abs(stretch[-1] - 1.0) >= abs(stretch[0] - 1.0) and stretch[-1] >= stretch[0] else -1.0
+    way = np.sign(stretch[np.argmax(np.abs(stretch - stretch[0]))] - stretch[0])
     gone = np.maximum.accumulate(way * stretch)
     back = gone - way * stretch > BACK * np.ptp(stretch)
     if back.any():
@@ -94,12 +101,16 @@ def require_loading(curve: Curve, columns: Columns | None = None) -> None:
         raise BadInput(
             f"{where}: stress {stress.min():g} to {stress.max():g} Pa: tension is > 0, compression < 0"
         )
-    if pull[-1] < BROKEN * pull.max():
-        row = int(np.argmax(pull))
-        raise BadInput(
-            f"{where}: the stress falls after stretch {stretch[row]:.4g}: torn? Leave that out by "
-            f"--up-to {stretch[row]:.4g}"
-        )
+    for side, remedy in (
+        (1.0, "Leave that out by --up-to {:.4g}"),
+        (-1.0, "Leave out the rows below {:.4g}"),
+    ):
+        strain = side * (stretch - 1.0)
+        strained = np.where(strain > 0.0, pull, 0.0)
+        if strained[np.argmax(strain)] < BROKEN * strained.max():
+            highest = stretch[np.argmax(strained)]
+            advice = remedy.format(highest)
+            raise BadInput(f"{where}: the stress falls after stretch {highest:.4g}: torn? {advice}")
     if pull.max() < SOFTEST * np.abs(stretch - 1.0).max():
         raise BadInput(
             f"{where}: at most {pull.max():g} Pa, softer than any solid sheet: write the stress's unit in "

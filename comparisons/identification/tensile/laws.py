@@ -85,7 +85,7 @@ def fit(law: str, curves: Sequence[Curve]) -> Fit | None:
     rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
     if rows < len(keys) + (3 if len(keys) > 1 else 2):
         return None
-    size = max(float(s / abs(c.stretch[-1] - 1.0)) for s, c in zip(scale, curves, strict=True)) / 6.0
+    size = max(s / float(np.abs(c.stretch - 1.0).max()) for s, c in zip(scale, curves, strict=True)) / 6.0
     most = max(float(kinematics(c.test, c.stretch)[2].max()) for c in curves)
 
     def constants(q: np.ndarray) -> list[float]:

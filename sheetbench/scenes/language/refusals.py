@@ -104,7 +104,8 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
             return f"{given}: must be a table" + f" with the keys {', '.join(keys)}" * bool(keys)
     unnamed = f"is not allowed ({fault['type'].replace('_', ' ')})"
     allowed = f"must {ALLOWED[fault['type']].format(**facts)}" if fault["type"] in ALLOWED else unnamed
-    return f"{given}: {allowed}"
+    hints = [f"; {node['hint']}" for node in nodes if fault["type"] == "less_than" and "hint" in node]
+    return f"{given}: {allowed}{''.join(hints[:1])}"
 
 
 def _unit(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:

@@ -1,7 +1,8 @@
 """The scene language as a JSON Schema (draft 2020-12), read off the types: every key, unit, bound, default.
 
 Editors complete and check a scene with it; the reference page and the refusals are made of it too. Beside the
-standard's keywords a number has `unit`, its SI unit. Absent is absent: TOML has no null.
+standard's keywords a number has `unit`, its SI unit, and may have `hint`, what to write beyond its bounds.
+Absent is absent: TOML has no null.
 """
 
 from __future__ import annotations

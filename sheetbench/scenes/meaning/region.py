@@ -107,6 +107,14 @@ def off_sheet(scene: SceneFields, point: PlanPoint) -> bool:
     return bool(scene.region.distance(Point(point)) > COINCIDENT * max(scene.sheet.lengths))
 
 
+def nearest_on_sheet(scene: SceneFields, points: np.ndarray) -> np.ndarray:
+    """Return the points of the sheet (n, 2) [m] that are nearest to plan points (n, 2) [m]."""
+    import shapely
+
+    lines = shapely.shortest_line(shapely.points(points), scene.region)
+    return np.asarray(shapely.get_coordinates(lines).reshape(-1, 2, 2)[:, 1])
+
+
 def misplaced(scene: SceneFields) -> Iterator[object]:
     """Yield why something is held, loaded or probed where no sheet is; what is false where it is not."""
     for key, point in marked(scene).items():

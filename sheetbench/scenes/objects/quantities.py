@@ -64,14 +64,18 @@ def _not_too_small(value: float) -> float:
 
 class Real:
     """A finite number, no text, within bounds (`gt`, `ge`, `lt`, `le`), and what else is checked of it: its
-    schema at once, of which pydantic would apply every part anew wherever one stands."""
+    schema at once, of which pydantic would apply every part anew wherever one stands. hint: what to write in
+    place of a number beyond the bounds; it stands in the JSON Schema."""
 
-    def __init__(self, check: Callable[[float], float] | None = None, **bounds: Any):
-        self.check, self.bounds = check, bounds
+    def __init__(self, check: Callable[[float], float] | None = None, hint: str = "", **bounds: Any):
+        self.check, self.hint, self.bounds = check, hint, bounds
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         number = core_schema.float_schema(strict=True, allow_inf_nan=False, **self.bounds)
         return core_schema.no_info_after_validator_function(self.check, number) if self.check else number
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {**handler(core), **({"hint": self.hint} if self.hint else {})}
 
 
 Finite = Annotated[float, Real()]
@@ -119,7 +123,8 @@ Length = Annotated[Positive, Unit("m")]
 Angle = Annotated[Number, Unit("rad")]
 Modulus = Annotated[Positive, Unit("Pa")]
 Density = Annotated[Positive, Unit("kg/m³")]
-PoissonRatio = Annotated[float, Real(gt=-1, lt=0.5)]  # of what is isotropic
+VOLUME_KEPT = "write 0.4999 for a material that keeps its volume"
+PoissonRatio = Annotated[float, Real(hint=VOLUME_KEPT, gt=-1, lt=0.5)]  # of what is isotropic
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(Field,))

@@ -17,6 +17,7 @@ from comparisons.cli import interruption, startup, study
 from comparisons.sweep import here as table
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
+from sheetbench.choices import VERBS
 from studies import STUDIES
 
 pytestmark = pytest.mark.smoke
@@ -25,10 +26,31 @@ PROGRAM = (sys.executable, "-m", "sheetbench")
 HEAVY = ("numpy", "scipy", "pydantic", "matplotlib", "pyvista", "vtkmodules", "numba", "skfem", "meshio")
 
 
-def test_importing_the_command_line_imports_nothing_heavy():
-    code = "import sys, comparisons.cli; print([m for m in sys.argv[1:] if m in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", code, *HEAVY], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+OURS = ("sheetbench", "comparisons", "lumped", "fem_reference", "studies")
+HELPED = {"sheetbench", "sheetbench.choices", "sheetbench.clock", "sheetbench.heap"}
+HELPED |= {
+    f"comparisons{name}" for name in ("", ".sweep", ".sweep.interrupts", ".tradeoff", ".tradeoff.usual")
+}
+IMPORTED = """
+import sys
+from comparisons.cli import main
+try:
+    main(sys.argv[1].split())
+finally:
+    print("imported", *sys.modules)
+"""
+
+
+@pytest.mark.parametrize("arguments", ["--help", "--version", "identify --help"])
+def test_help_and_version_import_no_scenes_and_nothing_heavy(arguments):
+    """`--help` imports every verb's module; of a verb's own help typer itself imports pydantic."""
+    program = [sys.executable, "-c", IMPORTED, arguments]
+    done = subprocess.run(program, capture_output=True, text=True, check=True)
+    found = set(done.stdout.rpartition("imported ")[2].split())
+    of_command_line = {name for name in found if name.startswith("comparisons.cli")}
+    assert {name for name in found if name.partition(".")[0] in OURS} - of_command_line <= HELPED
+    assert found & {*HEAVY} <= ({"pydantic"} if arguments.endswith(" --help") else set())
+    assert arguments != "--version" or not {f"comparisons.cli.{verb}" for verb in VERBS} & found
 
 
 UNUSED = ("matplotlib", "pyvista", "vtkmodules", "meshio", "pandas", "fem_reference.solid", "lumped.dynamics")

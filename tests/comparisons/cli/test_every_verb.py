@@ -4,12 +4,16 @@ import json
 import re
 from collections import Counter
 from collections.abc import Callable
+from functools import wraps
+from importlib import import_module
 from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, get_args
 
 import pytest
+import typer
 from commands import one_line, run
+from typer.main import get_command
 from verbs import SMALL, WITHOUT_ANSWER, few_runs, in_python, undraw, values_of, write_inputs
 
 import fem_reference
@@ -17,13 +21,19 @@ import lumped
 import sheetbench as sb
 from comparisons.cli import console
 from comparisons.cli.app import VERBS, verb_group
+from comparisons.cli.arguments import kind_of
+from comparisons.cli.options import Group
+from comparisons.cli.study import module_of
+from comparisons.cli.verb import as_verb
 from lumped.fitting.methods import MAKERS
 from sheetbench import choices
 from sheetbench.answers.report import Picture
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EdgeLoad, catalogue
+from studies import STUDIES
 
 ANSWERED = [name for name in SMALL if name not in WITHOUT_ANSWER]
+ONE = "one-edge-clamped"
 RESUMED = ("compare motion", "simulate", "tradeoff", "stability", "crosscheck")
 OTHER = {"two-edges-clamped": "one-edge-clamped", "one-edge-clamped": "two-edges-clamped"}
 OTHER |= {"two-edges-settling": "one-edge-clamped"}
@@ -241,6 +251,42 @@ def test_an_option_has_one_name_and_one_default_in_command_and_function():
         for name in set(known) - of_terminal:
             usual = known[name].default
             assert usual is Parameter.empty or usual in (options[name].default, None, False), name
+
+
+@pytest.mark.parametrize("verb", [*VERBS, "reproduction", *STUDIES])
+def test_every_list_takes_commas_and_repetition(verb, tmp_path):
+    """In Python lists; `--elements 8x4` too, and no help text has the same default twice."""
+    module = import_module(f"comparisons.cli.{verb}") if verb in VERBS else module_of(verb)
+    taken = {}
+
+    @wraps(module.command)
+    def command(*_, **values):
+        groups = [vars(value) for value in values.values() if isinstance(value, Group)]
+        taken.update({name: value for group in groups for name, value in group.items()} | values)
+
+    command.no_effect = {}
+    app = typer.Typer()
+    app.command(context_settings=getattr(module, "CONTEXT", None))(as_verb(verb, command))
+    main = get_command(app)
+    options = {one.name: one for one in main.params if one.param_type_name == "option"}
+    plain = [ONE for one in main.params if one.param_type_name == "argument" and one.required]
+    plain += ["--out", str(tmp_path / "out")] if "out" in options else []
+
+    def given(*arguments):
+        main(args=[*plain, *arguments], standalone_mode=False)
+        return taken
+
+    own = signature(module.command, eval_str=True).parameters
+    for name, option in options.items():
+        assert not re.search(r"(?i)default: (\S+); \1 ", option.help or ""), name
+        if option.multiple:
+            first, second, *_ = (name in own and kind_of(own[name]).choices) or "ab"
+            flag = option.opts[0]
+            assert given(flag, f"{first}, {second}")[name] == [first, second]
+            assert given(flag, first, flag, second)[name] == [first, second]
+            assert given(flag, "")[name] == [] and option.help.endswith("with commas, or the option again.")
+    if "elements" in options and verb != "transfer":  # squares
+        assert given("--elements", "8x4")["elements"] == "8x4"
 
 
 def test_scenes_of_the_catalogue_are_copied(kept):

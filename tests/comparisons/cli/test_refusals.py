@@ -16,6 +16,7 @@ STRIP = "calibrate --young 1e6 --poisson 0.3 --thickness 0.002 --side 0.1"
 ROWS = {
     f"tradeoff {ONE} --tolerance 2": "tolerance = 2: a fraction",
     f"tradeoff {ONE} --budget -1": "budget = -1",
+    f"tradeoff {ONE} --tolerance 0.1 --calibration uniform,axial": "--calibration: with --tolerance|one",
     f"tradeoff {ONE} --tolerance 0.1 --shell 4": "--shell: no effect with --tolerance",
     f"tradeoff {ONE} --tolerance 0.1 --duration 1": "--duration: no effect with --tolerance",
     f"tradeoff {ONE} --budget 5ms --workers 2": "--workers: no effect with --budget",
@@ -76,10 +77,11 @@ ROWS = {
     f"modes {ONE} --state-space 3 --elements 4": "--elements: no effect with --state-space",
     f"live {TWO} --port 70000": "--port",
     f"live {TWO} --grid 99": "grid = 99",
+    f"live {TWO} --elements 8x4": "elements = 8×4: a number each",
     f"modes {ONE} --count 0": "--count",
     f"modes {TWO} --lumped 3 --elements 2 --buckling --quiet": "bend the sheet at once",
     f"modes {ONE} --lumped 3 --count 500": "count = 500",
-    "new a.toml --poisson 0.5": "--poisson = 0.5|less than 0.5",
+    "new a.toml --poisson 0.5": "--poisson = 0.5|less than 0.5; write 0.4999",
     "new a.toml --side '3 s'": "--side = '3 s'|length",
     "new a.toml --clamped x0,z1": "--clamped = 'z1'|y1",
     "new a.toml --thickness 2": "thickness = 2 m|metres",
@@ -99,7 +101,7 @@ ROWS = {
     f"simulate {TWO} --lumped 3 --duration 1 --step 1e-12": "steps to 1 s",
     f"{SIMULATE} --every 1e-11": "samples, 1e-11 s apart; 1e+07 at most",
     f"simulate {TWO} --lumped 3 --duration 1e9": "samples",
-    f"stability {ONE} --vary weather": "vary = 'weather': unknown, choose one of load",
+    f"stability {ONE} --vary load,weather": "vary = 'weather': unknown, choose one of load",
     "study nosuch": "study = 'nosuch': unknown, choose one of reproduction, ",
     "study promises --wrongly": "No such option: --wrongly; see sheetbench study promises --help",
     "study promises --model lumped": "model = 'lumped': unknown, choose one of plate, shell",
@@ -153,6 +155,7 @@ SHORT = {
     "simulate": f"simulate {ONE} --duration 0.01",
     "identify": f"identify {ONE} --measured measured.csv",
     "tradeoff": f"tradeoff {ONE}",
+    "stability": f"stability {ONE}",
 }
 for verb, command in SHORT.items():
     ROWS |= {f"{command} --grading={wrong}": f"grading = {wrong}" for wrong in ("2", "-0.1", "fine", "nan")}

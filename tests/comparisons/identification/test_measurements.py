@@ -76,7 +76,8 @@ BAD = {
     "off the sheet": ("x,y,ux,uy,uz\n0.1,0.1,0,0,1e-3\n94,94,0,0,1e-3\n", ["line 3", "off the sheet"]),
     "millimetres": ("x,y,ux,uy,uz\n0.1,0.1,0,0,-6.02\n", ["line 2", "metres"]),
     "still": ("x,y,ux,uy,uz\n0.1,0.1,0,0,0\n", ["nothing moved"]),
-    "too few": ("x,y,ux,uy,uz\n0.1,0.1,,,-1e-3\n", ["1 measured number"]),
+    "no deviation": ("x,y,uz,sd [mm]\n0.1,0.1,-1e-3,0\n", ["line 2: sd = '0': must be greater than 0"]),
+    "off by more than rounding": ("x,y,uz\n0.18804,0.1,-1e-3\n", ["line 2", "off the sheet"]),
     "begins elsewhere": (
         "time,probe,ux,uy,uz\n0,P4,0,0,-2e-3\n0.1,P4,0,0,-6e-3\n",
         ["bad.csv: uz = -0.002 m at time = 0: a run begins with the flat sheet at rest; up to 0.0006 m"],

@@ -93,12 +93,41 @@ def test_columns_of_all_kinds_mean_the_same_curve(tmp_path):
         "Engineering Strain (%),True Stress (kPa)": (100 * (one.stretch - 1), one.stress * one.stretch / 1e3),
         "true strain,force [mN]": (np.log(one.stretch), one.stress * 18e-6 * 1e3),
         "Displacement (mm),Force (N)": (33.0 * (one.stretch - 1), one.stress * 18e-6),
+        'Strain,Force,Note\n"(-)","(kN)",': (one.stretch - 1, one.stress * 18e-9),
+        "Extension,Force,Time\nmm,mN,s": (33.0 * (one.stretch - 1), one.stress * 18e-3),
+        "stretch,true stress [kPa]\n-,Pa": (one.stretch, one.stress * one.stretch / 1e3),
+        "engineering strain,true stress\n%,MPa": (100 * (one.stretch - 1), one.stress * one.stretch / 1e6),
     }  # fmt: skip
     for header, (stretch, values) in written.items():
         found = read(table(tmp_path, "Machine,5\n" + rows(stretch, values, header)), 18e-6, gauge=33e-3)
         assert found.stretch == pytest.approx(one.stretch, rel=1e-6)
         assert found.stress == pytest.approx(one.stress, rel=1e-6)
-    assert read("equibiaxial=" + str(tmp_path / "test.csv"), 18e-6, gauge=33e-3).test == "equibiaxial"
+    for name, test in (("equibiaxial", "equibiaxial"), ("biaxial", "equibiaxial"), ("planar", "pure-shear")):
+        assert read(f"{name}={tmp_path / 'test.csv'}", 18e-6, gauge=33e-3).test == test
+    with pytest.raises(BadInput, match=r"test = 'planer': unknown.*did you mean planar"):
+        read(f"planer={tmp_path / 'test.csv'}", 18e-6)
+    (tmp_path / "test.csv").rename(tmp_path / "planer=1.csv")
+    assert read(str(tmp_path / "planer=1.csv"), 18e-6, gauge=33e-3).test == "uniaxial"
+
+
+@pytest.mark.parametrize("law", ["neo-hookean", "gent"])
+def test_compression_and_tension_are_one_curve(law, tmp_path):
+    """Of larger stress in compression, in any order; the torn side is the one that is named."""
+    at = np.linspace(0.45, 2.2, 36)
+    of = energy(law, TRUE[law])
+    file = table(tmp_path, rows(at, stress(of, "uniaxial", at), "stretch,engineering_stress"))
+    found = identify_tensile(file)
+    assert found.law.law == law and found.covered == {"uniaxial": pytest.approx((0.45, 2.2))}
+    assert list(found.law.constants.values()) == pytest.approx(TRUE[law], rel=1e-4)
+    down = np.linspace(1.2, 0.3, 30)
+    for way in (down, down[::-1]):
+        assert len(
+            read(table(tmp_path, rows(way, stress(of, "uniaxial", way), "stretch,true_stress"))).stress
+        )
+    crushed = stress(of, "uniaxial", down)
+    crushed[-1] = -1.0
+    with pytest.raises(BadInput, match=r"falls after stretch 0.331: torn. Leave out the rows below 0.331"):
+        read(table(tmp_path, rows(down, crushed, "stretch,engineering_stress")))
 
 
 UP = np.linspace(1.05, 2.0, 12)

@@ -57,7 +57,7 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
     (lambda scene: sb.simulate(scene, lattice=sb.Lattice(masses="gregory")), "masses: no effect on motion"),
     (lambda scene: sb.tradeoff(scene, tolerance=0.1, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
     (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),
-    (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'"),
+    (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'; it has elements, graded"),
 ])  # fmt: skip
 def test_what_does_not_go_with_a_question_is_refused(ask, said):
     with pytest.raises(sb.BadInput, match=said):
@@ -94,8 +94,8 @@ def held(*edges, poisson=0.3, softer=1.0):
 
 def test_a_trade_names_the_springs_that_auto_takes():
     """Each once, on every grid, with the reason; what is named outright stays."""
-    methods = "consistent,consistent-membrane,auto"
-    found, reasons = of_lattices(RUBBER, Lattice(), "3,5", methods)
+    methods = ["consistent", "consistent-membrane", "auto"]
+    found, reasons = of_lattices(RUBBER, Lattice(), ["3", "5"], methods)
     names = [candidate.settings["calibration"] for candidate in found]
     assert names == [*2 * ["consistent"], *2 * [MEMBRANE]]
     assert reasons == (f"calibration {MEMBRANE}: ν = 0.48 is above 0.4",)

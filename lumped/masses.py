@@ -55,6 +55,7 @@ from lumped.lattice import Lattice
 from lumped.sections import CellSection
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.composition import of_sheet
 from sheetbench.scenes.objects.springs import Distribution
 from sheetbench.scenes.objects.supports import held_axes
 
@@ -95,7 +96,23 @@ def sheet_masses(
         taken = (corrections * wider / np.maximum(left, right) / lines.tributary)[:, None] * by_line
         by_line += taken
         np.subtract.at(by_line, np.arange(len(left)) + wider, taken)
-    return np.repeat(plan.ravel(), layers)
+    if not scene.layers:
+        return np.repeat(plan.ravel(), layers)
+    return np.outer(layers * plan, _shares_of_layers(scene, lattice)).ravel()
+
+
+def _shares_of_layers(scene: Scene, lattice: Lattice) -> np.ndarray:
+    """Shares (layers,) of a column's mass, whose centre is that of the laminate's. Raises BadInput where one
+    would have none."""
+    of, heights = of_sheet(scene), lattice.positions[: lattice.grid[2], 2]
+    centre = of.moment_per_area / of.per_area
+    shares = 1.0 / len(heights) + centre * heights / (heights @ heights)
+    if shares.min() <= 0.0:
+        raise BadInput(
+            f"layer: their centre of mass is {1e3 * abs(centre):.3g} mm from the middle, and the lattice's "
+            f"layers {1e3 * heights.max():.3g} mm: no masses there balance so; the shell has such sheets"
+        )
+    return np.asarray(shares)
 
 
 def mass_matrix(

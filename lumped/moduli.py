@@ -10,13 +10,14 @@ gap between layers. Layers at z_k and gaps at z_g add up, with ε_z of each gap 
 
     A = Σ_k C + Σ_g G + m 1 1ᵀ,     D = Σ_k z_k² C + Σ_g z_g² G,     S = Σ s_g  (see below),
 
-where C is a layer's 3×3 form and G a gap's after relaxation. Under a transverse force the gaps carry
-shear in proportion to t_g = Σ_{k above g} z_k (equilibrium of the layers), so that the shear stiffness
-is (Σ t_g)²/Σ t_g² times one gap's: 1 for two layers, 2 for three.
+and of layers C + z_k C' B = Σ_k z_k² C', where C is a layer's 3×3 form and G a gap's after relaxation. Under
+a transverse force the gaps carry shear in proportion to t_g = Σ_{k above g} z_k (equilibrium of the layers),
+so that the shear stiffness is (Σ t_g)²/Σ t_g² times one gap's: 1 for two layers, 2 for three.
 
 The sheet itself has D_ij and A_ij of an isotropic plane-stress plate and, on a grid of spacing l,
 MacNeal's (1978) residual-bending shear stiffness 1/S* = 1/(κ G h) + l²/(12 D), κ = 5/6, which makes the
-one-point sheared lattice exact for cubic deflections. Stiffness per length: A, S [N/m], D [N·m].
+one-point sheared lattice exact for cubic deflections; of unlike layers D − B A⁻¹ B is in place of D.
+Stiffness per length: A, S [N/m], B [N], D [N·m].
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from typing import Any
 import numpy as np
 
 from lumped.lattice import STEPS
-from lumped.sections import ROUNDING, CellSection, free
+from lumped.sections import ROUNDING, CellSection, free, free_bending
 from lumped.spring_constants import FACES, Springs, of_faces, of_rubber
 from sheetbench.scenes import SpringSet
 
@@ -40,40 +41,48 @@ LEVEL = int(np.sum(SPAN[:, 2] == 0.0))  # those within a layer, which come first
 
 @dataclass(frozen=True)
 class Moduli:
-    """In-plane forms A [N/m] and D [N·m], (…, 3, 3) over (x, y, xy); shear stiffness S (…, 2) [N/m], and what
-    couples shear along x with that along y, (…); of cells the dots are (cells,) or (rows, columns)."""
+    """In-plane forms A [N/m], D [N·m] and B [N], `mixed`, (…, 3, 3) over (x, y, xy); shear stiffness S (…, 2)
+    [N/m], and what couples shear along x with that along y, (…); of cells the dots are (cells,) or (rows,
+    columns)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
     coupling: np.ndarray
+    mixed: np.ndarray
 
     @property
     def oblique(self) -> np.ndarray:
         """Whether stretching along the sides shears, (…): fibres are at an angle to them."""
-        both = ((form, form[..., :2, 2]) for form in (self.membrane, self.bending))
-        found = [np.abs(skew).max(axis=-1) > ROUNDING * form[..., 0, 0] for form, skew in both]
-        return np.asarray(found[0] | found[1])
+        forms = self.membrane, self.bending, self.mixed
+        skew = [np.abs(form[..., :2, 2]).max(axis=-1) > ROUNDING * np.abs(form[..., 0, 0]) for form in forms]
+        return np.any(skew, axis=0)
+
+    @property
+    def free_bending(self) -> np.ndarray:
+        """D − B A⁻¹ B."""
+        return free_bending(self.membrane, self.mixed, self.bending)
 
     @property
     def free_shear(self) -> np.ndarray:
         """S along x and y (…, 2) where no force shears the other way."""
         return free(self.shear, self.coupling)
 
-    def named(self, square: bool, oblique: bool = False) -> dict[str, np.ndarray]:
-        """The moduli by name, (…) each; on square cells the x and y values are one."""
+    def named(self, square: bool, oblique: bool = False, mixed: bool = False) -> dict[str, np.ndarray]:
+        """The moduli by name, (…) each; on square cells the x and y values are one. mixed: those of B too."""
         a, d, s = self.membrane, self.bending, self.shear
-        forms = {"D": d, "A": a}
+        forms = {"D": d, "A": a} | ({"B": self.mixed} if mixed else {})
         places = {"11": (0, 0), "12": (0, 1), "66": (2, 2)}
         names = {
             f"{kind}{ij}": form[..., i, j] for kind, form in forms.items() for ij, (i, j) in places.items()
         }
         if oblique:
-            names |= {"D16": d[..., 0, 2], "D26": d[..., 1, 2], "A16": a[..., 0, 2], "A26": a[..., 1, 2]}
+            names |= {f"{kind}{n + 1}6": form[..., n, 2] for kind, form in forms.items() for n in range(2)}
         if square:
             return {**names, "S": s[..., 0]}
         both = {"Sxy": self.coupling} if oblique else {}
-        return {**names, "D22": d[..., 1, 1], "A22": a[..., 1, 1], "Sx": s[..., 0], "Sy": s[..., 1]} | both
+        names |= {f"{kind}22": form[..., 1, 1] for kind, form in forms.items()}
+        return {**names, "Sx": s[..., 0], "Sy": s[..., 1]} | both
 
 
 def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
@@ -124,12 +133,15 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     shear = gap[..., :2, 2]
     if springs.of.keys() & FACES:
         shear = shear + sum(of_faces(springs, sides**2))
+    more = springs.upward
+    upward = of_cells(more, sides, layers).membrane if more.of else np.zeros_like(in_layer)
     coupling = springs.along("face_coupling", 0) * sides.prod(axis=-1) / np.sum(sides**2, axis=-1)
     return Moduli(
         membrane=layers * in_layer + (layers - 1) * in_gap + _in_plane(springs, "mid_area"),
         bending=(second_moment(layers) * in_layer + second_moment(layers - 1) * in_gap) * square,
         shear=shear_gaps(layers) * shear,
         coupling=shear_gaps(layers) * np.broadcast_to(coupling, shape),
+        mixed=second_moment(layers) * springs.layer_distance / layers * upward,
     )
 
 
@@ -169,7 +181,9 @@ def _form(own: np.ndarray, area: np.ndarray) -> np.ndarray:
 def of_section(section: CellSection, spacing: Any) -> Moduli:
     """Moduli of sections, with MacNeal's S* of the in-plane spacings (lx, ly) (…, 2) [m] as the shear
     stiffness."""
-    own = np.diagonal(section.bending, axis1=-2, axis2=-1)[..., :2]
+    bending = free_bending(section.membrane, section.mixed, section.bending)
+    own = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
     residual = (np.square(spacing) / (12.0 * own))[..., None] * np.eye(2)
     shear = np.linalg.inv(np.linalg.inv(section.shear) + residual)
-    return Moduli(section.membrane, section.bending, np.diagonal(shear, axis1=-2, axis2=-1), shear[..., 0, 1])
+    along = np.diagonal(shear, axis1=-2, axis2=-1)
+    return Moduli(section.membrane, section.bending, along, shear[..., 0, 1], section.mixed)

@@ -8,9 +8,10 @@ With Q of a ply in its own axes and t its angle (Tsai and Pagano)
     U₄ = (Q₁₁ + Q₂₂ + 6 Q₁₂ − 4 Q₆₆)/8          C₁₆ = ½ U₂ sin 2t + U₃ sin 4t
     U₅ = (U₁ − U₄)/2                            C₂₆ = ½ U₂ sin 2t − U₃ sin 4t,   C₆₆ = U₅ − U₃ cos 4t.
 
-Plies from z₀ to z₁ have A = Σ C (z₁ − z₀), D = Σ C (z₁³ − z₀³)/3. Transverse forces Q_x, Q_y have the
-stresses of cylindrical bending, in each ply (a − b z²) Q with b = C₁₁/2D₁₁, of which their shear compliance
-is made; of one ply S = κ G h, κ = 5/6.
+Plies from z₀ to z₁ have A = Σ C (z₁ − z₀), B = Σ C (z₁² − z₀²)/2, D = Σ C (z₁³ − z₀³)/3. Transverse forces
+Q_x, Q_y have the stresses of cylindrical bending where nothing pulls, in each ply (a + 2 b n z − b z²) Q with
+n = B₁₁/A₁₁ and b = C₁₁/2(D₁₁ − n B₁₁), of which their shear compliance is made; of one ply S = κ G h,
+κ = 5/6.
 Source: Jones, Mechanics of Composite Materials (1999), 2.7, 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
 """
 
@@ -22,7 +23,8 @@ import numpy as np
 
 from sheetbench.scenes.objects.orthotropy import Ply
 
-Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
+ROUNDING = 1e-12  # of A times the thickness, for what of B is 0
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def in_plane(ply: Ply) -> np.ndarray:
@@ -39,23 +41,30 @@ def in_plane(ply: Ply) -> np.ndarray:
 
 
 def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
-    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S (…, 2, 2) [N/m] of plies."""
+    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m], S (…, 2, 2) [N/m] and B (…, 3, 3) [N] of plies."""
     moduli = [in_plane(ply) for ply in plies]
     layers = list(zip(moduli, plies, strict=True))
-    stretching = sum(c * (ply.high - ply.low) for c, ply in layers)
-    bending = np.sum([c * (ply.high**3 - ply.low**3) / 3.0 for c, ply in layers], axis=0)
+    stretching, mixed, bending = (
+        np.sum([c * (ply.high**n - ply.low**n) / n for c, ply in layers], axis=0) for n in (1, 2, 3)
+    )
+    mixed = np.where(np.abs(mixed) > ROUNDING * np.abs(stretching).max(), mixed, 0.0)
+    stretched, pulled, bent = (_along(part) for part in (stretching, mixed, bending))
+    neutral = pulled / stretched
     compliance, below = np.zeros((2, 2)), np.zeros(2)
     for c, ply in layers:
-        b = np.stack([c[..., n, n] / (2.0 * bending[..., n, n]) for n in range(2)], axis=-1)
-        a = below + b * ply.low**2
-        one, three, five = ((ply.high**n - ply.low**n) / n for n in (1, 3, 5))
-        mixed = a[..., :, None] * b[..., None, :]
-        squares = one * a[..., :, None] * a[..., None, :] + five * b[..., :, None] * b[..., None, :]
-        squares = squares - three * (mixed + mixed.swapaxes(-1, -2))
-        compliance = compliance + squares * _shear_compliance(ply)
-        below = a - b * ply.high**2
+        b = _along(c) / (2.0 * (bent - neutral * pulled))
+        a = below + b * (ply.low - 2.0 * neutral) * ply.low
+        stress = np.stack([a, 2.0 * b * neutral, -b], axis=-1)
+        powers = np.array([[(ply.high**n - ply.low**n) / n for n in range(m, m + 3)] for m in (1, 2, 3)])
+        compliance = compliance + stress @ powers @ stress.swapaxes(-1, -2) * _shear_compliance(ply)
+        below = stress @ [1.0, ply.high, ply.high**2]
     h = np.asarray(thickness)[..., None, None]
-    return h * stretching, h**3 * bending, h * np.linalg.inv(compliance)
+    return h * stretching, h**3 * bending, h * np.linalg.inv(compliance), h**2 * mixed
+
+
+def _along(form: np.ndarray) -> np.ndarray:
+    """11 and 22 (…, 2) of forms (…, 3, 3)."""
+    return np.diagonal(form, axis1=-2, axis2=-1)[..., :2]
 
 
 def _shear_compliance(ply: Ply) -> np.ndarray:

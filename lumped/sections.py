@@ -2,7 +2,8 @@
 
     A = E h/(1 − ν²) [[1, ν, 0], [ν, 1, 0], [0, 0, (1 − ν)/2]],    D = A h²/12,    S = κ G h,    κ = 5/6,
 
-and of fibres what `lumped.plies` has.
+and of fibres and layers what `lumped.plies` has, which with B ≠ 0 bend when pulled, N = A ε + B κ and
+M = B ε + D κ.
 
 A cell is divided FINER × FINER, and where a part has a side along the axes; each division has the mean of
 its parts by area. Across a line between two of them, say at constant x, N_x, M_x and Q_x are the same on both
@@ -43,14 +44,15 @@ ROUNDING = 1e-12  # of moduli, for what is 0
 
 @dataclass(frozen=True, eq=False)
 class CellSection:
-    """membrane (…, 3, 3) [N/m] and bending (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2, 2) [N/m] along x and
-    y, per_area (…) [kg/m²]; of cells the dots are (rows, columns); rims: the oblique ones, where there are
-    any; share: the sheet's of each cell, where some are cut; growth: of the sides of each, where patches have
-    grown."""
+    """membrane A (…, 3, 3) [N/m] and bending D (…, 3, 3) [N·m] over (x, y, xy), shear (…, 2, 2) [N/m] along x
+    and y, mixed B (…, 3, 3) [N], per_area (…) [kg/m²]; of cells the dots are (rows, columns); rims: the
+    oblique ones, where there are any; share: the sheet's of each cell, where some are cut; growth: of the
+    sides of each, where patches have grown."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
+    mixed: np.ndarray
     per_area: np.ndarray
     rims: ObliqueRims | None = None
     share: np.ndarray | None = None
@@ -73,7 +75,7 @@ class CellSection:
         rigidity = stretching * h**2 / 12.0
         shear = SHEAR_CORRECTION * young / (2.0 * (1.0 + nu)) * h
         membrane, bending = (k[..., None, None] * unit for k in (stretching, rigidity))
-        return cls(membrane, bending, shear[..., None, None] * np.eye(2), density * h)
+        return cls(membrane, bending, shear[..., None, None] * np.eye(2), 0.0 * membrane, density * h)
 
     def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
         """With every part of it changed, but for the rims."""
@@ -92,10 +94,19 @@ class CellSection:
     def layer_width(self) -> np.ndarray:
         """λ (…, 2) [m], in which the twisting moment fades at free edges normal to x and to y: √(D/S), D
         `twisting` and S along the edge, across which no force shears; h/√10 of an isotropic sheet."""
-        return np.sqrt(_over(twisting(self.bending), self.free_shear[..., ::-1]))
+        twist = twisting(free_bending(self.membrane, self.mixed, self.bending))
+        return np.sqrt(_over(twist, self.free_shear[..., ::-1]))
 
 
-PARTS = ("membrane", "bending", "shear", "per_area")
+PARTS = ("membrane", "bending", "shear", "mixed", "per_area")
+
+
+def free_bending(membrane: np.ndarray, mixed: np.ndarray, bending: np.ndarray) -> np.ndarray:
+    """D − B A⁻¹ B (…, 3, 3) [N·m], the bending stiffness where nothing pulls."""
+    if not mixed.any():
+        return bending
+    there = membrane[..., :1, :1] > 0.0
+    return np.asarray(bending - mixed @ np.linalg.solve(np.where(there, membrane, np.eye(3)), mixed))
 
 
 def free(shear: np.ndarray, coupling: np.ndarray) -> np.ndarray:
@@ -211,4 +222,4 @@ def _in_series(section: CellSection, axis: int, begin: np.ndarray, share: np.nda
         return rest + mixed[..., :, None] * mixed[..., None, :] / compliance[..., None, None]
 
     parts: dict[str, Any] = {name: form(getattr(section, name)) for name in PARTS[:3]}
-    return CellSection(**parts, per_area=mean(section.per_area))
+    return CellSection(**parts, mixed=mean(section.mixed), per_area=mean(section.per_area))

@@ -29,6 +29,11 @@ EDGES_OWN = (*NEAR_EDGES, *(f"far_{name}" for name in NEAR_EDGES))
 COUPLINGS = ("coupling_xy", "coupling_x", "coupling_y")
 MID_COUPLINGS = tuple(f"mid_{name}" for name in COUPLINGS)
 RIMS_OWN = tuple(f"rim_{name}" for name in ("stretch_x", "stretch_y", "shear", *COUPLINGS))
+OF_LAYER = {"axial": 2, "diagonal": 1, "area": 1, "stretch": 2, "shear": 1, **dict.fromkeys(COUPLINGS, 1)}
+UPWARD = {  # of a layer's springs, and as many directions, what each layer has more than that below
+    name: tuple(f"upward_{name}{axis}" for axis in (("",), ("_x", "_y"))[count - 1])
+    for name, count in OF_LAYER.items()
+}
 RUBBER_CONSTANTS = tuple(name for name in CONSTANTS if name.startswith(("neo_", "mooney_", "yeoh_", "gent_")))
 STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε1 ε2, ε1 γ and ε2 γ
     "area": (("stretch", 0), ("stretch", 1), ("shear", 0), *((name, 0) for name in COUPLINGS)),
@@ -37,6 +42,7 @@ STRAINS = {  # name and direction of what resists ε1, ε2 and γ and couples ε
 STRAINS["mid_area"] = tuple((f"mid_{name}", axis) for name, axis in STRAINS["area"])
 FACES = ("face_shear", "face_diagonal_shear", "face_coupling")
 SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OWN, *RIMS_OWN, "face_coupling")
+SIGNED += tuple(key for keys in UPWARD.values() for key in keys)
 ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
 REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
 NO_STIFFNESS = {*LATTICE, "layer_distance"}
@@ -117,6 +123,13 @@ class Springs:
             if name in self.of:
                 found[..., number] = self.along(name, axis)
         return found
+
+    @cached_property
+    def upward(self) -> Springs:
+        """What each layer has more than that below, as springs of a layer; none of layers that are alike."""
+        own = {name: tuple(self.along(key, 0) for key in keys) for name, keys in UPWARD.items()}
+        parts = {name: tuple(np.broadcast_arrays(*each)) for name, each in own.items()}
+        return Springs({name: each for name, each in parts.items() if np.any(each)}, self.layer_distance)
 
     @cached_property
     def shape(self) -> tuple[int, int]:

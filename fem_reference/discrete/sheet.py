@@ -225,8 +225,8 @@ class Discrete(ABC):
         they are linear in."""
 
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
-        """Forces (N,) of dead ones on the mid-surface (n, 3)."""
-        return np.asarray(self.onto_surface.T @ np.append(dead, np.zeros_like(dead)))
+        """Forces (N,) of dead ones on the mid-surface (n, 3), or on that and its directors (2 n, 3)."""
+        return np.asarray(self.onto_surface.T @ np.append(dead, np.zeros(6 * self.nodes - dead.size)))
 
     @abstractmethod
     def of_vectors(self, displacement: np.ndarray, turn: np.ndarray) -> np.ndarray:

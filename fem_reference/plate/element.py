@@ -55,8 +55,10 @@ class PlateElements(Element):
         sampled = np.einsum("kij,ejc->ekic", FORMS[SAMPLED_SHEAR], reference)
         forms[:, :, SHEAR] = np.einsum("egak,ekic->egaic", cartesian(nodes)[2], sampled)
         stiffness, weights = np.zeros((m, q, 8, 8)), areas(nodes)
-        for part, moduli in zip((MEMBRANE, BENDING, SHEAR), section, strict=True):
-            stiffness[:, :, part, part] = weights[..., None, None] * moduli
+        places = (MEMBRANE, MEMBRANE), (BENDING, BENDING), (SHEAR, SHEAR), (MEMBRANE, BENDING)
+        for (row, column), moduli in zip(places, section, strict=True):
+            stiffness[:, :, row, column] = weights[..., None, None] * moduli
+        stiffness[:, :, BENDING, MEMBRANE] = stiffness[:, :, MEMBRANE, BENDING]
         made = stiffness.reshape(-1, 8, 8), weights, gradient, forms.reshape(m, 8 * q, 54)
         return cls(reference, *made)
 

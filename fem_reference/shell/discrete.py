@@ -11,7 +11,7 @@ in the step of statics,
     d · δd = ½ (1 − d · d),
 
 and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). The kinetic energy per area
-is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|².
+is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², of unlike layers with ∫ρz dz u̇·ḋ besides.
 """
 
 from __future__ import annotations
@@ -112,11 +112,13 @@ class DiscreteShell(DiscreteElements):
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """∫ ρh N N dA of φ, ∫ ρh³/12 N N dA of d, and payloads (m, 18, 3, 18, 3) [kg, kg m²]."""
+        """∫ ρh N N dA of φ, ∫ ρh³/12 N N dA of d, ∫ρz dz N N dA of both, and payloads (m, 18, 3, 18, 3)
+        [kg, kg m²]."""
         value, of = AT_GAUSS[0], constants_of(self.scene, self.plan.corners)
-        parts = np.array([self.element.areas * part for part in (of.per_area, of.rotary_per_area)])
-        masses = np.einsum("peg,gi,gj->peij", parts, value, value)
-        out = np.einsum("peij,pr,cd->epicrjd", masses, np.eye(2), np.eye(3)).reshape(-1, 18, 3, 18, 3)
+        kinds = ((of.per_area, of.moment_per_area), (of.moment_per_area, of.rotary_per_area))
+        parts = np.array([[self.element.areas * part for part in row] for row in kinds])
+        masses = np.einsum("preg,gi,gj->preij", parts, value, value)
+        out = np.einsum("preij,cd->epicrjd", masses, np.eye(3)).reshape(-1, 18, 3, 18, 3)
         add_carried(self.scene, self.plan, out)
         return out
 

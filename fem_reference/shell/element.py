@@ -99,19 +99,23 @@ OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are theirs
 class Element:
     """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²].
 
-    parts: which strains are whose. coupled: whether D mixes these.
+    parts: which strains are whose.
     """
 
     reference: np.ndarray
     stiffness: np.ndarray
     areas: np.ndarray
     parts: ClassVar[dict[str, slice]] = {"membrane": MEMBRANE, "bending": BENDING, "shear": SHEAR}
-    coupled: ClassVar[bool] = False
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
         """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
         return cls(*built(nodes, *section))
+
+    @cached_property
+    def coupled(self) -> bool:
+        """Whether D mixes strains of different parts."""
+        return bool(self.stiffness[:, MEMBRANE, BENDING].any())
 
     @cached_property
     def flat_jacobian(self) -> np.ndarray:
@@ -171,7 +175,7 @@ def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
 
 @cached(last=4, most=1 << 16)
 def built(
-    nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray
+    nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray, mixed: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""
     stretching, bent, slanted, areas = cartesian(nodes)
@@ -179,6 +183,9 @@ def built(
     stiffness[:, MEMBRANE, MEMBRANE] = integrated(stretching, membrane, areas)
     stiffness[:, BENDING, BENDING] = integrated(bent, bending, areas)
     stiffness[:, SHEAR, SHEAR] = integrated(slanted, shear, areas)
+    if mixed.any():
+        stiffness[:, MEMBRANE, BENDING] = integrated(stretching, mixed, areas, bent)
+        stiffness[:, BENDING, MEMBRANE] = stiffness[:, MEMBRANE, BENDING].swapaxes(1, 2)
     return upright(nodes), stiffness, areas
 
 

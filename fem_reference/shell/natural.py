@@ -43,4 +43,5 @@ def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
     turn = pulled_back(inverse, IN_PLANE)
     back = area * turn.swapaxes(-1, -2)
     shear = area * inverse @ section.shear @ inverse
-    return Section(back @ section.membrane @ turn, back @ section.bending @ turn, shear)
+    membrane, bending, mixed = (back @ k @ turn for k in (section.membrane, section.bending, section.mixed))
+    return Section(membrane, bending, shear, mixed)

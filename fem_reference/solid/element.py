@@ -42,7 +42,6 @@ from fem_reference.surface.biquadratic import IN_SPACE, THREE, TYING, lagrange, 
 from fem_reference.surface.materials import green
 from sheetbench.numerics.cache import frozen
 from sheetbench.scenes import Constants, Material, Scene
-from sheetbench.scenes.meaning.composition import of_sheet
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 NODES = 27
@@ -243,16 +242,14 @@ class Bricks:
 
 def at_rest(plain: Bricks, scene: Scene) -> tuple[Bricks, NaturalState | None]:
     """Return the bricks of a scene from those of the sheet as drawn, and their natural strains (m, k): of the
-    stretch U(z) = 1 + e0 − z k0, which leaves the thickness alone, z from the plane that e0 is of."""
+    stretch U(z) = 1 + e0 − z k0, which leaves the thickness alone, z from the middle."""
     sampled = np.concatenate([np.array(sites) for sites in SAMPLED]).T
     sites = shape((sampled + 1.0) / 2.0)[0].T @ plain.positions  # (m, k, 3)
     points = shape(reference().points)[0].T @ plain.positions[..., :2]
     state, mid_surface = natural_at(scene, sites[..., :2]), natural_at(scene, points)
     if state is None or mid_surface is None:
         return plain, None
-    plies = of_sheet(scene).plies
-    middle = -(plies[0].low + 0.5) * scene.sheet.thickness if plies else 0.0
-    height = (sites[..., 2] - middle)[..., None, None]
+    height = sites[..., 2, None, None]
     centre = plain.positions.mean(axis=1, keepdims=True)  # about which no digits are lost
     sides, plan = plain.gradient(-centre)[..., :2], (plain.positions - centre)[..., :2]
 

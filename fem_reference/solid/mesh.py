@@ -147,7 +147,7 @@ def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Cons
     found = constants_at(scene, middles)
     if not scene.layers:
         return found
-    heights = (np.arange(layers) + 0.5) / layers + found.plies[0].low
+    heights = (np.arange(layers) + 0.5) / layers - 0.5
     own = [next(ply for ply in found.plies if ply.low <= at <= ply.high) for at in heights]
     values: list[Any] = [np.repeat(each, len(middles) // layers)[:, None] for each in zip(*own, strict=True)]
     ply = Ply(*values)

@@ -2,7 +2,7 @@
 
     force     dead loads  as the scene has them (`dead_force`)
               pressure    ½ p ∮ φ × dφ
-    moment    weight      ρ h ∫ φ dA × g              chain      ρ_l ∫ (φ + c d) dL × g
+    moment    weight      ∫ ρ (φ + z d) dV × g        chain      ρ_l ∫ (φ + c d) dL × g
               payload     m φ(x) × g, or m ⟨φ⟩ × g
               point       φ(x) × F                    edge       ∫ φ dL × q + m ∫ (|d|² t̂ − (d · t̂) d) dL
               pressure    −½ p ∮ |φ|² dφ
@@ -58,6 +58,13 @@ class Surface:
         """w |det J| ρh (m, 9) [kg] at the Gauss points, of a scene's sheet."""
         return areas(self.plan.corners) * constants_of(scene, self.plan.corners).per_area
 
+    def first_moment(self, scene: Scene) -> np.ndarray:
+        """∫ ρ (φ + z d) dV (3,) [kg m] of a scene's sheet."""
+        of, weights = constants_of(scene, self.plan.corners), areas(self.plan.corners)
+        masses = np.array([weights * per_area for per_area in (of.per_area, of.moment_per_area)])
+        vectors = np.array([self.position, self.director])[:, self.plan.elements]
+        return np.asarray(np.einsum("peg,pegc->c", masses, AT_GAUSS[0] @ vectors))
+
     def lengths(self, sides: np.ndarray) -> np.ndarray:
         """w |X,ξ| (k, 3) [m] at the points of sides (k, 3)."""
         return THREE_WEIGHTS * np.linalg.norm(_SLOPE @ self.plan.nodes[sides], axis=-1)
@@ -67,7 +74,7 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
     """Force [N] and moment [N·m] (3,) of the whole load, and of the chains on edges."""
     force, moment = _dead_force(scene, surface), np.zeros(3)
     if scene.gravity is not None:
-        parts = [np.einsum("eg,egc->c", surface.masses(scene), _area(None, surface)[1])]
+        parts = [surface.first_moment(scene)]
         parts += [_first_moment(payload, surface) for payload in scene.masses]
         parts += [_of_chains(edge, surface, scene.sheet.thickness) for edge in edges]
         moment = np.cross(np.sum(parts, axis=0), scene.gravity.last_acceleration)

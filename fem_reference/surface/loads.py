@@ -1,6 +1,7 @@
 """Loads of the sheet: dead nodal forces, a follower pressure and a follower edge moment.
 
 gravity    f = ∫ ρ h g N dA                       dead, and that of payloads (`surface.carried`)
+           f_d = ∫ (∫ρz dz) g N dA                dead, on the directors, of unlike layers
 point      f = F N(x)                             dead
 edge       f = ∫ q N dL                           dead, per undeformed length
 area       f = ∫ q N dA                           dead, per undeformed area
@@ -164,14 +165,16 @@ def spread(plan: Plan, nodes: np.ndarray, shares: np.ndarray, force: np.ndarray)
 
 
 def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
-    """Dead nodal forces (n, 3) [N] and follower loads of a scene on a mesh that carries the edges' names;
-    every load with the last factor of its history."""
+    """Dead forces (2 n, 3) [N], [N m] on positions, then directors of nodes, and follower loads of a scene on
+    a mesh that carries the edges' names; every load with the last factor of its history."""
     corners, followers = plan.corners, list[Follower]()
-    dead = [np.zeros((len(plan.nodes), 3))]
+    dead, on_directors = [np.zeros((len(plan.nodes), 3))], np.zeros((len(plan.nodes), 3))
     if scene.gravity is not None:
         acceleration = np.array(scene.gravity.last_acceleration)
-        weighed = areas(corners) * constants_of(scene, corners).per_area
+        of = constants_of(scene, corners)
+        weighed, turned = (areas(corners) * per_area for per_area in (of.per_area, of.moment_per_area))
         dead.append(spread(plan, plan.elements, weighed @ AT_GAUSS[0], acceleration))
+        on_directors = spread(plan, plan.elements, turned @ AT_GAUSS[0], acceleration)
         for on, mass, _ in carried(scene, plan):
             dead.append(spread(plan, plan.elements[on], mass.sum(axis=2), acceleration))
     for load in scene.loads:
@@ -195,7 +198,7 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
                 on = plan.within(load.where)
                 closed = encloses_volume(scene.supports) and not (scene.pierced or load.where)
                 followers.append(FollowerPressure(factor * load.value, on, orientation(corners[on]), closed))
-    return np.sum(dead, axis=0), followers
+    return np.concatenate([np.sum(dead, axis=0), on_directors]), followers
 
 
 def orientation(nodes: np.ndarray) -> np.ndarray:

@@ -25,12 +25,14 @@ SHEAR_CORRECTION = 5.0 / 6.0
 
 
 class Section(NamedTuple):
-    """Stiffness of the sheet per unit of its width: membrane (3, 3) [N/m] and bending (3, 3) [N·m] in Voigt
-    order, shear (2, 2) [N/m]; of a sheet that is not the same all over at the Gauss points, (m, 9, …)."""
+    """Stiffness of the sheet per unit of its width: membrane A (3, 3) [N/m] and bending D (3, 3) [N·m] in
+    Voigt order, shear (2, 2) [N/m], and B (3, 3) [N], mixed, of N = A E + B κ and M = B E + D κ; of a sheet
+    that is not the same all over at the Gauss points, (m, 9, …)."""
 
     membrane: np.ndarray
     bending: np.ndarray
     shear: np.ndarray
+    mixed: np.ndarray = np.zeros((3, 3))
 
 
 def constants_of(scene: Scene, corners: np.ndarray) -> Constants:

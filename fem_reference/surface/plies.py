@@ -6,10 +6,11 @@ In a ply's own axes, plane stress (`sheetbench.scenes.objects.orthotropy`), with
 
 T(θ) what makes strains [11, 22, 2·12] of [xx, yy, 2xy]. Of plies from z₀ to z₁ (classical lamination theory)
 
-    A = Σ C (z₁ − z₀),    D = Σ C (z₁³ − z₀³)/3,
+    A = Σ C (z₁ − z₀),    B = Σ C (z₁² − z₀²)/2,    D = Σ C (z₁³ − z₀³)/3,
 
 and the transverse shear has the energy of the stresses that balance those of cylindrical bending along x
-and along y, τ_xz = g_x Q_x with g_x = −∫ C₁₁ z dz/D₁₁ from the lower face up, g_y likewise:
+and along y, τ_xz = g_x Q_x with g_x = −∫ C₁₁ (z − B₁₁/A₁₁) dz/(D₁₁ − B₁₁²/A₁₁) from the lower face up, g_y
+likewise:
 
     S⁻¹ = ∫ diag(g) G⁻¹ diag(g) dz,
 
@@ -58,11 +59,18 @@ def shear_moduli(ply: Ply) -> np.ndarray:
 
 
 def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.ndarray, ...]:
-    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m] and S (…, 2, 2) [N/m] of plies, of a sheet (…) [m] thick."""
+    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m], S (…, 2, 2) [N/m] and B (…, 3, 3) [N] of plies, of a sheet (…)
+    [m] thick."""
     moduli = [plane_stress(ply) for ply in plies]
-    stretching = sum(c * (ply.high - ply.low) for c, ply in zip(moduli, plies, strict=True))
-    bending = sum(c * (ply.high**3 - ply.low**3) / 3.0 for c, ply in zip(moduli, plies, strict=True))
-    bent = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
+    stretching, mixed, bending = (
+        sum(c * (ply.high**n - ply.low**n) / n for c, ply in zip(moduli, plies, strict=True))
+        for n in (1, 2, 3)
+    )
+    stretched, pulled, bent = (
+        np.diagonal(part, axis1=-2, axis2=-1)[..., :2] for part in (stretching, mixed, bending)
+    )
+    neutral = pulled / stretched
+    bent = bent - neutral * pulled
     compliance = np.zeros((*bent.shape, 2))
     carried = np.zeros_like(bent)  # g at the ply's lower face
     for c, ply in zip(moduli, plies, strict=True):
@@ -70,11 +78,11 @@ def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.nda
         soft, half = np.linalg.inv(shear_moduli(ply)), 0.5 * (ply.high - ply.low)
         for point, weight in zip(_POINTS, _WEIGHTS, strict=True):
             at = ply.low + half * (1.0 + point)
-            g = carried - own * (at**2 - ply.low**2) / (2.0 * bent)
+            g = carried - own * (0.5 * (at + ply.low) - neutral) * (at - ply.low) / bent
             compliance = compliance + weight * half * g[..., :, None] * soft * g[..., None, :]
-        carried = carried - own * (ply.high**2 - ply.low**2) / (2.0 * bent)
+        carried = carried - own * (0.5 * (ply.high + ply.low) - neutral) * (ply.high - ply.low) / bent
     h = np.asarray(thickness)[..., None, None]
-    return h * stretching, h**3 * bending, h * np.linalg.inv(compliance)
+    return h * stretching, h**3 * bending, h * np.linalg.inv(compliance), h**2 * mixed
 
 
 def in_space(ply: Ply) -> np.ndarray:

@@ -24,6 +24,11 @@ and larger.
 Where S* couples shear along x with that along y, an upright face over one diagonal of a cell has S*xy, and
 |S*xy| r of S*x, |S*xy|/r of S*y, each at most COUPLED of them; the links have the rest.
 
+Of a sheet with B layers differ, C + z_k C' with C' = B/Σ z_k²: the lowest and the highest have the springs of
+their own forms, links a third of E h as at an angle to fibres, those between grow `upward`. That needs layers
+close enough for the softest to resist any strain; so S* is the upright faces' alone, those over the cells'
+diagonals having the share d of it, and lz is the least that A and D allow.
+
 What lz leaves free is the cost of a strain that varies across a cell. A cell bent in its plane, ε_x = χ y,
 has the links along x on its two sides stretched and nothing else: with E_x of A11 in those it stores ½ E_x (χ
 ly/2)² per area, where the sheet, free to contract, stores ½ (A11 − A12²/A22) χ² ly²/12. So links along the
@@ -57,11 +62,14 @@ import numpy as np
 
 from lumped.calibration.cell_by_cell import EachCell
 from lumped.moduli import Moduli, second_moment, shear_gaps
-from lumped.spring_constants import Springs, by_direction
+from lumped.spring_constants import UPWARD, Springs, by_direction
 
 FIRMER = 4.0  # columns of a lattice with `gradients`, at no cost to the explicit step of cells of 5 h or more
+SOFTEST = 1e-6  # eigenvalue of a layer's form, of the mean layer's stiffness along x
 COUPLED = 0.9  # of the shear stiffness along a side, at most in faces over diagonals
-PAIRS = ("axial", "cross", "stretch", "mid_stretch")  # of links and strains along x and y
+COUPLED_STRAINS = ("coupling_xy", 0, 1), ("coupling_x", 0, 2), ("coupling_y", 1, 2)
+Split = tuple[np.ndarray, np.ndarray, np.ndarray]
+PAIRS = ("axial", "cross", "stretch", "mid_stretch", "face_shear")  # of links and strains along x and y
 
 
 class NoClosedForm(Exception):
@@ -107,19 +115,25 @@ def closed_form(
     coupling = np.clip(target.coupling, -most, most)
     rest_of_shear = target.shear - np.abs(coupling)[:, None] * np.sqrt(ratios)
     gap = rest_of_shear * squares / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
+    unlike_layers = bool(target.mixed.any())
+    coupled = target.oblique | unlike_layers
     upright = (FIRMER if gradients else 1.0) * vertical(target, sides, 1.0)  # kz lz² [N·m]
     bracket = 5.0 + 3.0 * bending[:, 0, 1] / bending[:, 0, 0]
     share = diagonals_for_waves(target, lx * ly, bracket) if waves else 1.0 / 3.0
     least = np.minimum(bending[:, 0, 0], bending[:, 1, 1])
     share = share * np.minimum(1.0, 4.0 * bending[:, 2, 2] / least)  # of sheets that are soft in shear less
+    faces, over = np.zeros_like(gap), np.zeros_like(lx)
+    if unlike_layers:
+        over = 0.5 * share * (gap / squares**2).min(axis=1) * squares.sum(axis=1)
+        faces = gap / squares - 2.0 * over[:, None] * squares / squares.sum(axis=1, keepdims=True)
+        gap = np.zeros_like(gap)
     p = share * np.minimum(gap.max(axis=1), (1.5 * gap / ratios).min(axis=1))
     gap_form = np.zeros_like(bending)
     gap_form[:, 0, 0], gap_form[:, 1, 1] = gap.T
     gap_form[:, 0, 1] = gap_form[:, 1, 0] = gap_form[:, 2, 2] = p
     along = gap - p[:, None] * ratios
 
-    stretching, shearing = bending[:, 0, 0] - bending[:, 0, 1], 2.0 * bending[:, 2, 2]
-    unlike = np.abs(stretching - shearing) > 1e-9 * np.maximum(np.abs(stretching), np.abs(shearing))
+    unlike = _unlike(bending)
 
     given = layer_distance is not None
     lz2 = np.full(len(p), layer_distance**2 if layer_distance is not None else 0.0)
@@ -128,13 +142,10 @@ def closed_form(
         relaxed = gap_form - _relaxation(gap, along, p, sides, lz2, upright)
         layer = (bending - sigma_gap * relaxed) / sigma
         lattice = layers * layer + (layers - 1) * relaxed
-        by_diagonals = _by_diagonals(layer, ratios)
-        axial = _own(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
-        axial, fibres = _beside_fibres(target.oblique, unlike, layer, axial)
+        of_mean = _, axial, fibres = _split(layer, ratios, coupled, unlike)
         needed = (_own(lattice) - lattice[:, 0, 1, None]) / (_own(membrane) - membrane[:, 0, 1, None])
         needed = np.maximum(needed.max(axis=1), lattice[:, 2, 2] / membrane[:, 2, 2])
         if fibres.any():
-            by_diagonals[fibres] = 0.0
             needed[fibres] = _largest(lattice[fibres], membrane[fibres])
         if gradients:
             on_sides = layers * axial + (layers - 1) * along
@@ -150,34 +161,70 @@ def closed_form(
         found &= needed <= lz2 * (1.0 + 1e-9)
     if fibres.any():
         found[fibres] &= np.linalg.eigvalsh(layer[fibres])[:, 0] > 0.0
+    of: dict[str, Any] = {}
+    if unlike_layers:
+        outer = 0.5 * (layers - 1) * target.mixed * np.sqrt(lz2)[:, None, None] / sigma
+        forms = layer - outer, layer + outer  # the lowest layer and the highest
+        splits = [_split(form, ratios, coupled, _unlike(form)) for form in forms]
+        for form, (_, along_sides, _) in zip(forms, splits, strict=True):
+            found &= np.linalg.eigvalsh(form)[:, 0] > SOFTEST * layer[:, 0, 0]
+            found &= along_sides.min(axis=1) >= 0.0
+        low, high = (_of_layer(form, split, sides) for form, split in zip(forms, splits, strict=True))
+        for name in low.keys() & high.keys():
+            of[name] = 0.5 * (low[name] + high[name])
+            rise = np.reshape((high[name] - low[name]) / (layers - 1), (-1, len(lx)))
+            of |= dict(zip(UPWARD[name], rise, strict=True))
+        of |= {"face_shear": faces.T * lz2, "face_diagonal_shear": over * lz2}
+    else:
+        of = _of_layer(layer, of_mean, sides)
     lz2 = np.where(found, lz2, 1.0 if not given else lz2)
     rest = membrane * lz2[:, None, None] - lattice
-    area = np.where(fibres, 0.0, layer[:, 0, 1] - by_diagonals * layer[:, 2, 2])
     mid_area = np.where(fibres, 0.0, rest[:, 0, 1])
-    of: dict[str, Any] = {
-        "face_coupling": coupling * squares.sum(axis=1) / (lx * ly * shear_gaps(layers)) * lz2
+    of |= {
+        f"mid_{name}": np.where(fibres, rest[:, row, column], 0.0) for name, row, column in COUPLED_STRAINS
     }
-    if fibres.any():
-        of["stretch"] = np.where(fibres, (_own(layer) - axial).T, 0.0)
-        for cells, form in (("", layer), ("mid_", rest)):
-            for name, row, column in (("xy", 0, 1), ("x", 0, 2), ("y", 1, 2)):
-                of[f"{cells}coupling_{name}"] = np.where(fibres, form[:, row, column], 0.0)
     rest[:, :2, :2] -= mid_area[:, None, None]
     rest[np.abs(rest) < 1e-12 * (membrane[:, 0, 0] * lz2)[:, None, None]] = 0.0
     across = np.sqrt(squares[:, ::-1] / squares).T
     of |= {
-        "axial": axial.T * across,
-        "diagonal": by_diagonals * layer[:, 2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly),
+        "face_coupling": coupling * squares.sum(axis=1) / (lx * ly * shear_gaps(layers)) * lz2,
         "vertical": upright,
         "cross": along.T * (squares.T + lz2) * across / (2.0 * squares.T),
         "cross_diagonal": p * (lx**2 + ly**2 + lz2) / (4.0 * lx * ly),
-        "area": area,
         "mid_area": mid_area,
-        "shear": (1.0 - by_diagonals) * layer[:, 2, 2],
         "mid_shear": rest[:, 2, 2],
         "mid_stretch": _own(rest).T,
     }
     return {name: values / lz2 for name, values in of.items()}, np.sqrt(lz2), found
+
+
+def _unlike(form: np.ndarray) -> np.ndarray:
+    """Whether forms (m, 3, 3) are not those of an isotropic sheet, (m,)."""
+    stretching, shearing = form[:, 0, 0] - form[:, 0, 1], 2.0 * form[:, 2, 2]
+    return np.asarray(np.abs(stretching - shearing) > 1e-9 * np.maximum(np.abs(stretching), np.abs(shearing)))
+
+
+def _split(layer: np.ndarray, ratios: np.ndarray, oblique: np.ndarray, unlike: np.ndarray) -> Split:
+    """Return the share f of C66 that diagonals have (m,), what axial links have of C11 and C22 (m, 2), and
+    whether cells need couplings (m,), of layers (m, 3, 3)."""
+    by_diagonals = _by_diagonals(layer, ratios)
+    axial = _own(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
+    axial, fibres = _beside_fibres(oblique, unlike, layer, axial)
+    by_diagonals[fibres] = 0.0
+    return by_diagonals, axial, fibres
+
+
+def _of_layer(layer: np.ndarray, split: Split, sides: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the springs of layers (m, 3, 3) by name, (m,) or (2, m)."""
+    (by_diagonals, axial, fibres), (lx, ly) = split, sides.T
+    own = {name: np.where(fibres, layer[:, row, column], 0.0) for name, row, column in COUPLED_STRAINS}
+    return own | {
+        "axial": axial.T * np.stack([ly / lx, lx / ly]),
+        "diagonal": by_diagonals * layer[:, 2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly),
+        "area": np.where(fibres, 0.0, layer[:, 0, 1] - by_diagonals * layer[:, 2, 2]),
+        "stretch": np.where(fibres, (_own(layer) - axial).T, 0.0),
+        "shear": (1.0 - by_diagonals) * layer[:, 2, 2],
+    }
 
 
 def _own(form: np.ndarray) -> np.ndarray:

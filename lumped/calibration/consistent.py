@@ -69,6 +69,11 @@ def consistent(
             given = (
                 f"{grid[2]} layers" if layer_distance is None else f"layer_distance = {layer_distance:g} m"
             )
+            if each.target.mixed.any():
+                raise BadInput(
+                    f"layer: not symmetric about the middle: no springs with {given} stretch and bend "
+                    "as they do; take two layers and no layer distance of your own, or the shell"
+                ) from None
             raise BadInput(
                 f"grading = {grading:g}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
                 "has no closed form; take two layers, no layer distance of your own, or grading 0"
@@ -76,6 +81,8 @@ def consistent(
         springs = fit_moduli(each, layer_distance)
     notes: list[str] = []
     whole = moduli.of_cells(springs, each.sides, grid[2])
-    if method != "consistent-interior":
+    if whole.mixed[..., :2, 2].any():  # then the moment that fades at an edge is of the stretch along it too
+        notes = ["layers that twist when pulled: cells along edges are like those inside, of first order"]
+    elif method != "consistent-interior":
         springs, notes = with_twist(each, springs, whole)
     return replace(report(method, each, springs, notes, whole), of_material=of_material)

@@ -63,7 +63,7 @@ class Twist(NamedTuple):
 def twist_of(each: EachCell, springs: Springs, whole: moduli.Moduli) -> Twist:
     """Return how cells twist; whole: the moduli of their springs."""
     shear, shares = whole.free_shear[..., ::-1], diagonals_share(each, springs)[..., ::-1]
-    twisting, stretch = sections.twisting(whole.bending), sections.stretch_by_twist(whole.bending)
+    twisting, stretch = (of(whole.free_bending) for of in (sections.twisting, sections.stretch_by_twist))
     return Twist(each.sides, twisting, shear, shares, stretch, each.section.layer_width)
 
 

@@ -36,12 +36,14 @@ def report(
     got = moduli.Moduli(*(part[there] for part in vars(whole).values()))
     rigidity, other = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
     square = np.abs(sides[:, 0] - sides[:, 1]) < ALIKE * sides[:, 0]
-    oblique = bool(sheet.oblique.any())
-    named = not oblique and bool(np.all(square & (np.abs(rigidity - other) < ALIKE * rigidity))), oblique
+    oblique, mixed = bool(sheet.oblique.any()), bool(sheet.mixed.any())
+    square &= (np.abs(rigidity - other) < ALIKE * rigidity) & (not mixed)
+    named = not oblique and bool(np.all(square)), oblique, mixed
     names = sheet.named(*named)
     targets, found = (np.array([*of.values()]) for of in (names, got.named(*named)))
-    likes = np.array([names[_like(name)] for name in names])
-    misses = (found - targets) / np.where(targets == 0.0, np.abs(likes), targets)
+    both = np.sqrt(names["A11"] * names["D11"])  # the size of B
+    sizes = np.array([both if name[0] == "B" else np.abs(names[_like(name)]) for name in names])
+    misses = (found - targets) / np.where(targets == 0.0, sizes, targets)
     off_most = np.abs(misses) >= np.abs(misses).max(axis=1, keepdims=True) - ALIKE
     rows: dict[str, dict[str, Any]] = {}
     worst = np.where(off_most, rigidity, 0.0).argmax(axis=1)
@@ -55,13 +57,13 @@ def report(
     constants = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
     negative = min(map(np.min, areas)) < 0.0
     coupled = springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}
-    forms = (got.membrane, got.bending) if negative or coupled else ()
+    forms = (got.membrane, got.free_bending) if negative or coupled or mixed else ()
     if any(np.linalg.eigvalsh(form).min() <= 0.0 for form in forms):
         raise BadInput(f"{constants}: the cell's energy is not positive")
     off = [
         f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %"
-        for row in rows.values()
-        if abs(row["got"] - row["asked"]) > 0.01 * abs(rows[_like(row["name"])]["asked"])
+        for row, at, size in zip(rows.values(), worst, sizes, strict=True)
+        if abs(row["got"] - row["asked"]) > 0.01 * size[at]
     ]
     notes = [f"these springs miss {', '.join(off)}"] if off else []
     if off and not springs.of.keys() & {"area", "shear"}:

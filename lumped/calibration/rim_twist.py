@@ -112,7 +112,7 @@ def at_oblique_rims(
     at = rows, columns
     t = np.stack([-n[:, 1], n[:, 0]], axis=1)
     states = np.stack([_strains(a, b) for a, b in ((n, n), (t, t), (n, t))], axis=1)
-    bending = states @ whole.bending[at] @ np.swapaxes(states, 1, 2)
+    bending = states @ whole.free_bending[at] @ np.swapaxes(states, 1, 2)
     twisting, stretch = (form(bending)[:, 0] for form in (sections.twisting, sections.stretch_by_twist))
     shear, free = (
         1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.free_shear, each.section.free_shear)

@@ -220,16 +220,16 @@ def survey(
 ) -> tuple[np.ndarray, float, float]:
     """Return the energies of the links by kind (m,) and of the cells of the layers, of the mid-surface and of
     upright faces, (kinds + 3,) [J], and the rest of a `Survey`."""
-    along, energies, stretch, summed, met = springs.links, zeros(kinds + 3), 0.0, 0.0, 0
+    along, energies, stretch, summed, firm, met = springs.links, zeros(kinds + 3), 0.0, 0.0, 0.0, 0
     for m in range(len(along.nodes)):
         change, square, length, _ = links.measure(u, along, m)
         half, e = 0.5 * along.constants[m], change / (np.sqrt(square) + length)
         energies[kind[m]] += half * (e * e)
         if along.offset[m, 2] == 0.0:
-            # links between the same columns follow each other, layer by layer, and are as stiff as each other
-            summed, met = summed + e, met + 1
+            # links between the same columns follow each other, layer by layer
+            summed, firm, met = summed + e, firm + half, met + 1
             if met % layers == 0:
-                stretch, summed = stretch + half * (summed * summed) / layers, 0.0
+                stretch, summed, firm = stretch + firm * (summed / layers) ** 2, 0.0, 0.0
     energies[kinds] = np.sum(cells.energies(u, springs.layers))
     energies[kinds + 1] = np.sum(cells.energies(u, springs.middle))
     energies[kinds + 2] = np.sum(cells.energies(u, springs.faces))
@@ -242,6 +242,11 @@ def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     each = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
     of_cells = each[links.step, links.cells if each.shape[1] > 1 else 0]
     k = (links.shares[:, :, None] * of_cells).sum(axis=0)
+    if (more := springs.upward).of:
+        rise = np.stack(np.broadcast_arrays(*(more.of_links(*family)[:, 0] for *family, _ in STEPS)))
+        rise = rise[links.step, links.cells if rise.shape[1] > 1 else 0]
+        at = _levels(lattice.grid[2])[links.nodes[:, 0] % lattice.grid[2]]
+        k = k + (at * (links.shares * rise).sum(axis=0))[:, None]
     unequal = (k != k[:, :1]).any(axis=1)
 
     def family(kind: type[Links], which: np.ndarray, k: np.ndarray) -> Links:
@@ -252,6 +257,11 @@ def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     yield family(Links, ~unequal & (k[:, 0] > 0.0), k[:, 0])
     if unequal.any():
         yield family(DirectionalLinks, unequal, k)
+
+
+def _levels(layers: int) -> np.ndarray:
+    """Heights (layers,) from the middle, in layers."""
+    return np.arange(layers) - 0.5 * (layers - 1)
 
 
 def _cells(at_rest: Cells, pattern: MassPattern, stiffness: np.ndarray, *law: Any) -> SpringCells:
@@ -283,8 +293,13 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
             continue
         strains = kept_cells(springs.strains(of_cells))
         strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]
-        stiffness = np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])
-        made = _cells(at_rest, pattern, np.concatenate([stiffness] * every), name)
+        stiffness = np.concatenate(
+            [np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])] * every
+        )
+        if of_cells == "area" and springs.upward.of:
+            more = [kept_cells(springs.upward.along("area", 0)), kept_cells(springs.upward.strains("area"))]
+            stiffness += np.kron(_levels(layers)[:, None], np.column_stack(more))
+        made = _cells(at_rest, pattern, stiffness, name)
         yield made if stiffness.any() else NO_CELLS
 
 

@@ -41,7 +41,7 @@ class Scene(SceneFields, defer_build=False):
         if self.layers:
             varied = f"layer: a laminate is the same all over, without {self.varied_by}"
             yield not self.homogeneous and varied
-            yield misfit(self.layers, self.sheet, self.material, self.temperature is not None)
+            yield misfit(self.layers, self.sheet, self.material)
         yield self._unnatural()
         yield mismatched(self.patches, self.material)
         law = f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"

@@ -69,6 +69,12 @@ class Constants:
         return self.density * self.thickness
 
     @property
+    def moment_per_area(self) -> Any:
+        """First moment of the mass about the mid-surface, per area [kg/m], 0 without plies."""
+        each = (ply.density * (ply.high**2 - ply.low**2) / 2.0 for ply in self.plies)
+        return sum(each, 0.0) * self.thickness**2
+
+    @property
     def stretching(self) -> Any:
         """E h [N/m], with √(E₁ E₂) of plies: a measure of the membrane's stiffness."""
         if self.plies:

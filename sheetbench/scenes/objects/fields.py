@@ -57,7 +57,7 @@ class SceneFields(Frozen, defer_build=True):
     material: Material
     """What the sheet is made of."""
     layers: tuple[Layer, ...] = Field(default=(), kw_only=True)
-    """Plies of a laminate, from the lower face up, symmetric about the middle; none for one material."""
+    """Plies of a laminate, from the lower face up; none for one material."""
     patches: tuple[Patch, ...] = Field(default=(), kw_only=True)
     """Parts of the sheet with a thickness or a material of their own; where they overlap later ones win."""
     cutouts: tuple[Cutout, ...] = Field(default=(), kw_only=True)

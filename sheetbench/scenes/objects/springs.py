@@ -151,6 +151,27 @@ class SpringSet(Frozen):
     """The same, energy k ε1 γ a0."""
     rim_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
     """The same, energy k ε2 γ a0."""
+    upward_axial_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """Of layers that are not symmetric about the middle, how much stiffer the links along x of each are than
+    those of the layer below."""
+    upward_axial_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of the links along y."""
+    upward_diagonal: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of the diagonals."""
+    upward_area: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of the area springs."""
+    upward_stretch_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of the strain springs along x."""
+    upward_stretch_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of the strain springs along y."""
+    upward_shear: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of shear."""
+    upward_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of coupling_xy."""
+    upward_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of coupling_x."""
+    upward_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
+    """The same of coupling_y."""
     layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 

@@ -38,7 +38,8 @@ MEASURED = {
 def of_numbers(slenderness, poisson, clamped, stretch, share):
     edge = Clamped(edge="x0") if clamped else Hinged(edge="x0")
     scene = sheet(0.1, 0.2, 0.1 * slenderness, 1e6, poisson, supports=(edge,))
-    energies = {"membrane": share, "bending": 1.0 - share}
+    sheared = (1.0 - share) * slenderness**2  # of the side; these sheets bend over 0.17 to 0.87 of it
+    energies = {"membrane": share, "bending": 1.0 - share, "shear": sheared}
     return model_error(scene, fake_solutions.solution(scene, "shell", stretch=stretch, energies=energies))
 
 
@@ -50,6 +51,35 @@ def test_it_bounds_what_solids_other_laws_and_other_clamps_answer(name):
     assert max(solid, law) <= found.value
     assert clamp <= found.clamp + found.value
     assert found.value < 15.0 * max(solid, law)
+
+
+def strip(poisson, **load):
+    return sheet(0.1, 0.02, 0.01, 1e6, poisson, loads=(load,))
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        strip(0.45, kind="edge", edge="x1", moment_per_length=1e-3),
+        strip(0.0, kind="pressure", value=1.0),
+        strip(0.3, kind="point", at=(0.1, 0.02), force=(0.0, 0.0, 1e-4)),
+    ],
+    ids=["bent", "pressed", "twisted"],
+)
+def test_a_strip_is_as_slender_as_it_is_long(scene):
+    """Off the solid by 0.06 to 0.5 of the bound, which by its width would be four times as large or more."""
+    shell, solid = (fem_reference.solve(scene, model, elements=(10, 2)) for model in ("shell", "solid"))
+    off = relative(*(each.displacement(scene.probe_points()) for each in (solid, shell)))
+    bound = model_error(scene, shell)
+    by_width = (1.2 + 1.3 * scene.material.poisson**2) * 0.5**2
+    assert bound is not None and off <= bound.value and bound.thickness < min(0.25 * by_width, 20.0 * off)
+
+
+def test_a_long_strip_under_its_load_is_within_a_thousandth():
+    """h/L = 0.01 and h/b = 0.1: 1.2 % by its width, 1.6e-4 = 1.2 · 4/3 (h/L)² by the energy of its shear."""
+    scene = sheet(10.0, 1.0, 0.1, 1.2e9, 0.0, loads=(Pressure(value=20.0),))
+    found = model_error(scene, fem_reference.solve(scene, "shell", elements=(10, 1)))
+    assert found is not None and found.thickness == pytest.approx(1.6e-4, rel=0.02)
 
 
 @pytest.mark.parametrize(("clamp", "low", "high"), [("shell-like", 0.005, 0.027), ("full", 0.03, 0.12)])

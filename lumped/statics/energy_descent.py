@@ -16,9 +16,9 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 from lumped.actuators import Drive
 from lumped.statics.problem import LatticePath, LatticeState, Problem
 from sheetbench.answers.solution import Status
-from sheetbench.numerics.continuation.newton import SOLVED, Start, newton
+from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import LoadStepFailed
-from sheetbench.numerics.direct import Factor, SingularMatrixError
+from sheetbench.numerics.direct import SOLVED, Factor, SingularMatrixError
 
 STEPS = 300
 DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances, of which the first that leads away from a saddle serves

@@ -26,9 +26,9 @@ from lumped.statics.faults import inspect
 from lumped.supports import Constraints
 from sheetbench.numerics import banded
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.continuation.newton import SOLVED, Start
+from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
-from sheetbench.numerics.continuation.structure import Structure
+from sheetbench.numerics.continuation.structure import Correction, Structure
 from sheetbench.numerics.direct import Count, Factor, iterated
 from sheetbench.numerics.options import typed
 from sheetbench.numerics.reduced_system import ReducedSystem, banded_factor
@@ -266,7 +266,7 @@ class Problem(Structure[LatticeState, Residual]):
 
     def correct(
         self, state: LatticeState, forces: Residual, load_factor: float, count: Count
-    ) -> tuple[Factor, np.ndarray, np.ndarray, LatticeState] | None:
+    ) -> Correction | None:
         rows, band = forces.reduced, self.system.band
         springs = self.assembly.at(load_factor).all_families
         others = self._others or not springs.conservative or forces.moved is not None
@@ -277,10 +277,8 @@ class Problem(Structure[LatticeState, Residual]):
         blocks, factors, definite, step = correct(state.u, stresses, rows, band, springs.springs)
         if definite:
             factor = banded_factor(band, factors, partial(self.system.matrix, blocks))
-        else:
-            factor = self.system.factor(blocks, count)
-            step = factor.solve(rows, SOLVED)
-        return factor, step, rows, self.advance(state, forces, load_factor, step)
+            return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
+        return self.solved(state, forces, load_factor, self.system.factor(blocks, count), rows)
 
     def with_stresses(self, state: LatticeState, of: LatticeState) -> LatticeState:
         return state._replace(stresses=of.stresses)

@@ -35,9 +35,8 @@ from lumped.statics.problem import LatticeState, Problem
 from lumped.statics.soundness import carried_by_links, sharpest_bend
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.cache import frozen
-from sheetbench.numerics.continuation.newton import SOLVED
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.numerics.direct import Factor
+from sheetbench.numerics.direct import SOLVED, Factor
 from sheetbench.scenes.language.summary import few
 
 DOUBTFUL, LOST = 1e-2, 0.05  # displacement by rounding over the largest: that it may be, that it is

@@ -10,7 +10,7 @@ Solutions are refined, their residuals checked.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import isfinite
 from typing import Any
@@ -37,6 +37,7 @@ Count = Callable[[], None]
 
 # backward error of a positive definite matrix's factors, which need no pivots (Higham 2002, 10.1)
 CHOLESKY = 1e-14
+SOLVED = 1e-14  # of a Newton step that is not refined: the next one is its refinement
 ITERATION_ACCURACY = 1e-4  # residual over the right-hand side: Newton's corrections gain few digits more
 ITERATIONS = 20  # each costs a solution with the factors
 
@@ -88,28 +89,26 @@ class Factor:
 
 
 @dataclass(eq=False)
-class NearFactor(Factor):
-    """Of a matrix the factors of one close by: with constraints' multipliers that of `Saddle`, of an
-    unsymmetric matrix its symmetric part, which is positive definite, so that no eigenvalue has a negative
-    real part. Solutions are corrected (`saddle_point`); where that does not serve, factors of the matrix
-    itself are made, `otherwise` says how."""
+class SymmetricPartFactor(Factor):
+    """Factors of an unsymmetric matrix's symmetric part, which is positive definite: no eigenvalue has a
+    negative real part. whole: makes those of the matrix, where corrected solutions are not good enough."""
 
-    otherwise: Callable[[], Factor] | None = None
-    _other: Factor | None = None
+    whole: Callable[[], Factor] = field(kw_only=True)
+    _whole: Factor | None = field(default=None, init=False)
 
     def negative_real(self) -> int:
-        """Zero: the symmetric part is positive definite."""
+        """Zero."""
         return 0
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """As of any factor."""
-        if self._other is None:
+        """Solve A x = b for x (n,), corrected. Raises SingularMatrixError if the residual stays large."""
+        if self._whole is None:
             x, miss = minimal_residual(self.matrix, self.solve_unrefined, b, max(enough, ROUNDED))
-            if self.otherwise is None or miss <= BACKWARD_ERROR:
-                return checked(x, miss)
+            if miss <= BACKWARD_ERROR:
+                return x
             self.more()
-            self._other = self.otherwise()
-        return self._other.solve(b, enough)
+            self._whole = self.whole()
+        return self._whole.solve(b, enough)
 
 
 def checked(x: np.ndarray, miss: float) -> np.ndarray:
@@ -145,8 +144,8 @@ class DirectSolver:
                     error = np.inf if negative else CHOLESKY
                     return Factor(matrix, solve, negative, backward_error=error)
                 if negative == 0:
-                    otherwise = partial(self._by_library, matrix, more)
-                    return NearFactor(matrix, solve, more=more, otherwise=otherwise)
+                    whole = partial(self._by_library, matrix, more)
+                    return SymmetricPartFactor(matrix, solve, more=more, whole=whole)
                 more()
         return self._by_library(matrix, more)  # whose pivots may do
 

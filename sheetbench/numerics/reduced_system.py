@@ -25,7 +25,6 @@ from sheetbench.numerics.direct import (
     Count,
     DirectSolver,
     Factor,
-    NearFactor,
     SingularMatrixError,
 )
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
@@ -160,7 +159,7 @@ class ReducedSystem:
             raise SingularMatrixError("an entry of the matrix is not finite")
         close_by, augmented = self._saddle.quasi_definite(matrix)
         near = self._solver.factor(close_by)
-        return NearFactor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.negative, near.zero)
+        return Factor(matrix, lambda b: near.solve_unrefined(augmented(b)), near.negative, near.zero)
 
 
 def reduced(pattern: BlockPattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:

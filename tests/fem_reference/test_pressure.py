@@ -10,7 +10,7 @@ from fem_reference.discrete.static import Static
 from fem_reference.sheets import solid
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.mesh import mesh_of
-from sheetbench.numerics.direct import NearFactor
+from sheetbench.numerics.direct import SymmetricPartFactor
 
 EDGES = ("x0", "x1", "y0", "y1")
 CLAMPED = [{"edge": edge, "kind": "clamped"} for edge in EDGES]
@@ -68,12 +68,12 @@ def test_on_a_free_edge_the_tangent_is_unsymmetric_and_solved_with_its_symmetric
     u = 1e-4 * bent(problem)
     blocks = problem.tangent(u, 1.0)
     factor = problem.system.factor(blocks)
-    assert isinstance(factor, NearFactor)
+    assert isinstance(factor, SymmetricPartFactor)
     matrix = problem.system.matrix(blocks)
     assert abs(matrix - matrix.T).max() > 1e-8 * abs(matrix).max()
     b = np.random.default_rng(1).standard_normal(problem.system.unknowns)
     np.testing.assert_allclose(matrix @ factor.solve(b), b, atol=1e-9 * np.abs(matrix.data).max())
-    assert factor._other is None and factor.negative_real() == 0
+    assert factor._whole is None and factor.negative_real() == 0
 
 
 @pytest.mark.parametrize("supports", [CLAMPED, HINGED, FREE], ids=["clamped", "hinged", "free"])

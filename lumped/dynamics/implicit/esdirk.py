@@ -28,7 +28,7 @@ from lumped.dynamics.integrator import Integrator, LatticeSamples
 from lumped.dynamics.system import State, System
 from lumped.dynamics.work import kinetic_of, natural_power, obstacle_power
 from sheetbench.errors import BadInput
-from sheetbench.numerics.continuation.newton import SOLVED
+from sheetbench.numerics.direct import SOLVED
 from sheetbench.numerics.reduced_system import SingularMatrixError
 from sheetbench.numerics.time.controller import Controller
 from sheetbench.numerics.time.method import Advance

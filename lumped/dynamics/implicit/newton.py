@@ -18,7 +18,7 @@ from lumped.dynamics.implicit.compiled_newton import NewtonLimits, compiled_of, 
 from lumped.dynamics.implicit.compiled_stages import Stages, Step, solve_stages
 from lumped.dynamics.system import State, System
 from sheetbench.numerics import banded
-from sheetbench.numerics.continuation.newton import SOLVED
+from sheetbench.numerics.direct import SOLVED
 from sheetbench.numerics.reduced_system import Factor
 from sheetbench.numerics.time.method import StepFailed
 

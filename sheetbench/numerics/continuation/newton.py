@@ -16,10 +16,9 @@ import numpy as np
 
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
-from sheetbench.numerics.continuation.structure import Forces, State
-from sheetbench.numerics.direct import Factor, SingularMatrixError
+from sheetbench.numerics.continuation.structure import Correction, Forces, State, Structure
+from sheetbench.numerics.direct import SOLVED, Factor, SingularMatrixError
 
-SOLVED = 1e-14  # backward error of a correction that is not refined: the next one is its refinement
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
 STALE = 0.1  # of a residual: factors whose correction leaves more are too old
 
@@ -34,6 +33,17 @@ class Start(Generic[State]):
     length: float
     work: float
     factor: Factor | None = None
+
+
+Place = tuple[State, Forces, float]  # state, forces and load factor where a step begins
+
+
+def _reused(
+    structure: Structure[State, Forces], at: Place[State, Forces], factor: Factor
+) -> Correction | None:
+    """Return the correction of factors at hand; None where the right-hand side needs the tangent."""
+    rows = structure.rows(*at)
+    return None if rows is None else structure.solved(*at, factor, rows)
 
 
 def predicted(path: Path[State, Forces], target: float, reach: float, factor: Factor | None) -> Start[State]:
@@ -51,92 +61,106 @@ def predicted(path: Path[State, Forces], target: float, reach: float, factor: Fa
 
 def _linear_step(path: Path[State, Forces], target: float, factor: Factor | None) -> Start[State]:
     structure = path.structure
-    forces = structure.forces(path.state, target)
+    at = path.state, structure.forces(path.state, target), target
     try:
-        rows = None if factor is None else structure.rows(path.state, forces, target)
-        fresh = factor is None and not structure.prestrained
-        once = structure.correct(path.state, forces, target, path.count) if fresh else None
-        if once is not None:
-            factor, step, rows, state = once
-        else:
-            if rows is None:
-                matrix, rows = structure.linearised(path.state, forces, target)
-                if structure.prestrained:  # the tangent would be of stresses at the target, nothing moved yet
-                    matrix = path.tangent(path.state, path.load_factor)
-                if factor is None or not structure.symmetric:
-                    factor = path.factored(matrix)
-            assert factor is not None
-            step = factor.solve(rows, SOLVED)
-            state = structure.advance(path.state, forces, target, step)
+        found = None
+        if factor is not None:
+            found = _reused(structure, at, factor)
+        elif not structure.prestrained:
+            found = structure.correct(*at, path.count)
+        if found is None:
+            matrix, rows = structure.linearised(*at)
+            if structure.prestrained:  # the tangent would be of stresses at the target, nothing moved yet
+                matrix = path.tangent(path.state, path.load_factor)
+            if factor is None or not structure.symmetric:
+                factor = path.factored(matrix)
+            found = structure.solved(*at, factor, rows)
     except SingularMatrixError as error:
         raise LoadStepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
-    length = structure.length(path.state, state)
-    return Start(state, target, length, abs(float(step @ rows)), factor)
+    length, work = structure.length(path.state, found.state), abs(float(found.step @ found.rows))
+    return Start(found.state, target, length, work, found.factor)
 
 
 def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -> tuple[State, Factor | None]:
-    """The equilibrium at the load factor of a start, and the factors of its tangent where those at hand are,
-    which next to nothing has changed since. close: a residual that is good enough. Raises
-    StepFailed."""
-    structure, limits = path.structure, path.limits
-    state, target, before = first.state, first.target, np.inf
-    factor = first.factor if structure.linear else None
-    off, blurred, again = 0.0, 0.0, False  # moved since the factors; the error of the stress that they are of
-    works, lengths = [first.work], [first.length]
-    for _ in range(limits.corrections):
-        forces = structure.forces(state, target)
-        imbalance = structure.imbalance(state, forces)
-        relative = imbalance / forces.size if forces.size > 0.0 else imbalance
-        path.note(target, relative, lengths[-1])
-        if not isfinite(relative):
-            raise LoadStepFailed(Status.NON_FINITE, "a number overflowed", first.length)
-        rounded = works[-1] <= VANISHING * works[0] and imbalance > 0.5 * before
-        alike = factor is not None and (structure.linear or max(off, blurred) <= path.alike)
+    """Return the equilibrium at the load factor of a start, and the factors of its tangent where next to
+    nothing has changed since they were made. close: a residual that is good enough. Raises LoadStepFailed."""
+    run, structure, limits = _Newton(path, first), path.structure, path.limits
+    try:
+        for _ in range(limits.corrections):
+            forces = structure.forces(run.state, first.target)
+            imbalance = structure.imbalance(run.state, forces)
+            relative = imbalance / forces.size if forces.size > 0.0 else imbalance
+            path.note(first.target, relative, run.lengths[-1])
+            if not isfinite(relative):
+                raise LoadStepFailed(Status.NON_FINITE, "a number overflowed", first.length)
+            if relative <= close or run.at_rest(imbalance, relative):
+                return run.state, run.alike()
+            if run.stalls():
+                raise LoadStepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
+            if path.factorisations >= path.limit:
+                reason = f"{path.limit} factorisations were not enough"
+                raise LoadStepFailed(Status.STEP_LIMIT, reason, first.length)
+            run.correct(forces, imbalance, relative)
+            if not run.lengths[-1] < limits.farthest:
+                raise LoadStepFailed(Status.DIVERGED, "the corrections have no end", first.length)
+    except SingularMatrixError as error:
+        raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
+    reason = f"no equilibrium in {limits.corrections} corrections"
+    raise LoadStepFailed(Status.STEP_LIMIT, reason, first.length)
+
+
+class _Newton(Generic[State, Forces]):
+    """A state on its way to equilibrium: lengths and works of its steps, the imbalance before the last one,
+    the factors at hand, the way since they were made, the error of their stresses, and whether the last step
+    was with those of an earlier one."""
+
+    def __init__(self, path: Path[State, Forces], first: Start[State]):
+        self.path, self.structure, self.target = path, path.structure, first.target
+        self.state, self.works, self.lengths = first.state, [first.work], [first.length]
+        self.factor = first.factor if path.structure.linear else None
+        self.before, self.moved, self.blurred, self.again = np.inf, 0.0, 0.0, False
+
+    def alike(self) -> Factor | None:
+        """Return the factors at hand if they are of the tangent here or nearly so."""
+        unchanged = self.structure.linear or max(self.moved, self.blurred) <= self.path.alike
+        return self.factor if unchanged else None
+
+    def at_rest(self, imbalance: float, relative: float) -> bool:
+        """Return whether the residual is in tolerance or all rounding, and all is where it is prescribed."""
+        limits, last = self.path.limits, self.lengths[-1]
+        rounded = self.works[-1] <= VANISHING * self.works[0] and imbalance > 0.5 * self.before
         settled = relative <= limits.tolerance or rounded
-        if not settled and (relative <= limits.refine_below or lengths[-1] <= limits.idle):
-            settled = imbalance <= structure.imbalance_floor(state)
-        if relative <= close or (settled and structure.gap(state, target) <= limits.tolerance):
-            return state, factor if alike else None
-        last, back = lengths[-1], limits.back
-        if len(lengths) > back and last >= max(lengths[-1 - back], limits.shrinking * lengths[-2]):
-            raise LoadStepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
-        if path.factorisations >= path.limit:
-            reason = f"{path.limit} factorisations were not enough"
-            raise LoadStepFailed(Status.STEP_LIMIT, reason, first.length)
-        refined = relative <= limits.refine_below
-        serves = alike and refined and not (again and imbalance > STALE * before)
-        try:
-            rows = structure.rows(state, forces, target) if serves else None
-            again = rows is not None
-            once = None if again else structure.correct(state, forces, target, path.count)
-            if rows is not None and factor is not None:
-                step = factor.solve(rows, SOLVED)
-            elif once is not None:
-                factor, step, rows, following = once
-                off, blurred = 0.0, last**2
-            else:
-                matrix, rows = structure.linearised(state, forces, target)
-                near, factor = factor if not refined else None, None
-                found = None
-                if near is not None:
-                    iterated = path.solver.iterated
-                    found = near.solve(rows, SOLVED) if structure.linear else iterated(matrix, near, rows)
-                if found is None or near is None:
-                    near = None  # its memory is needed
-                    factor = path.factored(matrix)
-                    step, off, blurred = factor.solve(rows, SOLVED), 0.0, last**2
-                else:
-                    step, factor = found, near
-        except SingularMatrixError as error:
-            raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
-        if once is None:
-            following = structure.advance(state, forces, target, step)
-        lengths.append(structure.length(state, following))
-        off += lengths[-1]
-        if not lengths[-1] < limits.farthest:
-            raise LoadStepFailed(Status.DIVERGED, "the corrections have no end", first.length)
-        works.append(abs(float(step @ rows)))
-        state, before = following, imbalance
-    raise LoadStepFailed(
-        Status.STEP_LIMIT, f"no equilibrium in {limits.corrections} corrections", first.length
-    )
+        if not settled and (relative <= limits.refine_below or last <= limits.idle):
+            settled = imbalance <= self.structure.imbalance_floor(self.state)
+        return settled and self.structure.gap(self.state, self.target) <= limits.tolerance
+
+    def stalls(self) -> bool:
+        """Return whether the steps do not shrink."""
+        lengths, back, share = self.lengths, self.path.limits.back, self.path.limits.shrinking
+        return len(lengths) > back and lengths[-1] >= max(lengths[-1 - back], share * lengths[-2])
+
+    def correct(self, forces: Forces, imbalance: float, relative: float) -> None:
+        """Take a step: with the factors at hand, by one compiled call, or with the assembled tangent."""
+        at, last = (self.state, forces, self.target), self.lengths[-1]
+        refined = relative <= self.path.limits.refine_below
+        stale = self.again and imbalance > STALE * self.before
+        near = self.alike() if refined and not stale else None
+        again = None if near is None else _reused(self.structure, at, near)
+        found = again or self.structure.correct(*at, self.path.count) or self._assembled(at, not refined)
+        if found.factor is not self.factor:
+            self.moved, self.blurred = 0.0, last**2
+        self.lengths.append(self.structure.length(self.state, found.state))
+        self.works.append(abs(float(found.step @ found.rows)))
+        self.moved += self.lengths[-1]
+        self.state, self.factor, self.before, self.again = found.state, found.factor, imbalance, bool(again)
+
+    def _assembled(self, at: Place[State, Forces], iterates: bool) -> Correction:
+        """Return the correction of the tangent, by iterations with the factors at hand or by its own."""
+        matrix, rows = self.structure.linearised(*at)
+        if iterates and (near := self.factor) is not None:
+            iterated = self.path.solver.iterated
+            step = near.solve(rows, SOLVED) if self.structure.linear else iterated(matrix, near, rows)
+            if step is not None:
+                return Correction(near, step, rows, self.structure.advance(*at, step))
+        near = self.factor = None  # their memory is needed
+        return self.structure.solved(*at, self.path.factored(matrix), rows)

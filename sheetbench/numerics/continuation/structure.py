@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
-from sheetbench.numerics.direct import Count, Factor
+from sheetbench.numerics.direct import SOLVED, Count, Factor
 
 State = TypeVar("State")
 Forces = TypeVar("Forces", bound=Any)  # `size`: of those that balance [N], by which residuals are measured
 Matrix = Any  # what `Solver.factor` takes
+
+
+class Correction(NamedTuple):
+    """A step (n,) with the factors and the right-hand side (n,) that it is of, and the state after it."""
+
+    factor: Factor
+    step: np.ndarray
+    rows: np.ndarray
+    state: Any
 
 
 class Solver(Protocol):
@@ -79,11 +88,16 @@ class Structure(Protocol[State, Forces]):
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
         """The state after a step."""
 
-    def correct(
-        self, state: State, forces: Forces, load_factor: float, count: Count
-    ) -> tuple[Factor, np.ndarray, np.ndarray, State] | None:
-        """Return factors (counted) of the tangent, their step, the right-hand side and the state after it, in
-        one, with what the last step extrapolated; None where they are not made at once."""
+    def solved(
+        self, state: State, forces: Forces, load_factor: float, factor: Factor, rows: np.ndarray
+    ) -> Correction:
+        """The correction of factors and a right-hand side."""
+        step = factor.solve(rows, SOLVED)
+        return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
+
+    def correct(self, state: State, forces: Forces, load_factor: float, count: Count) -> Correction | None:
+        """Return the correction of the tangent's own factors (counted), with what the last step extrapolated,
+        made at once; None where it is not."""
         return None
 
     def with_stresses(self, state: State, of: State) -> State:

@@ -22,6 +22,8 @@ tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton, predicted
@@ -86,62 +88,42 @@ def trace_path(
         return path
 
 
+class Ending(NamedTuple):
+    """How a run ended. reason: None at load factor 1; careful: factorisations allowed to small load steps, 0
+    after large ones."""
+
+    reason: LoadStepFailed | Fault | None
+    careful: int = 0
+
+
 def _traced(
     path: Path[State, Forces],
     inspect: Inspect[State, Forces],
     settle: Settle[State, Forces] | None,
     near: Start[State] | None = None,
 ) -> Fault | None:
-    """Lead a path from rest, or from near the end, to load factor 1: what has ended it before, if
-    anything."""
-    ended: LoadStepFailed | Fault | None = None
-    careful, reached = False, None
-    if near is None or not _arrived(path, inspect, near):
-        ended = _follow(path, inspect)
-        more = 0 if isinstance(ended, Fault) else _careful_budget(path)
-        careful = more > 0
-        if careful:
-            reached, stuck = path.state if ended is None else None, (path.state, path.load_factor, ended)
-            path.state, path.load_factor, path.factor = path.structure.rest(), 0.0, None
-            path.limit = path.factorisations + more
-            ended = _follow(path, inspect, careful)
-            if isinstance(ended, UnknownInertia):
-                path.notes.append(f"{ended}: this equilibrium may be on another")
-            if reached is None and path.load_factor == 0.0:  # which says less than large steps did
-                path.state, path.load_factor, ended = stuck
-                careful = False
-            if reached is None:  # what is left of the path's own serves for snaps
-                path.limit = max(path.limit, path.limits.factorisations)
-    while isinstance(ended, LoadStepFailed):
-        tried, allowed = "", path.factorisations < path.limit and len(path.snaps) < path.limits.snaps
-        halted = ended.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
-        if settle is not None and path.structure.symmetric and halted and allowed:
-            left_at, (before, doubt) = path.load_factor, stability(path)
-            try:
-                following = _snap(path, inspect, settle, careful)
-            except LoadStepFailed as failure:
-                tried = f"; relaxed at a load factor {path.limits.snap_step:g} higher, {failure}"
-            else:
-                path.snaps.append(left_at)
-                begin = "" if before is Status.CONVERGED else "unstable "
-                snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {doubt}"
-                path.notes.extend([snapped] if doubt else [])
-                ended = following
-                continue
-        ended = _give_up(path, ended, tried)
-    if ended is not None and reached is not None:
-        if path.load_factor > 0.0 and not isinstance(ended, UnknownInertia):
-            here = f"small load steps end at load factor {path.load_factor:.4g}"
-            left = f", after {more} factorisations" if path.factorisations >= path.limit else ""
-            path.notes.append(
-                f"{here}{left}: this equilibrium, which large ones led to, may be on another branch"
-            )
-        path.state, path.load_factor, path.factor, ended = reached, 1.0, None, None
-    return ended
+    """Lead a path from rest, or from near the end, to load factor 1. Return what has ended it before."""
+    if near is not None and _near(path, inspect, near):
+        return None
+    plain = _follow(path, inspect)
+    reached = path.state if plain is None else None
+    ended = _carefully(path, inspect, plain)
+    fault = _snapped(path, inspect, settle, ended)
+    if fault is None or reached is None:
+        return fault
+    if path.load_factor > 0.0:
+        left = f", after {ended.careful} factorisations" if path.factorisations >= path.limit else ""
+        path.notes.append(
+            f"small load steps end at load factor {path.load_factor:.4g}{left}: this equilibrium, which "
+            "large ones led to, may be on another branch"
+        )
+    path.state, path.load_factor, path.factor = reached, 1.0, None
+    return None
 
 
-def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: Start[State]) -> bool:
-    """Whether a path is at a stable equilibrium close to a start; if not, it is where it was."""
+def _near(path: Path[State, Forces], inspect: Inspect[State, Forces], near: Start[State]) -> bool:
+    """Lead a path to a stable equilibrium close to a start. Return whether there is one; if not, the path is
+    unchanged."""
     before = path.state, path.load_factor, path.factor
     try:
         state, factor = newton(path, near)
@@ -153,6 +135,58 @@ def _arrived(path: Path[State, Forces], inspect: Inspect[State, Forces], near: S
         return True
     path.state, path.load_factor, path.factor = before
     return False
+
+
+def _carefully(
+    path: Path[State, Forces], inspect: Inspect[State, Forces], plain: LoadStepFailed | Fault | None
+) -> Ending:
+    """Lead a path from rest again, by small load steps, where large ones may have left its branch. plain: how
+    these ended, which stands where small ones do not get so far as to begin."""
+    budget = 0 if isinstance(plain, Fault) else _careful_budget(path)
+    if not budget:
+        return Ending(plain)
+    stuck = path.state, path.load_factor
+    path.state, path.load_factor, path.factor = path.structure.rest(), 0.0, None
+    path.limit = path.factorisations + budget
+    ended = _follow(path, inspect, careful=True)
+    if isinstance(ended, UnknownInertia):
+        path.notes.append(f"{ended}: this equilibrium may be on another")
+    if plain is not None:
+        path.limit = max(path.limit, path.limits.factorisations)  # what is left of it serves for snaps
+        if path.load_factor == 0.0:
+            path.state, path.load_factor = stuck
+            return Ending(plain)
+    return Ending(ended, budget)
+
+
+def _snapped(
+    path: Path[State, Forces],
+    inspect: Inspect[State, Forces],
+    settle: Settle[State, Forces] | None,
+    ended: Ending,
+) -> Fault | None:
+    """Lead a path past the limit points at which it ends. Return what has ended it before load factor 1."""
+    limits, reason = path.limits, ended.reason
+    while isinstance(reason, LoadStepFailed):
+        halted = reason.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
+        allowed = path.factorisations < path.limit and len(path.snaps) < limits.snaps
+        if settle is None or not (path.structure.symmetric and halted and allowed):
+            return _give_up(path, reason)
+        left_at, (before, doubt) = path.load_factor, stability(path)
+        beyond = min(1.0, left_at + limits.snap_step)
+        path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
+        try:
+            path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
+        except LoadStepFailed as failure:
+            tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
+            return _give_up(path, reason, tried)
+        path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
+        reason = inspect(path) or _follow(path, inspect, ended.careful > 0)
+        path.snaps.append(left_at)
+        begin = "" if before is Status.CONVERGED else "unstable "
+        snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {doubt}"
+        path.notes.extend([snapped] if doubt else [])
+    return reason
 
 
 def _follow(
@@ -212,23 +246,7 @@ def _refine(path: Path[State, Forces]) -> None:
         return
 
 
-def _snap(
-    path: Path[State, Forces],
-    inspect: Inspect[State, Forces],
-    settle: Settle[State, Forces],
-    careful: bool,
-) -> LoadStepFailed | Fault | None:
-    """Lead a path past its limit point and on: what has ended it then. Raises StepFailed, the path as it was,
-    if nothing stable was found."""
-    limits = path.limits
-    beyond = min(1.0, path.load_factor + limits.snap_step)
-    path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
-    path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
-    path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
-    return inspect(path) or _follow(path, inspect, careful)
-
-
-def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str) -> Fault:
+def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
     """Where the path ended, what was tried beyond and, from the last equilibrium's tangent, whether it had
     branched by then."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"

@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 import lumped
 from lumped.statics import energy_descent
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
-from sheetbench.numerics.direct import DirectSolver, Factor, NearFactor
+from sheetbench.numerics.direct import DirectSolver, Factor, SymmetricPartFactor
 from sheetbench.numerics.fronts import CoupledCells, fronts_of
 from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
 
@@ -52,7 +52,7 @@ def test_only_real_eigenvalues_below_zero_count_as_instability():
 def test_a_lattice_whose_stability_is_not_known_says_so(monkeypatch):
     scene = make_scene(loads=[{"kind": "pressure", "value": 5.0}])
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
-    for kind in (Factor, NearFactor):
+    for kind in (Factor, SymmetricPartFactor):
         monkeypatch.setattr(kind, "negative_real", lambda self: None)
     assert any("stability not known" in note for note in lumped.solve(scene, springs).remarks)
 

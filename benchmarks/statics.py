@@ -1,11 +1,11 @@
 """Equilibria of lattices and shells: time, what it goes to, and the rate of the factorisations, in one run.
 
-    python benchmarks/statics.py [--large] [--batch N] [--json FILE] [--keep]
+    python benchmarks/statics.py [--lattices N ...] [--shells N ...] [--batch N] [--json FILE] [--keep]
 
 Of every lattice the best of its solves, the call with its set-up over the solve, factorisations, their share
 of the solve and the rate that they reach; then a batch, by the clock, and the shell with the share of its
 factorisations. Warm code, one BLAS thread; CPU seconds, which other programs on the machine lengthen less
-than the clock's. --large: 129×129×2 and 257×257×2 too, with the peak of the memory (minutes, 3 GB).
+than the clock's. `--lattices 129 257` takes minutes and 3 GB.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 import json
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from resource import RUSAGE_SELF, getrusage
 from time import perf_counter, process_time
@@ -31,7 +31,7 @@ from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import load
 
 SCENE = load("two-edges-clamped")
-LATTICES, LARGE, SHELLS, BATCH = (3, 5, 9, 17, 33, 65), (129, 257), (4, 8, 16, 32), 1000
+LATTICES, SHELLS, BATCH = (3, 5, 9, 17, 33, 65), (4, 8, 16, 32), 1000
 
 
 def timed(call: Callable[[], Any], clock: Callable[[], float] = process_time) -> float:
@@ -73,7 +73,7 @@ def factorisation(problem: Any, blocks: np.ndarray) -> tuple[Callable[[], Any], 
     if system.band is not None:
         matrix = banded.stored(blocks, system.band)
         n, width = system.unknowns, system.band.width
-        return lambda: banded.factor(matrix.copy(), n, width), banded.cost(n, width)
+        return lambda: banded.factor(matrix.copy(), n, width), n * (width + 1.0) ** 2
     import rslab
 
     matrix = system.matrix(blocks)
@@ -107,10 +107,10 @@ def shell(elements: int) -> dict[str, Any]:
     spent = 0.0
     plain = DirectSolver.factor
 
-    def factor(self: DirectSolver, matrix: Any) -> Any:
+    def factor(self: DirectSolver, *given: Any) -> Any:
         nonlocal spent
         began = process_time()
-        found = plain(self, matrix)
+        found = plain(self, *given)
         spent += process_time() - began
         return found
 
@@ -131,7 +131,7 @@ def shell(elements: int) -> dict[str, Any]:
     }
 
 
-def of_batch_and_shells(count: int) -> list[dict[str, Any]]:
+def of_batch_and_shells(count: int, shells: Sequence[int]) -> list[dict[str, Any]]:
     """Their rows, printed."""
     rows = [batch(count)]
     row = rows[-1]
@@ -141,7 +141,7 @@ def of_batch_and_shells(count: int) -> list[dict[str, Any]]:
         f"{1e3 * row['one_by_one_seconds_each']:.2f} ms one by one",
         flush=True,
     )
-    for elements in SHELLS:
+    for elements in shells:
         rows.append(shell(elements))
         share = rows[-1]["factorisation_share"]
         called = 1e3 * rows[-1]["call_seconds"]
@@ -152,13 +152,14 @@ def of_batch_and_shells(count: int) -> list[dict[str, Any]]:
 def main() -> None:
     """Measure, print, keep."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--large", action="store_true", help="129×129×2 and 257×257×2 too (minutes, 3 GB)")
+    parser.add_argument("--lattices", type=int, nargs="+", default=LATTICES, help="masses along a side")
+    parser.add_argument("--shells", type=int, nargs="+", default=SHELLS, help="elements along a side")
     parser.add_argument("--batch", type=int, default=BATCH, help="lattices in the batch")
     parser.add_argument("--json", metavar="FILE", help="where to keep the numbers")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     arguments = parser.parse_args()
     rows: list[dict[str, Any]] = []
-    for masses in LATTICES + (LARGE if arguments.large else ()):
+    for masses in arguments.lattices:
         rows.append(lattice(masses))
         row = rows[-1]
         share = min(1.0, row["factorisations"] * row["one_factorisation_seconds"] / row["solve_seconds"])
@@ -168,7 +169,7 @@ def main() -> None:
             f"({share:.0%})  {row['gflops']:.1f} Gflop/s  {row['peak_bytes'] / 1e9:.1f} GB",
             flush=True,
         )
-    rows.extend(of_batch_and_shells(arguments.batch))
+    rows.extend(of_batch_and_shells(arguments.batch, arguments.shells))
     if arguments.json:
         about = {"machine": platform.processor() or platform.machine(), "python": platform.python_version()}
         with open(arguments.json, "w", encoding="utf-8") as file:

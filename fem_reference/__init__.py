@@ -16,7 +16,7 @@ import numpy as np
 from sheetbench.answers.solution import Iteration, Solution
 from sheetbench.choices import REFERENCE, REFERENCES, STRAIN_LAWS
 from sheetbench.errors import BadInput, require_choice
-from sheetbench.scenes import AnyScene, scene_of
+from sheetbench.scenes import AnyScene, require_static, scene_of
 from sheetbench.scenes.objects.material import WORDS
 
 MODELS = tuple(REFERENCES)
@@ -51,12 +51,12 @@ def solve(
     from fem_reference import sheets, statics
 
     scene = scene_of(scene)
-    requested = sheets.with_defaults(scene, model, requested)
-    if near is not None:
-        if model != "shell":
-            raise BadInput(f"{model}: is not begun near a shape; the shell is")
-        requested["near"] = near
-    return statics.solve(scene, model, progress=progress, **requested)
+    if near is not None and model != "shell":
+        raise BadInput(f"{model}: is not begun near a shape; the shell is")
+    require_static(scene, "the plate, which is linear," if model == "plate" else "")
+    branch = requested.pop("branch", "path")
+    division = sheets.division_of(scene, model, **requested)
+    return statics.solve(division, branch, near, progress)
 
 
 def check(model: str, requested: Mapping[str, Any]) -> None:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from inspect import signature
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.elements import DiscreteElements
+from fem_reference.shell.coarse_start import coarse
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.borders import borders_of, has_lines
 from fem_reference.surface.materials import Section
-from fem_reference.surface.mesh import Elements, mesh_of
+from fem_reference.surface.mesh import Elements, divisions, mesh_of
 from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import NoEquilibrium, require_choice
 from sheetbench.numerics.continuation.stability import require_stable
@@ -98,18 +99,51 @@ def solid(
 SHEETS: dict[str, Callable[..., DiscreteElements]] = {"plate": plate, "shell": shell, "solid": solid}
 
 
-def with_defaults(scene: Scene, model: str, requested: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options requested and, of those that a model knows, the law of the scene's rubber, and that
-    a mesh is not graded which is the user's own, or whose edges are all clamped.
+class Division(NamedTuple):
+    """A scene's sheet as a model divides it: elements along x and y, the model's options, and whether meshes
+    are of lines along x and y."""
 
-    These have no layer of twist (`edge_layer`); elements finer towards them are only larger elsewhere: with 8
-    a sheet bent by less than its thickness is 3 to 30 times as far off, and its error bars miss."""
-    known, decided = signature(SHEETS[model]).parameters, dict[str, Any]()
+    scene: Scene
+    model: str
+    counts: tuple[int, int]
+    options: dict[str, Any]
+    of_lines: bool
+
+    def sheet(self, **more: Any) -> Any:
+        """Return the discrete sheet; more: `moving`, `reach`, as of `SHEETS`."""
+        return SHEETS[self.model](self.scene, self.counts, **self.options, **more)
+
+    @property
+    def graded(self) -> bool:
+        """Whether the elements of a plate or shell are finer towards the edges."""
+        return bool(self.options.get("graded", True))
+
+    def coarser(self) -> Division | None:
+        """Return a shell's division to begin with, if there is one (`coarse_start`)."""
+        counts = coarse(self.counts, self.scene) if self.model == "shell" else None
+        # rows along an outline are half of a coarse mesh
+        return counts and self._replace(counts=counts).with_grading(self.graded and self.of_lines)
+
+    def with_grading(self, graded: bool) -> Division:
+        """Return the same division, finer towards the edges or not."""
+        return self._replace(options=self.options | {"graded": graded})
+
+
+def division_of(scene: Scene, model: str, elements: Elements = 16, **requested: Any) -> Division:
+    """Return how a model divides a scene's sheet. Unless requested, of options that the model has: the law of
+    the scene's rubber; not graded, where the mesh is the user's own or all edges are clamped.
+
+    Clamped edges have no layer of twist (`edge_layer`); elements finer towards them are only larger
+    elsewhere: with 8 a sheet bent by less than its thickness is 3 to 30 times as far off, and its error bars
+    miss."""
+    known, decided, borders = signature(SHEETS[model]).parameters, dict[str, Any](), borders_of(scene)
     if scene.material.law is not None:
         decided["law"] = scene.material.law
-    if scene.sheet.mesh is not None or not (scene.twisting_edges() or borders_of(scene)):
+    if scene.sheet.mesh is not None or not (scene.twisting_edges() or borders):
         decided["graded"] = False
-    return {name: value for name, value in decided.items() if name in known} | dict(requested)
+    options = {name: value for name, value in decided.items() if name in known} | requested
+    of_lines = borders is None or borders.along_axes
+    return Division(scene, model, divisions(scene.sheet, elements), options, of_lines)
 
 
 def start(sheet: DiscreteElements) -> np.ndarray:

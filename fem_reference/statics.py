@@ -9,78 +9,40 @@ factors at which the sheet snapped.
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, cast
 
 from fem_reference.discrete.answer import Traced, answered, inspected, traced
-from fem_reference.sheets import SHEETS, shell
+from fem_reference.sheets import Division
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
-from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.validity import STRETCHED, stretched
-from fem_reference.surface.borders import has_lines
-from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.solution import Solution
 from sheetbench.choices import BRANCHES
 from sheetbench.errors import require_choice
 from sheetbench.numerics.continuation.path import Progress
-from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.rigid_motions import require_static
 
 
 def solve(
-    scene: Scene, model: str, elements: Elements = 16, *, progress: Progress | None = None, **options: Any
+    division: Division, branch: str = "path", near: Shape | None = None, progress: Progress | None = None
 ) -> Solution:
-    """The static equilibrium of a scene; options: as of `sheets.SHEETS`, of the shell also `_solve_shell`'s.
-    Raises scenes.SceneError if the supports leave a rigid motion free, BadInput for an unknown option."""
-    require_static(scene, "the plate, which is linear," if model == "plate" else "")
-    if model == "shell":
-        return _solve_shell(scene, divisions(scene.sheet, elements), progress=progress, **options)
-    return answered(traced(partial(SHEETS[model], scene, elements, **options), progress=progress))
+    """Return the static equilibrium of a divided sheet.
 
-
-def _solve_shell(
-    scene: Scene,
-    counts: tuple[int, int],
-    graded: bool = True,
-    branch: str = "path",
-    near: Shape | None = None,
-    progress: Progress | None = None,
-    **of_sheet: Any,
-) -> Solution:
-    """branch: one of `choices.BRANCHES`; "buckled" leaves an unstable equilibrium along its lowest mode for a
-    stable one. near: the shape, as `coarse_start.shaped` takes it, of an equilibrium to be sought from first;
-    where it leads to no stable one, from flat."""
+    branch, near: of the shell. branch: one of `choices.BRANCHES`; "buckled" leaves an unstable equilibrium
+    along its lowest mode for a stable one. near: the shape, as `coarse_start.shaped` takes it, of an
+    equilibrium to be sought from first; where it leads to no stable one, from flat."""
     require_choice("branch", branch, BRANCHES)
-    options = {"progress": progress, "buckled": branch == "buckled"}
-    if near is None:
-        runs = _runs(scene, counts, graded, of_sheet, **options)
-    else:
-        begin = partial(coarse_start.shaped, near)
-        runs = [_run(scene, counts, graded, of_sheet, near=begin, progress=progress)]
-    fallback = ""
+    divisions, runs, begin = [division], list[Traced](), near and partial(coarse_start.shaped, near)
+    while near is None and (coarser := divisions[-1].coarser()) is not None:
+        divisions.append(coarser)
+    buckled, fallback = branch == "buckled", ""
+    for each in divisions[::-1]:
+        inspect = stretched if each.model == "shell" and each.graded else inspected
+        own = {"buckled": buckled} if each is division else {"limits": coarse_start.LIMITS}
+        run = traced(each.sheet, inspect, begin, progress=progress, **own)
+        begin = (
+            partial(coarse_start.start, run.sheet, run.path.state.q) if coarse_start.plain(run.path) else None
+        )
+        runs.insert(0, run)
     if runs[0].path.fault is STRETCHED:
         fallback = "divided evenly, for it bends much"
-        runs = [_run(scene, counts, False, of_sheet, **options), *runs]
-    return answered(*runs, fallback=fallback, **({"branch": branch} if branch == "buckled" else {}))
-
-
-def _runs(
-    scene: Scene, counts: tuple[int, int], graded: bool, of_sheet: dict[str, Any], **options: Any
-) -> list[Traced]:
-    """The run on a mesh of so many elements, then those on coarser ones that it has begun with."""
-    few = None if scene.obstacles else coarse_start.coarse(counts, scene)
-    rows = graded and has_lines(scene)  # those along an outline are half of a coarse mesh
-    on_coarse = {"progress": options["progress"], "limits": coarse_start.LIMITS}
-    begun = [] if few is None else _runs(scene, few, rows, of_sheet, **on_coarse)
-    near = None
-    if begun and coarse_start.plain(begun[0].path):
-        near = partial(coarse_start.start, cast(DiscreteShell, begun[0].sheet), begun[0].path.state.q)
-    return [_run(scene, counts, graded, of_sheet, near=near, **options), *begun]
-
-
-def _run(
-    scene: Scene, counts: tuple[int, int], graded: bool, of_sheet: dict[str, Any], **options: Any
-) -> Traced:
-    """The run on one mesh; options: as of `discrete.answer.traced`."""
-    make = partial(shell, scene, counts, graded=graded, **of_sheet)
-    return traced(make, stretched if graded else inspected, **options)
+        runs.insert(0, traced(division.with_grading(False).sheet, progress=progress, buckled=buckled))
+    return answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))

@@ -32,8 +32,8 @@ import numpy as np
 
 from fem_reference.discrete.answer import equilibrium
 from fem_reference.discrete.items import Following
-from fem_reference.sheets import SHEETS, with_defaults
-from fem_reference.surface.mesh import Elements, divisions
+from fem_reference.sheets import SHEETS, division_of
+from fem_reference.surface.mesh import Elements
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
 from sheetbench.clock import now
@@ -96,10 +96,9 @@ def modes(
         if model != "shell" or scene.actuators:
             raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
     scene = scene.replace(actuators=())
-    options = with_defaults(scene, model, options)
-    along_x, along_y = divisions(scene.sheet, elements)
+    division = division_of(scene, model, elements, **options)
     with one_blas_thread():
-        sheet = SHEETS[model](scene, (along_x, along_y), **options, reach=REACH)
+        sheet = division.sheet(reach=REACH)
         if about == "deformed":
             if any(isinstance(item, Following) for item in sheet.items):
                 raise BadInput(
@@ -120,8 +119,8 @@ def modes(
         slow = scene.sheet.thickness / longer**2 * np.sqrt(material.young / (12.0 * material.density))
         values, vectors = lowest_modes(stiffness, mass, count + rigid, -(slow**2), dense=0)
     return ReferenceModes(
-        label=f"{model} {along_x} × {along_y}",
-        settings={"elements": [along_x, along_y], **options},
+        label="{} {} × {}".format(model, *division.counts),
+        settings={"elements": list(division.counts), **division.options},
         frequencies=np.sqrt(np.maximum(values[rigid:], 0.0)) / (2.0 * np.pi),
         shapes=np.array([sheet.displacement(basis @ vector) for vector in vectors[:, rigid:].T]),
         rigid=rigid,

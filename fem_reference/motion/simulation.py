@@ -15,7 +15,7 @@ import numpy as np
 from fem_reference.discrete.energies import SheetMotion
 from fem_reference.motion.generalised_alpha import ERROR, ConstrainedAlpha
 from fem_reference.motion.observer import ReferenceObserver
-from fem_reference.sheets import SHEETS, with_defaults
+from fem_reference.sheets import SHEETS, division_of
 from fem_reference.vibration import modes
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE, listed
@@ -63,8 +63,7 @@ def simulate(
     began = now()
     if model == "plate":
         require_no_obstacles(requested, "the plate, which is linear,")
-    options = with_defaults(requested, model, options)
-    moving = SHEETS[model](requested, **options, moving=True)
+    moving = division_of(requested, model, **options).sheet(moving=True)
     schedule = schedule_of(
         duration, every, lambda: 1.0 / float(modes(requested, "plate", 4, count=1).frequencies[0])
     )

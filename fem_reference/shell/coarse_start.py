@@ -45,7 +45,7 @@ _ENDS = np.cumsum([len(points.T) for points in _TO_NODES.values()])
 def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
     """The elements along x and y of the mesh to begin with, if there is one; rods have unknowns of their
     own, and a sheet that is not flat at rest may buckle otherwise on a coarse mesh."""
-    if min(counts) < FINE or scene.actuators or scene.natural_by:
+    if min(counts) < FINE or scene.actuators or scene.natural_by or scene.obstacles:
         return None
     return counts[0] // COARSER, counts[1] // COARSER
 

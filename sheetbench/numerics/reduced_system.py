@@ -20,20 +20,12 @@ import scipy.sparse as sp
 from sheetbench.numerics import banded
 from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.cache import cached
-from sheetbench.numerics.direct import (
-    CHOLESKY,
-    Count,
-    DirectSolver,
-    Factor,
-    SingularMatrixError,
-)
+from sheetbench.numerics.direct import CHOLESKY, Count, DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.fronts import CoupledCells, Fronts, fronts_of
 from sheetbench.numerics.options import njit
 from sheetbench.numerics.saddle_point import Saddle
 
-BANDED_LIMIT = (
-    2.0e7  # multiplications, n × bandwidth², below which the banded Cholesky is quicker than the sparse one
-)
+BANDED_LIMIT = 2.0e7  # multiplications, n × bandwidth², below which bands are quicker than fronts
 
 
 class BlockPattern(Protocol):

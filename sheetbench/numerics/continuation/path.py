@@ -25,9 +25,12 @@ class Fault(NamedTuple):
 class Path(Generic[State, Forces]):
     """Where the tracing of a structure stands: the last equilibrium, its load factor, and what it took.
 
-    limit: of factorisations, for now; alike: change of the strain that leaves the tangent what it is; snaps:
-    load factors that it snapped at; fault: what has ended it early; notes: its warnings; progress: called
-    at every iteration; factor: of the equilibrium's tangent, where it is at hand.
+    inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there. settle:
+    the stable state of a structure under conservative loads that a path leads to at a load factor beyond a
+    limit point, for the path to go on from; it raises LoadStepFailed where it finds none. limit: of
+    factorisations, for now; alike: change of the strain that leaves the tangent what it is; snaps: load
+    factors that it snapped at; fault: what has ended it early; notes: its warnings; progress: called at every
+    iteration; factor: of the equilibrium's tangent, where it is at hand.
     """
 
     structure: Structure[State, Forces]
@@ -44,16 +47,26 @@ class Path(Generic[State, Forces]):
     progress: Progress | None = None
     factor: Factor | None = None
     alike: float = 0.0
+    inspect: Inspect[State, Forces] = lambda path: None
+    settle: Settle[State, Forces] | None = None
 
     def __post_init__(self) -> None:
         self.limit = self.limits.factorisations
 
     def begin(self, limits: Limits | None = None) -> None:
         """Go back to rest, with as many factorisations as at first."""
-        self.state, self.load_factor, self.factor = self.structure.rest(), 0.0, None
+        self.rest()
         self.limits = limits or self.limits
         self.limit = self.factorisations + self.limits.factorisations
         self.forget()
+
+    def rest(self) -> None:
+        """Go back to rest."""
+        self.put(self.structure.rest(), 0.0)
+
+    def put(self, state: State, load_factor: float, factor: Factor | None = None) -> None:
+        """Move to an equilibrium."""
+        self.state, self.load_factor, self.factor = state, load_factor, factor
 
     def forget(self) -> None:
         """Drop snaps and notes."""

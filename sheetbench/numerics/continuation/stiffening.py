@@ -23,7 +23,7 @@ import numpy as np
 
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.newton import Start, newton
-from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Settle
+from sheetbench.numerics.continuation.path import Fault, LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
 LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
@@ -53,14 +53,11 @@ def softest(structure: Structure[State, Forces]) -> float:
 
 
 def stiffened(
-    path: Path[State, Forces],
-    trace: Callable[[Path[State, Forces], Inspect[State, Forces]], Fault | None],
-    inspect: Inspect[State, Forces],
-    settle: Settle[State, Forces] | None,
+    path: Path[State, Forces], trace: Callable[[Path[State, Forces]], Fault | None]
 ) -> Fault | None:
     """Lead a path from rest to the equilibrium at full load with stiff penalties: what has ended it before,
-    if anything. trace: the usual way there; settle: as of `trace_path`."""
-    structure, limits = path.structure, path.limits
+    if anything. trace: the usual way there."""
+    structure, limits, inspect = path.structure, path.limits, path.inspect
     contacts, last = structure.contacts, (structure.rest(), 0.0)
 
     def kept_out(path: Path[State, Forces]) -> Fault | None:
@@ -72,17 +69,17 @@ def stiffened(
             return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
         return inspect(path)
 
-    down = settle if structure.symmetric else None
+    path.inspect, down = kept_out, path.settle if structure.symmetric else None
     share = softest(structure)
     while True:  # what leads nowhere is too soft, where nothing else is left
         soften(contacts, share)
         path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE))
         last = path.state, 0.0
-        ended = trace(path, kept_out)
+        ended = trace(path)
         path.limits = limits
         if ended is None:
             path.forget()
-            ended = _raised(path, share, kept_out)
+            ended = _raised(path, share)
         if ended is None or share == 1.0 or down is not None:
             break
         share = min(1.0, 30.0 * share)
@@ -96,7 +93,7 @@ def stiffened(
     for load_factor in np.linspace(0.0, 1.0, max(1, *map(math.ceil, ways)) + 1)[1:].tolist():
         path.limit = path.factorisations + limits.factorisations
         try:
-            path.state, path.load_factor, path.factor = down(path, load_factor), load_factor, None
+            path.put(down(path, load_factor), load_factor)
         except LoadStepFailed as failure:
             return Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
         if (fault := kept_out(path)) is not None:
@@ -104,7 +101,7 @@ def stiffened(
     return None
 
 
-def _raised(path: Path[State, Forces], share: float, inspect: Inspect[State, Forces]) -> Fault | None:
+def _raised(path: Path[State, Forces], share: float) -> Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
@@ -121,6 +118,6 @@ def _raised(path: Path[State, Forces], share: float, inspect: Inspect[State, For
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return Fault(failure.status, f"contact could not be stiffened: {failure}")
             continue
-        if (fault := inspect(path)) is not None or target == 1.0:
+        if (fault := path.inspect(path)) is not None or target == 1.0:
             return fault
         share = target

@@ -27,14 +27,7 @@ from typing import NamedTuple
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton, predicted
-from sheetbench.numerics.continuation.path import (
-    Fault,
-    Inspect,
-    LoadStepFailed,
-    Path,
-    Progress,
-    Settle,
-)
+from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Progress, Settle
 from sheetbench.numerics.continuation.stability import stability
 from sheetbench.numerics.continuation.stiffening import stiffened
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
@@ -57,29 +50,21 @@ def trace_path(
 ) -> Path[State, Forces]:
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
-    inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there.
-    settle: the stable state of a structure under conservative loads that a path leads to at a load factor
-    beyond a limit point, for the path to go on from; it raises StepFailed where it finds none.
-    progress: called once an iteration. near: a state close to the equilibrium, to begin at; where that leads
-    to none that is stable, or with obstacles, the path begins at rest. slenderness: thickness over size;
-    where it is given, the factors of a last correction that is next to nothing tell the stability.
-    buckled: leave an unstable equilibrium for the stable one that `settle` leads to.
+    inspect, settle: as of `Path`; progress: called once an iteration. near: a state close to the equilibrium,
+    to begin at; where that leads to none that is stable, or with obstacles, the path begins at rest.
+    slenderness: thickness over size; where it is given, the factors of a last correction that is next to
+    nothing tell the stability. buckled: leave an unstable equilibrium for the stable one that `settle` finds.
     """
     with one_blas_thread():
-        alike = SAME_TANGENT * slenderness**2
-        path = Path(
-            structure, solver, structure.rest(), limits=limits or Limits(), progress=progress, alike=alike
-        )
-        if structure.contacts:
-            ended = stiffened(path, lambda path, inspect: _traced(path, inspect, settle), inspect, settle)
-        else:
-            ended = _traced(path, inspect, settle, near)
+        path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
+        path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
+        ended = stiffened(path, _traced) if structure.contacts else _traced(path, near)
         path.fault = ended
         path.status, note = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
             try:
                 path.limit = path.factorisations + path.limits.factorisations
-                path.state, path.factor = settle(path, 1.0), None
+                path.put(settle(path, 1.0), 1.0)
                 path.notes.append("begun along the buckling mode of an unstable equilibrium")
                 path.status, note = stability(path)
             except LoadStepFailed as failure:
@@ -96,19 +81,14 @@ class Ending(NamedTuple):
     careful: int = 0
 
 
-def _traced(
-    path: Path[State, Forces],
-    inspect: Inspect[State, Forces],
-    settle: Settle[State, Forces] | None,
-    near: Start[State] | None = None,
-) -> Fault | None:
+def _traced(path: Path[State, Forces], near: Start[State] | None = None) -> Fault | None:
     """Lead a path from rest, or from near the end, to load factor 1. Return what has ended it before."""
-    if near is not None and _near(path, inspect, near):
+    if near is not None and _near(path, near):
         return None
-    plain = _follow(path, inspect)
+    plain = _follow(path)
     reached = path.state if plain is None else None
-    ended = _carefully(path, inspect, plain)
-    fault = _snapped(path, inspect, settle, ended)
+    ended = _carefully(path, plain)
+    fault = _snapped(path, ended)
     if fault is None or reached is None:
         return fault
     if path.load_factor > 0.0:
@@ -117,11 +97,11 @@ def _traced(
             f"small load steps end at load factor {path.load_factor:.4g}{left}: this equilibrium, which "
             "large ones led to, may be on another branch"
         )
-    path.state, path.load_factor, path.factor = reached, 1.0, None
+    path.put(reached, 1.0)
     return None
 
 
-def _near(path: Path[State, Forces], inspect: Inspect[State, Forces], near: Start[State]) -> bool:
+def _near(path: Path[State, Forces], near: Start[State]) -> bool:
     """Lead a path to a stable equilibrium close to a start. Return whether there is one; if not, the path is
     unchanged."""
     before = path.state, path.load_factor, path.factor
@@ -129,59 +109,52 @@ def _near(path: Path[State, Forces], inspect: Inspect[State, Forces], near: Star
         state, factor = newton(path, near)
     except LoadStepFailed:
         return False
-    path.state, path.load_factor, path.factor = state, near.target, factor
+    path.put(state, near.target, factor)
     close = path.structure.length(near.state, state) <= path.limits.same_branch * near.length
-    if close and inspect(path) is None and stability(path) == (Status.CONVERGED, ""):
+    if close and path.inspect(path) is None and stability(path) == (Status.CONVERGED, ""):
         return True
-    path.state, path.load_factor, path.factor = before
+    path.put(*before)
     return False
 
 
-def _carefully(
-    path: Path[State, Forces], inspect: Inspect[State, Forces], plain: LoadStepFailed | Fault | None
-) -> Ending:
+def _carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
     """Lead a path from rest again, by small load steps, where large ones may have left its branch. plain: how
     these ended, which stands where small ones do not get so far as to begin."""
     budget = 0 if isinstance(plain, Fault) else _careful_budget(path)
     if not budget:
         return Ending(plain)
     stuck = path.state, path.load_factor
-    path.state, path.load_factor, path.factor = path.structure.rest(), 0.0, None
+    path.rest()
     path.limit = path.factorisations + budget
-    ended = _follow(path, inspect, careful=True)
+    ended = _follow(path, careful=True)
     if isinstance(ended, UnknownInertia):
         path.notes.append(f"{ended}: this equilibrium may be on another")
     if plain is not None:
         path.limit = max(path.limit, path.limits.factorisations)  # what is left of it serves for snaps
         if path.load_factor == 0.0:
-            path.state, path.load_factor = stuck
+            path.put(*stuck)
             return Ending(plain)
     return Ending(ended, budget)
 
 
-def _snapped(
-    path: Path[State, Forces],
-    inspect: Inspect[State, Forces],
-    settle: Settle[State, Forces] | None,
-    ended: Ending,
-) -> Fault | None:
+def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
     """Lead a path past the limit points at which it ends. Return what has ended it before load factor 1."""
     limits, reason = path.limits, ended.reason
     while isinstance(reason, LoadStepFailed):
         halted = reason.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
         allowed = path.factorisations < path.limit and len(path.snaps) < limits.snaps
-        if settle is None or not (path.structure.symmetric and halted and allowed):
+        if path.settle is None or not (path.structure.symmetric and halted and allowed):
             return _give_up(path, reason)
         left_at, (before, doubt) = path.load_factor, stability(path)
         beyond = min(1.0, left_at + limits.snap_step)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
         try:
-            path.state, path.load_factor, path.factor = settle(path, beyond), beyond, None
+            path.put(path.settle(path, beyond), beyond)
         except LoadStepFailed as failure:
             tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
             return _give_up(path, reason, tried)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
-        reason = inspect(path) or _follow(path, inspect, ended.careful > 0)
+        reason = path.inspect(path) or _follow(path, ended.careful > 0)
         path.snaps.append(left_at)
         begin = "" if before is Status.CONVERGED else "unstable "
         snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {doubt}"
@@ -189,9 +162,7 @@ def _snapped(
     return reason
 
 
-def _follow(
-    path: Path[State, Forces], inspect: Inspect[State, Forces], careful: bool = False
-) -> LoadStepFailed | Fault | None:
+def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed | Fault | None:
     """Lead a path on to load factor 1: what has ended it before, if anything. careful: no load step may leave
     the branch that it begins on."""
     limits, size = path.limits, 1.0
@@ -220,8 +191,8 @@ def _follow(
                 return failure
             continue
         grown = first.target - path.load_factor
-        path.state, path.load_factor, path.factor = state, first.target, found
-        if (fault := inspect(path)) is not None:
+        path.put(state, first.target, found)
+        if (fault := path.inspect(path)) is not None:
             return fault
         if careful:
             factor, negative = found, _negatives(found)

@@ -9,11 +9,13 @@ factors at which the sheet snapped.
 from __future__ import annotations
 
 from functools import partial
+from typing import cast
 
 from fem_reference.discrete.answer import Traced, answered, inspected, traced
 from fem_reference.sheets import Division
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
+from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.validity import STRETCHED, stretched
 from sheetbench.answers.solution import Solution
 from sheetbench.choices import BRANCHES
@@ -38,9 +40,8 @@ def solve(
         inspect = stretched if each.model == "shell" and each.graded else inspected
         own = {"buckled": buckled} if each is division else {"limits": coarse_start.LIMITS}
         run = traced(each.sheet, inspect, begin, progress=progress, **own)
-        begin = (
-            partial(coarse_start.start, run.sheet, run.path.state.q) if coarse_start.plain(run.path) else None
-        )
+        sheet, path = cast(DiscreteShell, run.sheet), run.path
+        begin = partial(coarse_start.start, sheet, path.state.q) if coarse_start.plain(path) else None
         runs.insert(0, run)
     if runs[0].path.fault is STRETCHED:
         fallback = "divided evenly, for it bends much"

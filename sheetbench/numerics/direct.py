@@ -1,10 +1,9 @@
 """Sparse direct solution of A x = b: analyse a pattern once, factorise many times, know the inertia.
 
 A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`). What
-has none by fronts, as may be far from definite, goes to rslab's L D Lᵀ with Bunch–Kaufman pivots, to SciPy's
-SuperLU without it: its U is D Lᵀ without row exchanges and tells the inertia too. Unsymmetric ones are solved
-with the factors of their symmetric part where that is definite and close, else by L U of SciPy.
-Solutions are refined, their residuals checked.
+has none by fronts, as may be far from definite, goes to rslab's L D Lᵀ with Bunch–Kaufman pivots. Unsymmetric
+ones are solved with the factors of their symmetric part where that is definite and close, else by L U of
+SciPy. Solutions are refined, their residuals checked.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ from math import isfinite
 from typing import Any
 
 import numpy as np
+import rslab
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, cg, splu
 
@@ -24,12 +24,6 @@ from sheetbench.numerics.fronts import Fronts
 from sheetbench.numerics.multifrontal import signed_factors
 from sheetbench.numerics.saddle_point import ROUNDED, minimal_residual
 from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
-
-rslab: Any
-try:
-    import rslab
-except ImportError:  # SciPy always works
-    rslab = None
 
 Matrix = Any  # by rows or, where it is symmetric or so by pattern, by columns
 Solve = Callable[[np.ndarray], np.ndarray]
@@ -49,14 +43,13 @@ class SingularMatrixError(ArithmeticError):
 @dataclass(eq=False)
 class Factor:
     """One factorisation. given: the matrix, or what makes it; solve_unrefined: x with A x = b as the factors
-    have it, neither refined nor checked; negative, zero: how many eigenvalues are below zero and zero,
-    negative None where that is not known, and of unsymmetric matrices; backward_error: what that of
-    unrefined solutions is known to be below; more: called once a further factorisation that is made of the
-    matrix."""
+    have it, neither refined nor checked; negative, zero: how many eigenvalues of a symmetric matrix are below
+    zero and zero, −1 of an unsymmetric one; backward_error: what that of unrefined solutions is known to be
+    below; more: called once a further factorisation that is made of the matrix."""
 
     given: Matrix | Callable[[], Matrix]
     solve_unrefined: Solve
-    negative: int | None = None
+    negative: int = -1
     zero: int = 0
     backward_error: float = np.inf
     more: Count = lambda: None
@@ -167,8 +160,6 @@ class DirectSolver:
         try:
             if not self.symmetric:
                 return Factor(matrix, splu(columns).solve, more=more)
-            if rslab is None:
-                return _superlu(matrix, columns)
             self._analysis = self._analysis or rslab.analyze(columns, path="ldlt")
             factors = self._analysis.factor(columns)
             _, negative, zero = factors.inertia
@@ -186,14 +177,3 @@ def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | 
     preconditioner = LinearOperator((n, n), matvec=near.solve_unrefined, dtype=float)
     x, failed = cg(matrix, b, rtol=ITERATION_ACCURACY, maxiter=ITERATIONS, M=preconditioner)
     return None if failed or not np.isfinite(x).all() else x
-
-
-def _superlu(matrix: Matrix, columns: sp.csc_array) -> Factor:
-    """Factors of a symmetric matrix, scaled to entries of up to one, by SuperLU without pivoting."""
-    largest = abs(columns).max(axis=0).toarray().ravel()
-    scale = 1.0 / np.sqrt(np.maximum(largest, np.finfo(float).tiny))
-    scaled = sp.csc_array(sp.diags_array(scale) @ columns @ sp.diags_array(scale))
-    factors = splu(scaled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    pivots, known = factors.U.diagonal(), np.array_equal(factors.perm_r, factors.perm_c)
-    negative = int(np.sum(pivots < 0)) if known else None
-    return Factor(matrix, lambda b: scale * factors.solve(scale * b), negative, int(np.sum(pivots == 0)))

@@ -90,8 +90,6 @@ class _Creep(Generic[State, Forces]):
                 self.nearly = FURTHER * residual
             else:
                 factor = self._factor(self.structure, state)
-                if factor.negative is None:
-                    raise LoadStepFailed(Status.STEP_LIMIT, "whether it is stable is not known", 0.0)
                 if factor.negative == factor.zero == 0:
                     return state
                 self._leave(state)

@@ -19,8 +19,6 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
     try:
         if structure.symmetric:
             path.factor = path.factor or path.factored(path.tangent(path.state, path.load_factor))
-            if path.factor.negative is None:
-                return Status.CONVERGED, "stability not known: the factors do not give the inertia"
             negative, zero = path.factor.negative - structure.multipliers, path.factor.zero
         else:
             path.factor = path.factored(path.tangent(path.state, path.load_factor))

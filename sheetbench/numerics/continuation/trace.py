@@ -127,8 +127,6 @@ def _carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) 
     path.rest()
     path.limit = path.factorisations + budget
     ended = _follow(path, careful=True)
-    if isinstance(ended, UnknownInertia):
-        path.notes.append(f"{ended}: this equilibrium may be on another")
     if plain is not None:
         path.limit = max(path.limit, path.limits.factorisations)  # what is left of it serves for snaps
         if path.load_factor == 0.0:
@@ -168,7 +166,6 @@ def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed 
     limits, size = path.limits, 1.0
     reach = limits.careful_reach if careful else limits.first_reach
     factor: Factor | None = None
-    negative: int | None = None
     while path.load_factor < 1.0:
         before = path.factorisations
         try:
@@ -177,10 +174,7 @@ def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed 
             close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, found = newton(path, first, close)
             if careful:
-                negative = _negatives(first.factor) if negative is None else negative
-                found, longest = _continuous(path, first, state, negative, found)
-        except UnknownInertia as failure:
-            return failure
+                found, longest = _continuous(path, first, state, found)
         except LoadStepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             rested = path.load_factor == 0.0  # no limit point is there, however far the first step
@@ -195,8 +189,7 @@ def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed 
         if (fault := path.inspect(path)) is not None:
             return fault
         if careful:
-            factor, negative = found, _negatives(found)
-            size, reach = limits.growth * grown, longest
+            factor, size, reach = found, limits.growth * grown, longest
             continue
         # of elements those of the last correction are too far off to step with: a thin sheet's path halts
         factor = found if limits.steps_with_last_factors else None
@@ -243,30 +236,14 @@ def _careful_budget(path: Path[State, Forces]) -> int:
     return budget if unstable or taken > limits.careful_after else 0
 
 
-class UnknownInertia(LoadStepFailed):
-    """Nothing tells whether a load step has left its branch."""
-
-
-def _negatives(factor: Factor | None) -> int:
-    """Negative eigenvalues of a factorised tangent. Raises UnknownInertia where they are not known."""
-    if factor is None or factor.negative is None:
-        reason = "the path cannot be held to its branch: the tangent's factors do not tell the inertia"
-        raise UnknownInertia(Status.STEP_LIMIT, reason, 0.0)
-    return factor.negative
-
-
 def _continuous(
-    path: Path[State, Forces],
-    first: Start[State],
-    state: State,
-    negative: int,
-    found: Factor | None,
+    path: Path[State, Forces], first: Start[State], state: State, found: Factor | None
 ) -> tuple[Factor, float]:
-    """The factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
-    StepFailed where it is on another branch than the one that the step set out from: far from where the
-    linear step led, or past a change of stability by more than a short step, or, where a
-    natural strain loads it that may not move it, at all. negative: eigenvalues before; found: the factors,
-    where they are at hand."""
+    """Return the factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
+    LoadStepFailed where it is on another branch than the one that the step set out from: far from where the
+    linear step led, or past a change of stability by more than a short step, or, where a natural strain
+    loads it that may not move it, at all. found: the factors, where they are at hand."""
+    assert first.factor is not None
     limits, miss = path.limits, path.structure.length(first.state, state)
     if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
         raise LoadStepFailed(Status.STEP_LIMIT, "the path folds", first.length)
@@ -275,7 +252,7 @@ def _continuous(
     except SingularMatrixError as error:
         raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
     short = first.length <= limits.branching and not path.structure.prestrained
-    if _negatives(found) > negative and not short:
+    if found.negative > first.factor.negative and not short:
         raise LoadStepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
     longest = limits.growth * first.length
     if miss > 0.0:  # it grows with the square of the step

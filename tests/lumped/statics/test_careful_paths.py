@@ -3,15 +3,12 @@
 import numpy as np
 import pytest
 from cases import elastica_tip, equilibrium, sheet
-from scipy.sparse.linalg import splu
 
 import lumped
 from sheetbench.answers.solution import Status
-from sheetbench.numerics import direct
 from sheetbench.numerics.continuation import trace as tracer
 from sheetbench.numerics.continuation.limits import Limits
-from sheetbench.numerics.direct import Factor
-from sheetbench.scenes import Curved, EdgeLoad, Gravity, load
+from sheetbench.scenes import Curved, EdgeLoad, Gravity
 
 PRESS, ACROSS = 0.0334127, 0.002  # N/m: 1.3 of Euler's load, and a little upwards
 PRESSED = (EdgeLoad(edge="x1", force_per_length=(-PRESS, 0.0, ACROSS)),)
@@ -80,19 +77,3 @@ def test_a_look_that_finds_no_end_leaves_the_answer_and_says_so(monkeypatch, mod
     found = equilibrium(pulled(300.0), model, 9, 4)
     assert found.load_factor == 1.0
     assert "after 20 factorisations" in found.message and "another branch" in found.message
-
-
-@pytest.mark.parametrize("model", ["lumped", "shell"])
-def test_a_path_whose_inertia_is_not_known_is_held_to_no_branch(monkeypatch, model):
-    """Where nothing tells the number of negative eigenvalues, a careful path ends at once and says so."""
-    monkeypatch.setattr(tracer, "_careful_budget", lambda *_: 40)
-    scene = load("one-edge-clamped")
-    monkeypatch.setattr(direct, "signed_factors", lambda data, fronts: None)
-    monkeypatch.setattr(direct, "rslab", None)
-    monkeypatch.setattr("sheetbench.numerics.reduced_system.BANDED_LIMIT", 0.0)
-    monkeypatch.setattr(direct, "_superlu", lambda matrix, columns: Factor(matrix, splu(columns).solve))
-    found = equilibrium(scene, model, (7, 6), 4)  # whose factors no other test has kept
-    monkeypatch.undo()
-    usual = equilibrium(scene, model, (7, 6), 4)
-    assert any("held to its branch" in note for note in found.remarks)
-    assert found.displacement([(0.1, 0.1)]) == pytest.approx(usual.displacement([(0.1, 0.1)]), rel=1e-6)

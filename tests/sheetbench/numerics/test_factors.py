@@ -55,23 +55,15 @@ def by_band(matrix, cells):
     return partial(banded.solve_unrefined, factors, band.width, band.order), 0
 
 
-def by_library(matrix, cells, own=True):
-    """rslab or SuperLU; the second time on the analysis of the first."""
-    with pytest.MonkeyPatch.context() as patched:
-        if not own:
-            patched.setattr(direct, "rslab", None)
-        solver = DirectSolver()
-        solver.factor(2.0 * matrix)
-        factors = solver.factor(matrix)
+def by_library(matrix, cells):
+    """rslab; the second time on the analysis of the first."""
+    solver = DirectSolver()
+    solver.factor(2.0 * matrix)
+    factors = solver.factor(matrix)
     return factors.solve, factors.negative
 
 
-KINDS = {
-    "fronts": by_fronts,
-    "band": by_band,
-    "rslab": by_library,
-    "superlu": partial(by_library, own=False),
-}
+KINDS = {"fronts": by_fronts, "band": by_band, "rslab": by_library}
 
 
 @pytest.mark.parametrize("kind", KINDS)

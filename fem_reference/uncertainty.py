@@ -118,11 +118,8 @@ def of_solutions(
     scene: Scene, solutions: Sequence[Solution], sizes: Sequence[float], points: np.ndarray
 ) -> Uncertainty | None:
     """Return the uncertainty that solutions on meshes of these sizes show, finest first; None as above."""
-    usable = [
-        (solution.displacement(points), size, missed_by(scene, solution.settings))
-        for solution, size in zip(solutions, sizes, strict=True)
-        if solution.comparable
-    ]
+    found = [(one, size) for one, size in zip(solutions, sizes, strict=True) if one.comparable]
+    usable = [(one.displacement(points), size, missed_by(scene, one.settings)) for one, size in found]
     if len({size for _, size, _ in usable}) < 2 or usable[0][1] != sizes[0]:
         return None
     answers, of_sizes, layers = zip(*usable, strict=True)

@@ -126,9 +126,8 @@ class Rods:
         """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from strains e_n of a shape."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)
-        slow.elements = self.elements._replace(
-            stiffness=(1.0 + drag) * self.elements.stiffness, intrinsic=past[..., None] / (1.0 + drag)
-        )
+        stiffness, intrinsic = (1.0 + drag) * self.elements.stiffness, past[..., None] / (1.0 + drag)
+        slow.elements = self.elements._replace(stiffness=stiffness, intrinsic=intrinsic)
         slow._commands = [None]
         return slow
 

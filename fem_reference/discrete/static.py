@@ -129,12 +129,10 @@ class Static(Creeping[StaticState, Forces]):
         sheet, shape = self.sheet, forces.shape
         move = sheet.expand(shape, step) + forces.short
         by = sheet.element.step(shape.operator, sheet.gather(move))
-        on_rods = (
-            body.extrapolated(shape, own, move)
-            for body, own in zip(sheet.bodies, forces.on_rods, strict=True)
-        )
+        rods = zip(sheet.bodies, forces.on_rods, strict=True)
+        on_rods = tuple(body.extrapolated(shape, own, move) for body, own in rods)
         stress = shape.elastic + weighed(sheet.moduli(shape, state.pressure), by)
-        return StaticState(state.q + move, stress, sheet.pressure(shape, by), tuple(on_rods))
+        return StaticState(state.q + move, stress, sheet.pressure(shape, by), on_rods)
 
     def loading(self) -> float:
         flat = self.sheet.shape(np.zeros(self.sheet.size), 1.0)

@@ -222,8 +222,5 @@ def between(start: SheetMotion, end: SheetMotion, time: float) -> SheetMotion:
         return end
     cubic = (1.0 + 2.0 * s) * (1.0 - s) ** 2 * start.q + s * s * (3.0 - 2.0 * s) * end.q
     cubic = cubic + h * s * (1.0 - s) * ((1.0 - s) * start.v - s * end.v)
-    v, a, algorithm, exerted = (
-        (1.0 - s) * getattr(start, name) + s * getattr(end, name)
-        for name in ("v", "a", "algorithm", "exerted")
-    )
-    return SheetMotion(time, cubic, v, a, algorithm, exerted)
+    names = ("v", "a", "algorithm", "exerted")
+    return SheetMotion(time, cubic, *((1.0 - s) * getattr(start, n) + s * getattr(end, n) for n in names))

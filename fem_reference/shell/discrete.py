@@ -256,9 +256,8 @@ class DiscreteShell(DiscreteElements):
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         surface, (force, turning) = self.surface(q), exerted[: 6 * self.nodes].reshape(2, -1, 3)
-        return HoldingForces(
-            np.concatenate([force, np.cross(surface.director, turning)], axis=1), surface.position
-        )
+        nodal = np.concatenate([force, np.cross(surface.director, turning)], axis=1)
+        return HoldingForces(nodal, surface.position)
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
         frames, turning = self.frame(q, at), exerted[3 * self.nodes :].reshape(-1, 3)

@@ -107,9 +107,8 @@ class HyperelasticElement(Element):
 
     def _response(self, stretch: np.ndarray, bent: np.ndarray) -> Triad:
         """Return that to E and t κ through the thickness, (m, 9, 3, …)."""
-        return self.law.response(
-            self.material, stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
-        )
+        strain = stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
+        return self.law.response(self.material, strain)
 
     def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Triad:
         """Return transverse shear at every element's points, linear unless the law is for large strains."""

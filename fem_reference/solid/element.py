@@ -172,10 +172,8 @@ class Bricks:
     def volume_ratio(self, change: np.ndarray) -> np.ndarray:
         """det F at the Gauss points (m, q) of displacements (m, 27, 3)."""
         _, slope = shape(reference().points)
-        now, then = (
-            np.linalg.det(np.einsum("eac,abq->eqcb", x, slope))
-            for x in (self.positions + change, self.positions)
-        )
+        places = self.positions + change, self.positions
+        now, then = (np.linalg.det(np.einsum("eac,abq->eqcb", x, slope)) for x in places)
         return now / then
 
     def energies(self, samples: np.ndarray) -> dict[str, float]:
@@ -220,9 +218,8 @@ class Bricks:
         flat = self.to_strain.reshape(m, q * 6, k).swapaxes(1, 2)
         slope = np.einsum("eqi,eqik->eqk", volume.first, self.to_strain)
         projected = self._projector @ slope  # orthonormal modes: (m, 6, k)
-        return (
-            flat @ tangent.reshape(m, q * 6, k) + self.bulk[..., None] * projected.swapaxes(1, 2) @ projected
-        )
+        of_volume = self.bulk[..., None] * projected.swapaxes(1, 2) @ projected
+        return flat @ tangent.reshape(m, q * 6, k) + of_volume
 
     def _at_points(self, samples: np.ndarray) -> np.ndarray:
         return np.einsum("eqik,ek->eqi", self.to_strain, samples)

@@ -95,11 +95,8 @@ def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:
     c01, at_rest = energy.c01, 2.0 * energy.c10 + 4.0 * energy.c01
     by_second = 2.0 * x + 0.5 * x**2 - np.sum(strain * double, axis=-1)
     value = energy.c10 * x + excess + c01 * by_second - at_rest * log.value
-    stress = (
-        2.0 * (energy.c10 + rise + c01 * (2.0 + x))[..., None] * _TRACE
-        - 2.0 * c01 * double
-        - at_rest * log.first
-    )
+    of_trace = 2.0 * (energy.c10 + rise + c01 * (2.0 + x))[..., None] * _TRACE
+    stress = of_trace - 2.0 * c01 * double - at_rest * log.first
     tangent = 4.0 * (second + c01)[..., None, None] * np.outer(_TRACE, _TRACE)
     return Triad(value, stress, tangent - 2.0 * c01 * _DOUBLE - at_rest * log.second)
 

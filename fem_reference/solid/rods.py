@@ -26,9 +26,8 @@ def on_columns(rods: Sequence[Rod], columns: Columns) -> BoundRods:
     levels = columns.levels
 
     def of_columns(rod: Rod) -> tuple[RodElements, np.ndarray]:
-        return _elements(rod, columns), (levels * rod.nodes[:, :, None] + np.arange(levels)).reshape(
-            -1, 3 * levels
-        )
+        numbers = levels * rod.nodes[:, :, None] + np.arange(levels)
+        return _elements(rod, columns), numbers.reshape(-1, 3 * levels)
 
     return bound(rods, 3 * levels + DIRECTORS, columns.positions.size // 3, of_columns, DIRECTORS // 3)
 

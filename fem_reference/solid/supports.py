@@ -89,10 +89,8 @@ class ColumnSupports:
         levels = self.columns.levels
         rigid = np.linalg.solve(bases, np.tile(np.eye(3), (levels, 1)))  # q of the unit translations
         rigid = rigid.reshape(len(bases), levels, 3, 3)
-        return {
-            name: np.einsum("nlk,nlkc->c", np.where(held, shared, 0.0), rigid)
-            for name, held in self.edges.items()
-        }
+        forces = {name: np.where(held, shared, 0.0) for name, held in self.edges.items()}
+        return {name: np.einsum("nlk,nlkc->c", force, rigid) for name, force in forces.items()}
 
 
 def applied(matrices: np.ndarray, nodal: np.ndarray) -> np.ndarray:

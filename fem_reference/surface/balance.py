@@ -177,7 +177,6 @@ def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.nda
     rim = surface.position[Line.along(plan, facets, np.where(inside[0], *mesh.f2t)[facets]).nodes]
     at, slope = _VALUE @ rim, _SLOPE @ rim
     square = (at * at).sum(axis=-1, keepdims=True)
-    force, moment = (
-        np.einsum("g,kgc->c", THREE_WEIGHTS, part) for part in (np.cross(slope, at), square * slope)
-    )
+    parts = np.cross(slope, at), square * slope
+    force, moment = (np.einsum("g,kgc->c", THREE_WEIGHTS, part) for part in parts)
     return 0.5 * force, 0.5 * moment

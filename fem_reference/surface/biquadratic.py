@@ -45,9 +45,8 @@ def side_shape(xi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def lagrange(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Lagrange polynomials of `nodes` (m,) at points (n,): (n, m)."""
     others = [np.delete(nodes, i) for i in range(len(nodes))]
-    return np.array(
-        [np.prod((at[:, None] - o) / (x - o), axis=1) for x, o in zip(nodes, others, strict=True)]
-    ).T
+    pairs = zip(nodes, others, strict=True)
+    return np.array([np.prod((at[:, None] - o) / (x - o), axis=1) for x, o in pairs]).T
 
 
 def product_grid(r: np.ndarray, s: np.ndarray) -> np.ndarray:

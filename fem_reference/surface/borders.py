@@ -74,9 +74,8 @@ def has_lines(scene: Scene) -> bool:
 def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:
     """Return the shapes whose borders count; lines: those too that say which part of an edge is loaded."""
     places = [place(support) for support in scene.supports if not isinstance(support, Point)]
-    places += [
-        getattr(load, "where", None) for load in scene.loads if lines or not isinstance(load, EdgeLoad)
-    ]
+    loads = [load for load in scene.loads if lines or not isinstance(load, EdgeLoad)]
+    places += [getattr(load, "where", None) for load in loads]
     places += [payload.where for payload in scene.masses]
     places += [patch.shape for patch in scene.patches if patch.natural is not None]
     shapes = [shape for shape in places if shape is not None]

@@ -19,14 +19,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fem_reference.surface.biquadratic import (
-    AT_GAUSS,
-    GAUSS_WEIGHTS,
-    THREE,
-    THREE_WEIGHTS,
-    areas,
-    side_shape,
-)
+from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS, THREE, THREE_WEIGHTS, areas, side_shape
 from fem_reference.surface.carried import carried
 from fem_reference.surface.location import shares
 from fem_reference.surface.materials import constants_of
@@ -53,10 +46,8 @@ class FollowerPressure:
     def force(self, vectors: np.ndarray) -> np.ndarray:
         value, slope = AT_GAUSS
         along, across = np.einsum("agi,eic->aegc", slope, vectors[:, :9])
-        out = np.zeros_like(vectors)
-        out[:, :9] = np.einsum(
-            "e,g,gi,egc->eic", self.value * self.orientation, GAUSS_WEIGHTS, value, np.cross(along, across)
-        )
+        out, signed = np.zeros_like(vectors), self.value * self.orientation
+        out[:, :9] = np.einsum("e,g,gi,egc->eic", signed, GAUSS_WEIGHTS, value, np.cross(along, across))
         return out
 
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
@@ -117,10 +108,8 @@ class FollowerMoment:
     def force(self, vectors: np.ndarray) -> np.ndarray:
         tangent, _, director = self._frame(vectors)
         out = np.zeros_like(vectors)
-        rows = np.arange(len(vectors))[:, None]
-        out[rows, 9 + self.line.sides] = np.einsum(
-            "eg,gi,egc->eic", self._weight, _LINE, np.cross(tangent, director)
-        )
+        rows, couple = np.arange(len(vectors))[:, None], np.cross(tangent, director)
+        out[rows, 9 + self.line.sides] = np.einsum("eg,gi,egc->eic", self._weight, _LINE, couple)
         return out
 
     def tangent(self, vectors: np.ndarray) -> np.ndarray:
@@ -132,12 +121,9 @@ class FollowerMoment:
         out = np.zeros((len(vectors), 18, 3, 18, 3))
         rows = np.arange(len(vectors))[:, None, None]
         to, of = 9 + self.line.sides[:, :, None], self.line.sides[:, None, :]
-        out[rows, to, :, of, :] = np.einsum(
-            "egi,egcd,gj->eijcd", weighted, by_slope, _LINE_SLOPE, optimize=True
-        )
-        out[rows, to, :, 9 + of, :] = np.einsum(
-            "egi,egcd,gj->eijcd", weighted, by_director, _LINE, optimize=True
-        )
+        form = "egi,egcd,gj->eijcd"
+        out[rows, to, :, of, :] = np.einsum(form, weighted, by_slope, _LINE_SLOPE, optimize=True)
+        out[rows, to, :, 9 + of, :] = np.einsum(form, weighted, by_director, _LINE, optimize=True)
         return out
 
     def work(self, vectors: np.ndarray) -> float:

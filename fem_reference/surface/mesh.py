@@ -197,9 +197,8 @@ def _with_rows(lines: np.ndarray) -> np.ndarray:
     """Lines with those of `outlined` along the rim."""
     first, last = np.diff(lines)[[0, -1]]
     rows = np.array(LAYERS)
-    return np.concatenate(
-        [lines[:1], lines[0] + first * rows, lines[1:-1], lines[-1] - last * rows[::-1], lines[-1:]]
-    )
+    low, high = lines[0] + first * rows, lines[-1] - last * rows[::-1]
+    return np.concatenate([lines[:1], low, lines[1:-1], high, lines[-1:]])
 
 
 def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:

@@ -176,10 +176,8 @@ def filling(
     on, across = sides.border[inner], across[inner]
     along = np.where(across, sides.middle[inner], sides.span[inner, 0])
     step = 1e-3 * np.ptp(sides.span[inner], axis=1)
-    at, tangent = (
-        on_borders(borders, on, along),
-        on_borders(borders, on, along + step) - on_borders(borders, on, along - step),
-    )
+    at, ahead, behind = (on_borders(borders, on, along + by) for by in (0.0, step, -step))
+    tangent = ahead - behind
     depth = np.where(across, 500.0 * step, size.at(at))
     normal = depth[:, None] * (tangent / np.linalg.norm(tangent, axis=1, keepdims=True))[:, ::-1] * [-1, 1]
     points = np.concatenate([at + normal, at - normal, _quadtree(region.bounds, size)])

@@ -76,15 +76,10 @@ def quadrilaterals(
     inside = filling(region, borders, sides, size, mirror >= 0, plan.orbits)
     points, triangles, sides = _triangles(region, borders, sides, points, inside)
     own = ~cut[sides.border]
-    quarters = [
-        on_borders(borders, sides.border[own], sides.span[own] @ [1.0 - share, share])
-        for share in (0.25, 0.5, 0.75)
-    ]
-    cells, ends, places = plan.unfolded(
-        _joined(points, triangles, sides, mirror[sides.border], plan),
-        sides.ends[own],
-        np.stack(quarters, axis=1),
-    )
+    border, span = sides.border[own], sides.span[own]
+    quarters = [on_borders(borders, border, span @ [1.0 - at, at]) for at in (0.25, 0.5, 0.75)]
+    joined = _joined(points, triangles, sides, mirror[sides.border], plan)
+    cells, ends, places = plan.unfolded(joined, sides.ends[own], np.stack(quarters, axis=1))
     mesh, middles = _cut(cells, ends, places[:, 1])
     ends = np.concatenate([np.column_stack([ends[:, end], middles]) for end in (0, 1)])
     places = np.concatenate([places[:, 0], places[:, 2]])
@@ -170,12 +165,8 @@ def _joined(
             chosen.append(pair)
     alone = across[chosen] < 0
     kites, left = quads[chosen][~alone][:, [0, 2, 3]], triangles[free]
-    return PlanCells(
-        points,
-        quads[chosen][alone],
-        np.concatenate([left, kites]),
-        np.concatenate([np.full(len(left), -1), across[chosen][~alone]]),
-    )
+    beside = np.concatenate([np.full(len(left), -1), across[chosen][~alone]])
+    return PlanCells(points, quads[chosen][alone], np.concatenate([left, kites]), beside)
 
 
 def _places(keys: np.ndarray, of: np.ndarray) -> np.ndarray:

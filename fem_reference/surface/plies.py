@@ -42,9 +42,8 @@ def _turned(own: np.ndarray, angle: np.ndarray, pairs: Sequence[tuple[int, int]]
 
 def plane_stress(ply: Ply) -> np.ndarray:
     """C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
-    e1, e2, nu, g, angle = np.broadcast_arrays(
-        *map(np.float64, (ply.young_1, ply.young_2, ply.poisson_12, ply.shear_12, ply.angle))
-    )
+    constants = ply.young_1, ply.young_2, ply.poisson_12, ply.shear_12, ply.angle
+    e1, e2, nu, g, angle = np.broadcast_arrays(*map(np.float64, constants))
     own = np.zeros((*e1.shape, 3, 3))
     left = 1.0 - nu**2 * e2 / e1
     own[..., 0, 0], own[..., 1, 1], own[..., 2, 2] = e1 / left, e2 / left, g

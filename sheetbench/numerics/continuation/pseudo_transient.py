@@ -186,9 +186,8 @@ class _Creep(Generic[State, Forces]):
         """A state moved by a step (unknowns,), its directors brought back to unit length."""
         while True:
             forces = self.structure.forces(state, self.load_factor)
-            state = self.structure.unextrapolated(
-                self.structure.advance(state, forces, self.load_factor, step)
-            )
+            moved = self.structure.advance(state, forces, self.load_factor, step)
+            state = self.structure.unextrapolated(moved)
             if self.structure.gap(state, self.load_factor) <= self.path.limits.tolerance:
                 return state
             step = np.zeros_like(step)

@@ -70,12 +70,10 @@ ALONE = {
     "natural.py": ("arc",),
     "versions.py": ("tried",),
 }
+SMALL = "help studies sizes tests-of catalogue docs-scene archive clean pictures"
 # targets of the make files, and what stands in their commands for the smallest size
 SMALLER = {
-    **{
-        name: {}
-        for name in ("help", "studies", "sizes", "tests-of", "catalogue", "docs-scene", "archive", "clean")
-    },
+    **{name: {} for name in SMALL.split()},
     "demo": {"--lumped 9": "--lumped 3 --elements 2"},
     "verify": {"verify": "verify --case patch"},
     "locking": {"--case locking-shell --case locking-solid ": ""},
@@ -93,7 +91,6 @@ SMALLER = {
         " --first": "",
     },
     "animations": {"--duration 1 ": "--duration 0.02 ", "--duration 1.5": "--duration 0.02"},
-    "pictures": {},
     "crosscheck": {
         "all docs/crosscheck/*.toml": "two-edges-clamped --lumped 3 --plate 2 --shell 2 --solid 2"
     },
@@ -105,33 +102,24 @@ SMALLER = {
     "promises": {"promises --out": "promises --part bars --scenes 1 --model plate --out"},
     "reproduce": {"reproduction --out": "reproduction --elements 4 --out"},
 }
-# the others, and why: tests of their own, packages that are fetched for them, or one size of some minutes
-ELSEWHERE = {
-    *("install", "test", "check", "nightly", "kernels", "slow", "lint", "fuzz", "kills", "notebooks"),
-    *(
-        "docs",
-        "mutants",
-        "viewer",
-        "wheel",
-        "wheel-check",
-        "extras-check",
-        "release-check",
-        "codes",
-        "trials",
-    ),
-    *("central", "master-curves", "rubber", "stability", "standing", "suite"),
-}
+TESTED = "install test check nightly kernels slow lint fuzz kills notebooks"
+FETCHING = "docs mutants viewer wheel wheel-check extras-check release-check codes trials"
+OF_ONE_SIZE = "central master-curves rubber stability standing suite"  # of some minutes
+ELSEWHERE = set(f"{TESTED} {FETCHING} {OF_ONE_SIZE}".split())
 
 
 def commands(target, folder=ROOT):
     """The commands of a target, but for those that fetch packages."""
-    stamps = [
-        f"--assume-old={name}/{stamp}"
-        for name in (".venv", ".venv-peers")
-        for stamp in ("installed", "testing")
-    ]
+    stamps = ".venv/installed", ".venv/testing", ".venv-peers/installed"
     variables = [f"BIN={Path(sys.executable).parent}", f"PYTHON={sys.executable}", "FILE=lumped/moduli.py"]
-    asked = ["make", "--dry-run", "--no-print-directory", *stamps, *variables, target]
+    asked = [
+        "make",
+        "--dry-run",
+        "--no-print-directory",
+        *(f"-o{stamp}" for stamp in stamps),
+        *variables,
+        target,
+    ]
     done = subprocess.run(asked, cwd=folder, capture_output=True, text=True, check=True)
     return "\n".join(line for line in done.stdout.replace("\\\n", " ").splitlines() if " pip " not in line)
 

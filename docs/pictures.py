@@ -1,11 +1,14 @@
 """Draw the still pictures of README and of pages in docs, in docs/images: `make pictures`.
 
+    python docs/pictures.py [NAME ...]    all unless named
+
 A PNG says in its description what its numbers are; tests/test_docs.py holds it against the text and a fresh
 solve.
 """
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -37,27 +40,26 @@ COMPARED = (
     "finger-on-cylinder",
 )
 RUBBER = {"rubber-inflated-square": 12, "rubber-strip": 6}  # scenes of examples/rubber, elements of the solid
+FILM = IMAGES.parents[1] / "examples" / "air" / "film.toml"
+MOVED = {"settling": ("two-edges-settling", 1.0, None), "film-in-air": (FILM, 2.0, 1e-6)}  # [s], error
 DPI = 170  # 1224 pixels wide
 
 
-def main() -> None:
-    """Draw all of them."""
+def main(*names: str) -> None:
+    """Draw those of these names, all unless any is given."""
     style.DPI = DPI
     with TemporaryDirectory() as folder:
-        for name in COMPARED:
-            keep(sb.compare(name).report(), "comparison.png", Path(folder), name)
-        for name, elements in RUBBER.items():
-            scene = IMAGES.parents[1] / "examples" / "rubber" / f"{name.removeprefix('rubber-')}.toml"
-            answer = sb.compare(scene, grid=17, reference="solid", elements=elements)
-            keep(answer.report(), "comparison.png", Path(folder), name)
-        film = IMAGES.parents[1] / "examples" / "air" / "film.toml"
-        for moved, duration, error, name in (
-            ("two-edges-settling", 1.0, None, "settling"),
-            (film, 2.0, 1e-6, "film-in-air"),
-        ):
-            scene = sb.load(moved)
-            run = sb.simulate(scene, duration, error=error)
-            keep(run.report(), "history.png", Path(folder), name)
+        for name in names or (*COMPARED, *RUBBER, *MOVED):
+            if name in MOVED:
+                moved, duration, error = MOVED[name]
+                run = sb.simulate(sb.load(moved), duration, error=error)
+                keep(run.report(), "history.png", Path(folder), name)
+            elif name in RUBBER:
+                scene = IMAGES.parents[1] / "examples" / "rubber" / f"{name.removeprefix('rubber-')}.toml"
+                answer = sb.compare(scene, grid=17, reference="solid", elements=RUBBER[name])
+                keep(answer.report(), "comparison.png", Path(folder), name)
+            else:
+                keep(sb.compare(name).report(), "comparison.png", Path(folder), name)
 
 
 def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:
@@ -74,4 +76,4 @@ def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

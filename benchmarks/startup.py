@@ -24,7 +24,7 @@ from keeping import keep
 REPEATS = 3
 COMMANDS = (
     ("--version",),
-    ("scenes",),
+    ("check",),
     ("check", "two-edges-clamped"),
     ("compare", "two-edges-clamped"),
     ("compare", "two-edges-clamped", "--json"),

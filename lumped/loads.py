@@ -84,9 +84,8 @@ class Loads:
         for load in scene.loads:
             part = self._part(load.history)
             if isinstance(load, PointLoad):
-                part.dead += MidSurface(lattice, np.array(load.at), order=1).shared(
-                    np.array([load.force]), len(part.dead)
-                )
+                middle = MidSurface(lattice, np.array(load.at), order=1)
+                part.dead += middle.shared(np.array([load.force]), len(part.dead))
             elif isinstance(load, EdgeLoad):
                 edge = lattice.edge_columns(load.edge)
                 length = _lengths(scene, lattice, load)
@@ -189,9 +188,8 @@ class Loads:
         length, square = np.linalg.norm(chord, axis=1), (director**2).sum(axis=1)
         tangent, scale = chord / length[:, None], (moment / square)[:, None, None]
         couple = scale[:, 0] * np.cross(tangent, director)
-        by_director = (
-            scale * _spin(tangent) - 2.0 * couple[:, :, None] * (director / square[:, None])[:, None, :]
-        )
+        by_size = 2.0 * couple[:, :, None] * (director / square[:, None])[:, None, :]
+        by_director = scale * _spin(tangent) - by_size
         projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) / length[:, None, None]
         by_chord = -scale * _spin(director) @ projector / columns.shape[2]
         moved = np.column_stack([top, bottom, after, before])  # masses by which the couple changes, and how

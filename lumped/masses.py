@@ -123,10 +123,8 @@ def mass_matrix(
     if distribution != "higher-order" or cells is not None:
         own = masses(scene, lattice, distribution, cells)  # type: ignore[arg-type]  # refuses higher-order
         return sp.dia_array((own[None], [0]), shape=2 * (lattice.mass_count,)).tocoo()
-    x, y = (
-        _corrected(lines, axis, lattice.twisting, _free(scene, lattice))
-        for axis, lines in zip("xy", lattice.lines, strict=True)
-    )
+    twisting, free = lattice.twisting, _free(scene, lattice)
+    x, y = (_corrected(at, axis, twisting, free) for axis, at in zip("xy", lattice.lines, strict=True))
     per_area = scene.material.density * scene.sheet.thickness
     sheet = per_area * sp.kron(sp.kron(y, x), _across(scene.sheet.thickness, lattice))
     own = point_masses(scene, lattice)

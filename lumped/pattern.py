@@ -81,9 +81,8 @@ def of_grid(grid: Grid, present: np.ndarray | None = None) -> MassPattern:
         rest, masses = np.setdiff1d(columns, masses[number]), masses[number]
     j, i = np.divmod(number, nx - 1)
     rows, others = (np.concatenate([part, rest]) for part in _pairs(masses))
-    return MassPattern(
-        columns.size, rows, others, CoupledCells(masses, np.stack([i, j], axis=1).astype(float))
-    )
+    cells = CoupledCells(masses, np.stack([i, j], axis=1).astype(float))
+    return MassPattern(columns.size, rows, others, cells)
 
 
 def neighbours(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -64,9 +64,8 @@ class CellSection:
         if constants.plies:
             parts = plies.section(constants.plies, constants.thickness)
             return cls(*parts, np.asarray(constants.per_area))
-        h, young, nu, density = np.broadcast_arrays(
-            *(np.float64(getattr(constants, name)) for name in NUMBERS)
-        )
+        numbers = (np.float64(getattr(constants, name)) for name in NUMBERS)
+        h, young, nu, density = np.broadcast_arrays(*numbers)
         unit = np.zeros((*nu.shape, 3, 3))
         unit[..., 0, 0] = unit[..., 1, 1] = 1.0
         unit[..., 0, 1] = unit[..., 1, 0] = nu
@@ -179,9 +178,8 @@ def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> CellSe
     x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
     sections = [_times(CellSection.of(part.constants), part.share) for part in parts_between(scene, x, y)]
     total = sum(sections[1:], sections[0])
-    (along_x, over_x), (along_y, over_y) = (
-        _places(fine, side) for fine, side in zip((x, y), lines, strict=True)
-    )
+    places = (_places(fine, side) for fine, side in zip((x, y), lines, strict=True))
+    (along_x, over_x), (along_y, over_y) = places
     by_rows = _in_series(_in_series(total, 0, along_x, over_x), 1, along_y, over_y)
     by_columns = _in_series(_in_series(total, 1, along_y, over_y), 0, along_x, over_x)
     return _times(by_rows + by_columns, np.array(0.5))

@@ -268,10 +268,8 @@ def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Bou
 
 def _tie(corner: SharedCorner, one: BoundChain, other: BoundChain) -> Tie:
     """Point and director of the second chain from those of the first; axes may lie at different heights."""
-    others, rows = (
-        chain.place.start + np.array([chain.frames.end_point(end), chain.frames.corner_row[end]])
-        for chain, end in zip((one, other), corner.ends, strict=True)
-    )
+    ends = ((c.place.start, c.frames, end) for c, end in zip((one, other), corner.ends, strict=True))
+    others, rows = (first + np.array([on.end_point(end), on.corner_row[end]]) for first, on, end in ends)
     above = (other.offset - one.offset) / one.frames.length
     weights = np.array([[1.0, above], [0.0, other.frames.length / one.frames.length]])
     return Tie(rows, others, weights)

@@ -114,9 +114,8 @@ def at_oblique_rims(
     states = np.stack([_strains(a, b) for a, b in ((n, n), (t, t), (n, t))], axis=1)
     bending = states @ whole.free_bending[at] @ np.swapaxes(states, 1, 2)
     twisting, stretch = (form(bending)[:, 0] for form in (sections.twisting, sections.stretch_by_twist))
-    shear, free = (
-        1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in (whole.free_shear, each.section.free_shear)
-    )
+    kinds = whole.free_shear, each.section.free_shear
+    shear, free = (1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in kinds)
     share = (t**2 * twist.shares[at][:, ::-1]).sum(axis=1)
     width, lost = np.sqrt(each.sides[at].prod(axis=1)), np.sqrt(twisting / free)
     strips = np.repeat([width, twisting, shear, share], STRIP, axis=1).reshape(4, -1, STRIP)

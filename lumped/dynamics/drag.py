@@ -84,7 +84,6 @@ def velocity_tangent(drag: LatticeDrag, u: np.ndarray, v: np.ndarray) -> np.ndar
     """Its derivative by each mass's own velocity, (n, 3, 3) [N·s/m]."""
     _to_areas(drag, u)
     area, size = drag.area, np.linalg.norm(drag.area, axis=1)
-    share = (
-        2.0 * drag.coefficient * np.abs(np.sum(v[: len(area)] * area, axis=1)) / np.maximum(size, TINY) ** 2
-    )
+    flow = np.abs(np.sum(v[: len(area)] * area, axis=1))
+    share = 2.0 * drag.coefficient * flow / np.maximum(size, TINY) ** 2
     return (share[:, None] * area)[:, :, None] * area[:, None, :]

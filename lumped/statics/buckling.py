@@ -32,9 +32,8 @@ def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int
     problem = build_problem(scene, calibration)
     lattice = problem.assembly.lattice
     middle = MidSurface(lattice, lattice.positions[lattice.columns()[:, :, 0].ravel(), :2])
-    factors, states = buckling_modes(
-        problem, problem, lambda state: middle.of(state.u), count, STILL * problem.size
-    )
+    still = STILL * problem.size
+    factors, states = buckling_modes(problem, problem, lambda state: middle.of(state.u), count, still)
 
     def displacement(points: np.ndarray) -> np.ndarray:
         at = MidSurface(lattice, points)

@@ -109,9 +109,8 @@ def compile_kernels() -> None:
     sheet = Sheet(length_x=1.0, length_y=1.0, thickness=0.05)
     material = Material(young=1e6, poisson=0.3, density=1e3)
     gravity = Gravity(acceleration=(0.0, 0.0, -1.0))
-    scene = Scene(
-        name="small", sheet=sheet, material=material, gravity=gravity, supports=(Clamped(edge="x0"),)
-    )
+    held = (Clamped(edge="x0"),)
+    scene = Scene(name="small", sheet=sheet, material=material, gravity=gravity, supports=held)
     solve_path(build_problem(scene, consistent(sheet, material, (3, 7, 2))))
 
 

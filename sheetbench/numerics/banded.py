@@ -17,14 +17,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from sheetbench.numerics.aliasing import empty, load, load_each, store, zeros
 from sheetbench.numerics.options import REORDERED, inner, njit
-from sheetbench.numerics.panels import (
-    PANEL,
-    dot,
-    eliminate,
-    solve_backward,
-    solve_forward,
-    triangle,
-)
+from sheetbench.numerics.panels import PANEL, dot, eliminate, solve_backward, solve_forward, triangle
 
 LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
 TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is looked at: beyond, bands do not pay

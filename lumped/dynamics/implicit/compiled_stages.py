@@ -14,11 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.dynamics.damping import add_damping_again
-from lumped.dynamics.implicit.compiled_newton import (
-    Arrays,
-    NewtonLimits,
-    iterate,
-)
+from lumped.dynamics.implicit.compiled_newton import Arrays, NewtonLimits, iterate
 from lumped.springs.tiles import NUMBA_FALSE
 from sheetbench.numerics.aliasing import empty
 from sheetbench.numerics.options import njit

@@ -16,7 +16,7 @@ import numpy as np
 
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import LoadStepFailed, Path
-from sheetbench.numerics.continuation.structure import Correction, Forces, State, Structure
+from sheetbench.numerics.continuation.structure import Correction, Forces, State
 from sheetbench.numerics.direct import SOLVED, Factor, SingularMatrixError
 
 VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
@@ -38,12 +38,10 @@ class Start(Generic[State]):
 Place = tuple[State, Forces, float]  # state, forces and load factor where a step begins
 
 
-def _reused(
-    structure: Structure[State, Forces], at: Place[State, Forces], factor: Factor
-) -> Correction | None:
+def _reused(path: Path[State, Forces], at: Place[State, Forces], factor: Factor) -> Correction | None:
     """Return the correction of factors at hand; None where the right-hand side needs the tangent."""
-    rows = structure.rows(*at)
-    return None if rows is None else structure.solved(*at, factor, rows)
+    rows = path.structure.rows(*at)
+    return None if rows is None else path.structure.solved(*at, factor, rows)
 
 
 def predicted(path: Path[State, Forces], target: float, reach: float, factor: Factor | None) -> Start[State]:
@@ -65,7 +63,7 @@ def _linear_step(path: Path[State, Forces], target: float, factor: Factor | None
     try:
         found = None
         if factor is not None:
-            found = _reused(structure, at, factor)
+            found = _reused(path, at, factor)
         elif not structure.prestrained:
             found = structure.correct(*at, path.count)
         if found is None:
@@ -145,7 +143,7 @@ class _Newton(Generic[State, Forces]):
         refined = relative <= self.path.limits.refine_below
         stale = self.again and imbalance > STALE * self.before
         near = self.alike() if refined and not stale else None
-        again = None if near is None else _reused(self.structure, at, near)
+        again = None if near is None else _reused(self.path, at, near)
         found = again or self.structure.correct(*at, self.path.count) or self._assembled(at, not refined)
         if found.factor is not self.factor:
             self.moved, self.blurred = 0.0, last**2

@@ -50,9 +50,8 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
 
             ends = shapely.get_coordinates(common(plan, shape.area).convex_hull)
         arms = (np.column_stack([ends, np.zeros(len(ends))]) - centre) / scale
-        velocities = np.concatenate(
-            [np.broadcast_to(np.eye(3), (len(arms), 3, 3)), -cross_matrix(arms)], axis=2
-        )
+        moves = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
+        velocities = np.concatenate([moves, -cross_matrix(arms)], axis=2)
         rows.append(velocities[:, axes].reshape(-1, 6))
         if holds_tilt(support):
             rows.append(np.hstack([np.zeros((3, 3)), -cross_matrix(UP)])[axes])

@@ -32,10 +32,8 @@ from sheetbench.scenes.objects.tables import FactorTable
 def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     """Yield what each part of the scene means: a part's name and a sentence."""
     sheet, material, mass = scene.sheet, scene.material, mass_of(scene)
-    tapers = "".join(
-        f", from {_mm(ends[0])} to {_mm(ends[1])} mm along {key[-1]}"
-        for key, ends in sheet.given(("taper_x", "taper_y")).items()
-    )
+    tapered = sheet.given(("taper_x", "taper_y")).items()
+    tapers = "".join(f", from {_mm(low)} to {_mm(high)} mm along {key[-1]}" for key, (low, high) in tapered)
     yield (
         "sheet",
         f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}, {_mm(sheet.thickness)} mm thick "

@@ -23,9 +23,8 @@ def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
     """Cells along x and y: `cells` along the shorter side, and cells as square as that allows."""
     shorter = min(sheet.lengths)
     # a half as of 5 cells on a side of 1.5 is not to be decided by the last bit
-    along_x, along_y = (
-        max(cells, round(round(cells * length / shorter, DIGITS))) for length in sheet.lengths
-    )
+    shares = (cells * length / shorter for length in sheet.lengths)
+    along_x, along_y = (max(cells, round(round(share, DIGITS))) for share in shares)
     return along_x, along_y
 
 

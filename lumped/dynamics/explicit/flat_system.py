@@ -27,8 +27,8 @@ class FlatSystem:
         self._places[packing.order] = np.arange(count)[:, None] + np.arange(3) * int(packing.size)
         self._driven = np.argwhere(system.prescribed.components)
         free, held = _freedom(system)
-        parts = system.lattice_mass, system.damping.rate
-        mass, rate = (self._flat(np.repeat(x[:, None], 3, 1)) for x in parts)
+        of_masses = system.lattice_mass, system.damping.rate
+        mass, rate = (self._flat(np.repeat(x[:, None], 3, 1)) for x in of_masses)
         self.at_once = max(LEAST, round(CALL / (sum(map(len, system.assembly.springs)) * PER_SPRING)))
         pressure = np.stack([part.pressure for part in parts])
         cells = count + self._places[lattice.mid_cells[:, :, 0], 0]

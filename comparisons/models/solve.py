@@ -29,7 +29,7 @@ from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
 
 Watch = Callable[[Iteration], None]  # called once an iteration
-EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
+EVEN, SETTLED = 0.02, 5.0  # of the duration, or s, until which steps grow and their pace is no estimate
 COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
@@ -99,9 +99,10 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
     spec, scene, progress = model.spec, model.scene, context().progress
     doing, pace = doing or f"simulating {plugins.shown_name(spec.model)}", Pace(duration)
     progress(Work(doing))
+    began = now()
 
     def reached(time: float) -> None:
-        soon = pace.remaining(time) if time >= EVEN * duration else ""
+        soon = pace.remaining(time) if time >= EVEN * duration or now() - began > SETTLED else ""
         progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
 
     if isinstance(spec, Elements):

@@ -24,9 +24,9 @@ higher-order  that error gone whatever f and g are, for which neighbours along a
                   M += l³/24 (e₁ κ₁ᵀ + κ₁ e₁ᵀ),    κ₁ the second difference quotient at the first inner line,
 
               with which the rule is off as if s were the slope there; beside a narrower second cell b it is
-              l b²/24, as M is not positive definite with l > 3.8 b otherwise. Free edges have it: their inertia is
-              then l³/6 f g″ too large instead of half of it, against springs that are too stiff along them
-              (docs/theory.md).
+              l b²/24, as M is not positive definite with l > 3.8 b otherwise. Free edges have it: their
+              inertia is then l³/6 f g″ too large instead of half of it, against springs that are too stiff
+              along them (docs/theory.md).
               Across the thickness L layers at the heights z_k share theirs so that a director that turns has
               the sheet's rotary inertia ρ h³/12, not ρ h Σ z_k²/L:
 

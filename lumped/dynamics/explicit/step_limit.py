@@ -95,7 +95,7 @@ def soften_items(system: System) -> None:
 
 
 def _largest(system: System, blocks: np.ndarray) -> float:
-    """Largest eigenvalue of M⁻¹A on the free motions; multipliers of actuators, which have no mass, left out."""
+    """Largest eigenvalue of M⁻¹A on the free motions, without the multipliers, which have no mass."""
     size, moving = system.reduced_mass.shape[0], ~system.algebraic
     value = eigsh(
         system.problem.system.matrix(blocks)[moving][:, moving],

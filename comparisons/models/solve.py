@@ -91,7 +91,9 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
         try:
             return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
         except NoMesh as error:
-            return _unanswered(scene, spec, f"no mesh of {spec.size} elements, other numbers may have one: {error}")
+            return _unanswered(
+                scene, spec, f"no mesh of {spec.size} elements, other numbers may have one: {error}"
+            )
     outside = plugins.plugin(spec.model)
     return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
 

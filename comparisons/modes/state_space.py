@@ -164,8 +164,8 @@ class Linearisation(Answer):
             return []
         off, enough = f"{100.0 * self.balanced.bound:.3g} %", self.balanced.order_within(TIGHT)
         return [
-            f"balanced: {self.balanced.order} states may be off by {off} of the static response; {enough} keep "
-            f"the error below {100.0 * TIGHT:g} % (--reduce balanced:{TIGHT:g})"
+            f"balanced: {self.balanced.order} states may be off by {off} of the static response; {enough} "
+            f"keep the error below {100.0 * TIGHT:g} % (--reduce balanced:{TIGHT:g})"
         ]
 
 

@@ -23,9 +23,10 @@ higher-order  that error gone whatever f and g are, for which neighbours along a
 
                   M += l³/24 (e₁ κ₁ᵀ + κ₁ e₁ᵀ),    κ₁ the second difference quotient at the first inner line,
 
-              with which the rule is off as if s were the slope there. Free edges have it: their inertia is
-              then l³/6 f g″ too large instead of half of it, against springs that are too stiff along them
-              (docs/theory.md).
+              with which the rule is off as if s were the slope there; beside a narrower second cell b it is
+              l b²/24, as M is not positive definite with l > 3.8 b otherwise. Free edges have it: their
+              inertia is then l³/6 f g″ too large instead of half of it, against springs that are too stiff
+              along them (docs/theory.md).
               Across the thickness L layers at the heights z_k share theirs so that a director that turns has
               the sheet's rotary inertia ρ h³/12, not ρ h Σ z_k²/L:
 
@@ -167,9 +168,10 @@ def _corrections(lines: Lines) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _curl(lines: Lines, end: int) -> np.ndarray:
-    """l³/24 of the second difference quotient at the first line within an end, (n,) [m]."""
+    """l³/24, or l b²/24 where the second cell is narrower, b, of the second difference quotient at the first
+    line within an end, (n,) [m]."""
     first, second = lines.widths[[0, 1] if end == 0 else [-1, -2]]
     quotient = np.array([1.0 / first, -1.0 / first - 1.0 / second, 1.0 / second])
     row = np.zeros(len(lines.at))
-    row[:3] = first**3 / 12.0 / (first + second) * quotient
+    row[:3] = first * min(first, second) ** 2 / 12.0 / (first + second) * quotient
     return row if end == 0 else row[::-1]

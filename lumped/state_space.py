@@ -89,6 +89,15 @@ class Balanced:
         """2 Σ σ of the states left out."""
         return float(2.0 * self.hankel[self.order :].sum())
 
+    def order_within(self, tolerance: float) -> int:
+        """Return the fewest states with a bound within a tolerance."""
+        return _order_within(self.hankel, tolerance)
+
+
+def _order_within(hankel: np.ndarray, tolerance: float) -> int:
+    bounds = np.append(2.0 * np.cumsum(hankel[:0:-1])[::-1], 0.0)  # of 1, 2, … states
+    return 1 + int(np.argmax(bounds <= tolerance))
+
 
 def _balanced(space: StateSpace, order: int | None, tolerance: float | None) -> Balanced:
     at_rest = np.linalg.norm(space.response(np.zeros(1))[0].real, axis=0)
@@ -99,8 +108,7 @@ def _balanced(space: StateSpace, order: int | None, tolerance: float | None) -> 
     left, hankel, right = np.linalg.svd(shown.T @ reached)
     if order is None:
         assert tolerance is not None
-        bounds = np.append(2.0 * np.cumsum(hankel[:0:-1])[::-1], 0.0)  # of 1, 2, … states
-        order = 1 + int(np.argmax(bounds <= tolerance))
+        order = _order_within(hankel, tolerance)
     within = int(np.count_nonzero(hankel > 1e-14 * hankel[0]))  # the rest is neither reached nor shown
     order = min(order, within)
     weight = np.sqrt(hankel[:within])

@@ -31,6 +31,10 @@ class Impossible(SceneError):
     puts that before it."""
 
 
+class NoMesh(BadInput):
+    """Borders of a sheet's shapes between which a reference has no elements, or only folded ones."""
+
+
 class NoEquilibrium(ArithmeticError):
     """A scene without the stable equilibrium that was to be gone out from; the text says how it ended."""
 

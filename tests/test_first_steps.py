@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from commands import one_line, run
 
+from comparisons.models.check import check
 from comparisons.models.keys_page import markdown
 from comparisons.models.template import template
 from sheetbench import scenes
@@ -105,6 +106,28 @@ def test_check_warns_and_says_what_floats(tmp_path, capsys):
     assert {part["part"] for part in document["parts"]} >= {"sheet", "material", "weight", "lattice", "shell"}
 
 
+@pytest.mark.parametrize(
+    ("name", "more", "at_rest", "command"),
+    [
+        (
+            "napkin-on-ball",
+            {},
+            "in its plane; obstacles alone can stop translation along z",
+            "compare napkin",
+        ),
+        ("strip-on-table", {"friction": 0.3}, "not solved: friction is in motion only", "--duration 1"),
+        ("strip-on-table", {}, "held: no rigid-body motion is free", "compare strip-on-table"),
+    ],
+)
+def test_check_proposes_what_can_be_solved(name, more, at_rest, command):
+    scene = load(name)
+    scene = scene.replace(obstacles=[one.replace(**more) for one in scene.obstacles])
+    found = check(scene)
+    assert at_rest in dict(found.parts)["at rest"] and not found.free
+    (note,) = found.notes()
+    assert command in note
+
+
 def test_the_schema_is_one_document_with_every_unit(tmp_path, capsys):
     assert run("check", "--schema") == 0
     schema = json.loads(capsys.readouterr().out)
@@ -186,3 +209,10 @@ def test_words_say_which_way_things_act():
     assert said["load 2"].startswith("pressure of 5 Pa against the normal, at first −z; 0.3 N")
     assert said["load 3"] == "(0, 1, −2) N at (300, 200) mm, the corner of x1 and y1"
     assert said["at rest"] == "held: no rigid-body motion is free"
+    table = {"time": [0.0, 0.5, 1.0], "value": [0.0, 10.0, 0.0]}
+    rod = {"edge": "x1", "segments": 4, "bending_stiffness": 1e-3, "line_density": 0.1, "radius": 1e-3}
+    chain = {"kind": "chain", **rod, "curvature": table}
+    bent = dict(
+        in_words(Scene(name="a", sheet=SHEET, material=MATERIAL, support=support[:1], actuator=[chain]))
+    )
+    assert "its curvature from 0 to 10 to 0 1/m in 1 s" in bent["actuator 1"]

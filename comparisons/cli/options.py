@@ -181,7 +181,10 @@ class CampaignOptions(Group):
     """How a campaign's runs are carried out.
 
     Args:
-        workers (N): Processes for runs that are not timed; default: one per core.
+        workers (N): Runs that are not timed go side by side, so many at most; default: one per core, or per
+            thread of the cluster.
+        scheduler (ADDRESS): A dask scheduler, as tcp://host:8786, whose workers carry out the runs; timed
+            ones all on one worker.
         retry: Run again what failed in an earlier run.
     """
 
@@ -189,14 +192,3 @@ class CampaignOptions(Group):
     workers: Annotated[int | None, Kind(least=1)] = None
     scheduler: str | None = None
     retry: bool = False
-
-
-@dataclass(frozen=True)
-class ClusterOptions(CampaignOptions):
-    """The options of a campaign whose runs may go to a cluster.
-
-    Args:
-        scheduler (ADDRESS): A dask scheduler, as tcp://host:8786.
-    """
-
-    no_effect: ClassVar[dict[str, str]] = {"with_scheduler": "workers"}

@@ -5,7 +5,6 @@ This module alone reads `--json`, `--out`, `--overwrite` and knows the manifest,
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
@@ -84,7 +83,7 @@ class Output:
                 "store": stack.enter_context(campaign(None if self.folder is None else self.folder.path)),
                 "pool": stack.enter_context(pool_of(options.scheduler)),
                 "progress": self.progress,
-                "workers": options.workers or os.cpu_count() or 1,
+                "workers": options.workers,
                 "retry": options.retry,
             }
 

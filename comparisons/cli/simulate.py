@@ -33,7 +33,8 @@ def command(
         duration (S): How long to simulate.
         step (S): Largest time step. Default: from the stability limit or the error.
         error (FRACTION): Error of a step, of the displacement, for integrators that choose their steps.
-        integrator (NAME): {SUMMARIES}; auto: esdirk, or generalised-alpha where the sheet has chains.
+        integrator (NAME): {SUMMARIES}; auto: esdirk; generalised-alpha with chains;
+            verlet with obstacles, unless dampers make its steps much shorter.
         every (S): Time between samples. Default: 1/100 of the lowest period.
         animate: Also draw an animation (with --out).
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from comparisons.cli.options import ClusterOptions, Kind, LatticeOptions
+from comparisons.cli.options import CampaignOptions, Kind, LatticeOptions
 from comparisons.cli.output import PictureOptions
 from sheetbench.choices import REFERENCE, VARIED
 
@@ -17,7 +17,7 @@ def command(
     reference: str = REFERENCE,
     elements: str = "12",
     large: bool = False,
-    campaign: ClusterOptions,
+    campaign: CampaignOptions,
     output: PictureOptions,
 ) -> Any:
     """Map where each model is accurate, degrades, refuses or fails.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated, Any
 
-from comparisons.cli.options import ClusterOptions, Kind, Models, Seconds, Share, SpringOptions
+from comparisons.cli.options import CampaignOptions, Kind, Models, Seconds, Share, SpringOptions
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from comparisons.tradeoff import usual
@@ -37,7 +37,7 @@ def command(
     duration: Seconds = None,
     integrator: list[str] | None = None,
     large: bool = False,
-    campaign: ClusterOptions,
+    campaign: CampaignOptions,
     output: PictureOptions,
 ) -> Any:
     """Trade error against time over models, or choose the cheapest.

@@ -87,7 +87,7 @@ def compare(
     answers, within = tuple(solutions), None if bar is None else bar.error
     if not disagreement:
         disagreement, other_branch = far_apart_note(first, answers, within, finer)
-    known, busy = several or other_branch, tuple(doubts([average()]))
+    known, busy = several or other_branch, tuple(doubts([{"load_average": average()}]))
     law_chosen = against.spec.law is not None
     return Comparison(scene, answers, bar, disagreement, expected, known, other_branch, busy, law_chosen)
 

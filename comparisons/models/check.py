@@ -19,9 +19,10 @@ from sheetbench.answers.report import Picture, Write
 from sheetbench.answers.table import Column, Table
 from sheetbench.choices import CALIBRATION, ELEMENTS
 from sheetbench.errors import Implausible
-from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, scene_of
+from sheetbench.scenes import AnyScene, Scene, scene_of
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.plausibility import slips
+from sheetbench.scenes.meaning.rigid_motions import unstopped_motions
 from sheetbench.scenes.meaning.words import in_words
 from sheetbench.scenes.objects.grid import elements_of
 
@@ -48,7 +49,12 @@ class Check(Answer):
     @cached_property
     def free(self) -> list[str]:
         """Rigid motions that nothing stops."""
-        return free_rigid_motions(self.scene)
+        return unstopped_motions(self.scene)
+
+    @property
+    def rubs(self) -> bool:
+        """Whether an obstacle has friction, which statics refuse."""
+        return any(obstacle.friction for obstacle in self.scene.obstacles)
 
     def document(self) -> dict[str, Any]:
         return {
@@ -68,13 +74,14 @@ class Check(Answer):
         return scene_file(self.called)
 
     def notes(self) -> list[str]:
-        called, until = shlex.quote(self.called), max(kinks(self.scene), default=0.0)
-        statics = [] if self.free else [f"Solve it with:\nsheetbench compare {called}"]
+        called, moves_alone = shlex.quote(self.called), self.rubs or bool(self.free)
+        until = max(kinks(self.scene), default=0.0) or (1.0 if moves_alone else 0.0)
+        statics = [] if moves_alone else [f"Solve it with:\nsheetbench compare {called}"]
         motion = [f"Its motion:\nsheetbench compare {called} --duration {until:g}"] if until > 0.0 else []
         return [*statics, *motion]
 
     def complaints(self) -> list[str]:
-        floats = "the sheet can move as a rigid body: only `modes` and `simulate` can answer"
+        floats = "the sheet can move as a rigid body: it has modes and motion, and no answer at rest"
         return [*self.warnings, *([floats] if self.free else [])]
 
 

@@ -14,6 +14,8 @@ from functools import cache
 from subprocess import DEVNULL, Popen
 from typing import Any, Literal
 
+import numpy as np
+
 from comparisons.external import plugins
 from comparisons.models.context import context
 from comparisons.models.resolve import Resolved, resolve
@@ -21,15 +23,16 @@ from comparisons.models.sizes import mesh
 from comparisons.models.spec import Elements, Lattice
 from comparisons.pictures.work import Pace, Work
 from sheetbench.answers.history import History
-from sheetbench.answers.solution import FieldMesh, Iteration, Solution
+from sheetbench.answers.solution import FieldMesh, Iteration, Solution, Status
 from sheetbench.choices import REFERENCES
 from sheetbench.clock import now, stopped
+from sheetbench.errors import NoMesh
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
 
 Watch = Callable[[Iteration], None]  # called once an iteration
-EVEN = 0.02  # of the duration, until which steps grow and tell nothing of the pace
+EVEN, SETTLED = 0.02, 5.0  # of the duration, or s, until which steps grow and their pace is no estimate
 COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
@@ -85,9 +88,31 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
         import fem_reference
 
         elements = tuple(spec.counts(scene)[:2])
-        return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
+        try:
+            return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
+        except NoMesh as error:
+            return _unanswered(
+                scene, spec, f"no mesh of {spec.size} elements, other numbers may have one: {error}"
+            )
     outside = plugins.plugin(spec.model)
     return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
+
+
+def _unanswered(scene: Scene, spec: Elements, why: str) -> Solution:
+    """Return a row without numbers, its mesh the probes alone."""
+    points = scene.probe_points()
+    places, nowhere = np.column_stack([points, np.zeros(len(points))]), np.full((len(points), 3), np.nan)
+    return Solution(
+        model=spec.kind,
+        label=f"{spec.kind} {spec.size}",
+        settings={"elements": spec.counts(scene)[:2], **spec.options},
+        status=Status.FAILED,
+        **{"unknowns": 0, "iterations": 0, "setup_seconds": 0.0, "solve_seconds": 0.0, "load_factor": 0.0},
+        sample=lambda points: np.full((len(points), 3), np.nan),
+        **{"reactions": {}, "energies": {}},
+        mesh=FieldMesh(places, [("vertex", np.arange(len(points))[:, None])], {"displacement": nowhere}),
+        remarks=(why,),
+    )
 
 
 def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings: Any) -> History:
@@ -99,9 +124,10 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
     spec, scene, progress = model.spec, model.scene, context().progress
     doing, pace = doing or f"simulating {plugins.shown_name(spec.model)}", Pace(duration)
     progress(Work(doing))
+    began = now()
 
     def reached(time: float) -> None:
-        soon = pace.remaining(time) if time >= EVEN * duration else ""
+        soon = pace.remaining(time) if time >= EVEN * duration or now() - began > SETTLED else ""
         progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
 
     if isinstance(spec, Elements):

@@ -43,6 +43,7 @@ POLES = (
     *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), TableUnit("1/s", "1/s")("z.5g", "real")),
     TableUnit("rad/s", "rad/s")(".5g", "imaginary"),
 )
+LOOSE, TIGHT = 0.1, 0.05  # bounds of a reduced model: complained of above, and advised instead
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -153,10 +154,19 @@ class Linearisation(Answer):
             return EXPLANATION
         return (
             f"balanced: {self.balanced.order} of {len(self.modal.a)} states; the error of every "
-            f"response is below {self.balanced.bound:.2g} of its static value at all frequencies, and 0 at "
-            "frequency 0",
+            f"response is below {100.0 * self.balanced.bound:.3g} % of its static value at all frequencies, "
+            "and 0 at frequency 0",
             *EXPLANATION,
         )
+
+    def complaints(self) -> list[str]:
+        if self.balanced is None or self.balanced.bound <= LOOSE:
+            return []
+        off, enough = f"{100.0 * self.balanced.bound:.3g} %", self.balanced.order_within(TIGHT)
+        return [
+            f"balanced: {self.balanced.order} states may be off by {off} of the static response; {enough} "
+            f"keep the error below {100.0 * TIGHT:g} % (--reduce balanced:{TIGHT:g})"
+        ]
 
 
 def unit_of(name: str) -> str:

@@ -5,8 +5,8 @@ hash of name, arguments, version and source; repeated by the same code, it is re
 a finished run is ever changed. A run that raises is a row with its status, and so is one that takes its
 process down.
 
-Timed runs never share cores with each other or with other runs of the campaign: they go one at a time, after
-the untimed ones, which go as many at a time as there are workers.
+Timed runs never share cores with each other or with other runs of the campaign: they go one at a time, on one
+worker of a cluster, after the untimed ones, which go as many at a time as there are workers.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from typing import Any, TypedDict
 
 from comparisons.pictures.work import duration
 from comparisons.sweep import interrupts
-from comparisons.sweep.executors import Pool, Processes, single_threaded
+from comparisons.sweep.executors import Cluster, ClusterLost, Pool, Processes, single_threaded, width
 from comparisons.sweep.store import FILE, Finished, Store
 from sheetbench.answers.files import plain
 from sheetbench.errors import BadInput
@@ -37,6 +37,7 @@ from sheetbench.files import only_writer
 from sheetbench.sources import source, version
 
 GOING = "going on"
+WATCHED = 5.0  # s between looks at a pool, whose workers may come and go
 
 
 @dataclass(frozen=True)
@@ -101,17 +102,18 @@ def campaign(folder: Path | str | None) -> Iterator[Store]:
         path = Path(passing if folder is None else folder)
         path.mkdir(parents=True, exist_ok=True)
         with only_writer(path), closing(Store(path / FILE)) as store:
+            store.passing = folder is None
             yield store
 
 
 class CampaignKeywords(TypedDict, total=False):
     """How runs are carried out, as every function that carries out many takes it.
 
-    workers: processes of those that are not timed; pool: makes them, or a cluster's; retry: run again what
-    failed or was lost before; progress: called as every run begins and ends.
+    workers: of untimed runs side by side, at most (`executors.width`); pool: makes their processes, or a
+    cluster's; retry: run again what failed or was lost before; progress: called as every run begins and ends.
     """
 
-    workers: int
+    workers: int | None
     pool: Pool
     retry: bool
     progress: Callable[[Progress], None]
@@ -121,23 +123,24 @@ def carry_out(
     runs: Iterable[Run],
     store: Store,
     *,
-    workers: int = 1,
+    workers: int | None = 1,
     pool: Pool = Processes,
     retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Finished]:
     """Return every run's outcome, in the order of `runs`; those that the store has are not run again (see
-    `CampaignKeywords`)."""
+    `CampaignKeywords`). Raises BadInput where a cluster is lost."""
     queue = list(runs)
     for run in queue if retry else ():
         store.forget(run.key)
     missing = {run.key: run for run in queue if store.get(run.key) is None}
     session = _Session(store, len({run.key for run in queue}), len(missing), progress)
-    for timed, width in ((False, max(workers, 1)), (True, 1)):
+    for timed in (False, True):
         waiting = deque(run for run in missing.values() if run.timed is timed)
         if waiting:
             with single_threaded():
-                session.carry_out(waiting, pool, width)
+                one = pool.one_worker if timed and isinstance(pool, Cluster) else pool
+                session.carry_out(waiting, one, 1 if timed else workers)
     stored = [store.get(run.key) for run in queue]
     return [outcome for outcome in stored if outcome is not None]
 
@@ -148,56 +151,61 @@ class _Session:
     def __init__(self, store: Store, total: int, missing: int, progress: Callable[[Progress], None]) -> None:
         self.store, self.total, self.missing, self.progress = store, total, missing, progress
         self.seconds: list[float] = []
+        self.width = 1  # runs side by side
         self.going: dict[str, str] = {}  # labels of the runs under way, by their keys
 
-    def carry_out(self, waiting: deque[Run], pool: Pool, width: int) -> None:
-        """All waiting runs, `width` at a time. Those under way when a process died go again, one at a time:
-        the one that dies alone is the one to blame."""
-        suspects = self._stream(waiting, pool, width)
-        while waiting or suspects:
-            for run in suspects:
-                if self._stream(deque([run]), pool, 1):
-                    self._keep(run, _lost(run), width)
-            suspects = self._stream(waiting, pool, width)
+    def carry_out(self, waiting: deque[Run], pool: Pool, workers: int | None) -> None:
+        """All waiting runs, `workers` at a time. Those under way when a process died go again, one at a time:
+        the one that dies alone is the one to blame. Raises BadInput where the cluster is lost."""
+        try:
+            suspects = self._stream(waiting, pool, workers)
+            while waiting or suspects:
+                for run in suspects:
+                    if self._stream(deque([run]), pool, 1):
+                        self._keep(run, _lost(run))
+                suspects = self._stream(waiting, pool, workers)
+        except ClusterLost as lost:
+            done = f"{self.total - self.missing + len(self.seconds)} of {self.total} runs are"
+            kept = f"{done} done; with --out DIR they are" if self.store.passing else done
+            raise BadInput(f"{lost}; {kept} kept, and the same command goes on") from None
 
-    def _stream(self, waiting: deque[Run], pool: Pool, width: int) -> list[Run]:
+    def _stream(self, waiting: deque[Run], pool: Pool, workers: int | None) -> list[Run]:
         """Runs until none waits or the pool is gone; the runs under way if the pool broke."""
         under_way: dict[Future[Finished], Run] = {}
         self.going.clear()
-        with _ended(pool(width)) as executor:
+        self.width = width(pool, workers)
+        with _ended(pool(self.width)) as executor:
             while waiting or under_way:
-                while waiting and len(under_way) < width:
+                self.width = width(pool, workers)
+                while waiting and len(under_way) < self.width:
                     run = waiting.popleft()
                     under_way[_submit(executor, run)] = run
                     self.going[run.key] = run.label
-                    self._tell(run, GOING, width)
-                done, _ = wait(under_way, return_when=FIRST_COMPLETED)
+                    self._tell(run, GOING)
+                done, _ = wait(under_way, WATCHED, FIRST_COMPLETED)
                 broken = []
                 for future in done:
                     run = under_way.pop(future)
                     error = None if future.cancelled() else future.exception()
                     if future.cancelled() or isinstance(error, CancelledError):
-                        raise BadInput(
-                            "the connection to the cluster was lost; finished runs are kept, and the same "
-                            "command goes on"
-                        )
+                        raise ClusterLost("the connection to the cluster was lost")
                     if isinstance(error, BrokenProcessPool):
                         broken.append(run)
                     else:
-                        self._keep(run, _lost(run, error) if error else future.result(), width)
+                        self._keep(run, _lost(run, error) if error else future.result())
                 if broken:
                     return [*broken, *under_way.values()]
         return []
 
-    def _keep(self, run: Run, outcome: Finished, width: int) -> None:
+    def _keep(self, run: Run, outcome: Finished) -> None:
         self.store.add(run.task, run.arguments, outcome)
         self.seconds.append(outcome.seconds)
         self.going.pop(run.key, None)
-        self._tell(run, outcome.status, width)
+        self._tell(run, outcome.status)
 
-    def _tell(self, run: Run, status: str, width: int) -> None:
+    def _tell(self, run: Run, status: str) -> None:
         left = self.missing - len(self.seconds)
-        seconds = sum(self.seconds) / len(self.seconds) * left / width if self.seconds else None
+        seconds = sum(self.seconds) / len(self.seconds) * left / self.width if self.seconds else None
         going = tuple(self.going.values())
         self.progress(Progress(self.total - left, self.total, run.label, status, seconds, going))
 

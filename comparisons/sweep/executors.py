@@ -12,10 +12,12 @@ import logging
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import ExitStack, contextmanager
+from functools import cached_property
 from multiprocessing.connection import Connection, Pipe, wait
 from multiprocessing.resource_tracker import ensure_running
 from typing import Any
@@ -25,7 +27,7 @@ from sheetbench.heap import keep_freed_memory
 from sheetbench.process import ONE_THREAD
 
 PATIENCE = 10.0  # s that a scheduler may take to answer, and to have a worker
-Pool = Callable[[int], Executor]
+Pool = Callable[[int], Executor]  # by how many runs it is to take at a time
 
 
 class Processes(ProcessPoolExecutor):
@@ -75,11 +77,59 @@ def single_threaded() -> Iterator[None]:
         os.environ.update(before)
 
 
+class ClusterLost(Exception):
+    """A cluster without the workers that runs are to go to."""
+
+
+class Cluster:
+    """The workers of a dask cluster as a pool; with an address that worker alone."""
+
+    def __init__(self, client: Any, worker: str | None = None) -> None:
+        self._client, self._worker = client, worker
+
+    def __call__(self, workers: int) -> Executor:
+        """Return its executor."""
+        chosen = {"workers": [self._worker]} if self._worker else {}
+        return self._client.get_executor(pure=False, **chosen)  # type: ignore[no-any-return]
+
+    @cached_property
+    def one_worker(self) -> Cluster:
+        """Return one worker, always the same, for timed runs."""
+        return Cluster(self._client, min(self._threads()))
+
+    def width(self) -> int:
+        """Return how many runs go side by side now: its threads, one of a single worker. Raises ClusterLost
+        where no worker, or not that one, is there within `PATIENCE`."""
+        threads = self._threads()
+        if self._worker is None:
+            return sum(threads.values())
+        if self._worker not in threads:
+            raise ClusterLost(f"the worker of the timed runs, {self._worker}, is gone")
+        return 1
+
+    def _threads(self) -> dict[str, int]:
+        try:
+            self._client.wait_for_workers(1, timeout=PATIENCE)
+            return dict(self._client.nthreads())
+        except TimeoutError:
+            raise ClusterLost("the cluster has no worker left") from None
+        except (OSError, ValueError):
+            raise ClusterLost("the connection to the cluster was lost") from None
+
+
+def width(pool: Pool, workers: int | None) -> int:
+    """Return how many runs go side by side now: `workers` at most, without it as many as this machine has
+    processors or the cluster threads. Raises ClusterLost."""
+    if isinstance(pool, Cluster):
+        return min(pool.width(), workers or sys.maxsize)
+    return workers or os.cpu_count() or 1
+
+
 @contextmanager
 def pool_of(scheduler: str | None) -> Iterator[Pool]:
-    """Processes of this machine, or the dask cluster at an address like tcp://host:8786, which gives a run
-    whose worker dies to another. Raises BadInput without dask.distributed, and where no scheduler answers or
-    has a worker within `PATIENCE`."""
+    """Processes of this machine, or the dask cluster at an address like tcp://host:8786, which gives an
+    untimed run whose worker dies to another. Raises BadInput without dask.distributed, and where no scheduler
+    answers or has a worker within `PATIENCE`."""
     if scheduler is None:
         yield Processes
         return
@@ -97,7 +147,7 @@ def pool_of(scheduler: str | None) -> Iterator[Pool]:
             raise BadInput(
                 f"--scheduler = '{scheduler}': no scheduler there with a worker: {error}"
             ) from None
-        yield lambda workers: client.get_executor(pure=False)
+        yield Cluster(client)
 
 
 def _join(stopped: Connection) -> None:

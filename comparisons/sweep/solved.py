@@ -131,7 +131,7 @@ class Solved:
     @property
     def samples(self) -> tuple[float, ...]:
         """Times [s] of the solve alone, every one."""
-        return tuple(self.row.get("cost", {}).get("samples", ()))
+        return tuple(self.conditions.get("samples", ()))
 
     @property
     def seconds(self) -> float | None:
@@ -139,9 +139,9 @@ class Solved:
         return median(self.samples) if self.samples else None
 
     @property
-    def load_average(self) -> float | None:
-        """What else the machine had to do."""
-        return self.row.get("cost", {}).get("load_average")
+    def conditions(self) -> dict[str, Any]:
+        """What the solve took, and of which machine (`comparisons.sweep.load`)."""
+        return self.row.get("cost") or {}
 
     @property
     def history(self) -> History | None:

@@ -55,7 +55,9 @@ class Finished:
 
 
 class Store:
-    """The finished runs of a folder's campaigns."""
+    """The finished runs of a folder's campaigns. passing: whether the folder is removed at the end."""
+
+    passing = False
 
     def __init__(self, path: Path) -> None:
         """Open or make the file. Raises BadInput for one that is not a campaign's, damaged or read-only."""

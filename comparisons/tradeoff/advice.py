@@ -75,7 +75,7 @@ class Advice(Answer):
     def warnings(self) -> list[str]:
         """On times taken on a busy machine, and what was left out."""
         rows, refused = self.trials.rows.values(), self.trials.refused.items()
-        doubts = load.warnings([row.load_average for row in rows], [row.samples for row in rows])
+        doubts = load.warnings([row.conditions for row in rows], [row.samples for row in rows])
         return [*doubts, *(f"{one.model} {one.size} left out: {reason}" for one, reason in refused)]
 
     def errors(self, row: SolvedHere) -> tuple[float | None, float | None]:

@@ -44,7 +44,7 @@ class Priced(Answer):
     @property
     def warnings(self) -> list[str]:
         """What to hold against the times."""
-        return load.warnings([row.load_average for row in self.rows], [row.samples for row in self.rows])
+        return load.warnings([row.conditions for row in self.rows], [row.samples for row in self.rows])
 
     @property
     def known(self) -> str:

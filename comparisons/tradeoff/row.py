@@ -18,8 +18,8 @@ MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column("front", words=("yes", ""))
 OWN = ("label", "status", "message", "cell_size", "started", "finished", "error")
 MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes")
-# in the JSON where they are known
-_OF_AN_ANSWER = ("load_factor", "model_error", "load_average", "probes", "machine", "versions", "traceback")
+CONDITIONS = ("load_average", "machine", "worker", "versions")  # in the JSON where they are known
+_OF_AN_ANSWER = ("load_factor", "model_error", "probes", "traceback", *CONDITIONS)
 TRADED = (
     *(NUMBER("d", "row"), Column("model", prose=True), "size", NUMBER("d", "unknowns")),
     *(NUMBER("d", "factorisations", detail=True), MILLISECONDS(".1f", "set-up", detail=True)),
@@ -27,7 +27,7 @@ TRADED = (
     *(MILLISECONDS(".2f", "to", detail=True), MEMORY(".1f", "memory"), PERCENT(".3g", "error")),
     *(FRONT, Column("status", detail=True)),
 )
-OF_A_RUN = ("unknowns", "steps", "peak_memory_bytes", "load_average", "machine", "versions")
+OF_A_RUN = ("unknowns", "steps", "peak_memory_bytes", *CONDITIONS)
 OF_A_MOTION = ("step_error", "period", "period_error", "damping", "damping_error")
 MOVED = {
     **{"model": Column(), "size": Column(), "integrator": Column(), "step": MILLISECONDS(".3g")},

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from skfem import ElementQuad2
 
-from sheetbench.errors import BadInput
+from sheetbench.errors import NoMesh
 
 NODES = 9
 TWO = np.array([-1.0, 1.0]) / np.sqrt(3.0)
@@ -70,11 +70,11 @@ def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
 
 
 def require_upright(area: np.ndarray) -> None:
-    """Raise BadInput for an element whose det J (m, n) is not of one sign; below zero r, s turn clockwise."""
+    """Raise NoMesh for an element whose det J (m, n) is not of one sign; below zero r, s turn clockwise."""
     share = area * np.sign(area[:, :1])
     if not np.all(share > 0.0):
         worst = int(np.argmin(share.min(axis=1)))
-        raise BadInput(f"element {worst} of the mesh is inverted or degenerate")
+        raise NoMesh(f"element {worst} of the mesh is inverted or degenerate")
 
 
 def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -13,6 +14,9 @@ from sheetbench.scenes.objects.supports import Point, place
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
+
+
+SLIVER = 5e-4  # of the shorter side: width of parts between borders that are not meshed
 
 
 class Borders(NamedTuple):
@@ -62,7 +66,24 @@ def borders_of(scene: Scene) -> Borders | None:
 
     lx, ly = scene.sheet.lengths
     through = [shapely.LineString(ends) for x, y in points for ends in (((x, 0), (x, ly)), ((0, y), (lx, y)))]
-    return Borders(scene.region, shapely.union_all([*(shape.area.boundary for shape in shapes), *through]))
+    region, *inner = without_slivers(
+        [scene.region, *(shape.area.boundary for shape in shapes)], SLIVER * min(lx, ly)
+    )
+    return Borders(region, shapely.union_all([*inner, *through]))
+
+
+def without_slivers(parts: Sequence[BaseGeometry], width: float) -> list[BaseGeometry]:
+    """Return a region and lines with the same points wherever borders are within a width [m] of each other,
+    as a circle and a polygon with its corners on it: no element between them is upright."""
+    import shapely
+
+    def points(of: Sequence[BaseGeometry]) -> BaseGeometry:
+        return shapely.multipoints(shapely.get_coordinates(of))
+
+    found = list(parts)
+    for number in range(1, len(found)):
+        found[number] = shapely.snap(found[number], points(found[:number]), width)
+    return [shapely.snap(part, points(found), width) for part in found]
 
 
 def has_lines(scene: Scene) -> bool:

@@ -30,7 +30,7 @@ from fem_reference.surface.mesh_points import (
     filling,
     on_borders,
 )
-from sheetbench.errors import BadInput
+from sheetbench.errors import NoMesh
 from sheetbench.numerics.cache import cached
 from sheetbench.scenes.objects.plan_mesh import divided
 
@@ -60,7 +60,7 @@ def quadrilaterals(
     """Return a mesh of a plan region with elements of about the spacing along x and y [m].
 
     inner: lines that sides of elements within the region shall lie on; graded: the row along the rim is cut
-    into thinner ones. Raises BadInput where borders lie too close to each other to be meshed.
+    into thinner ones. Raises NoMesh where borders lie too close to each other to be meshed.
     """
     from shapely import affinity
 
@@ -114,13 +114,13 @@ def _triangles(
         border = np.concatenate([sides.border[~missing], *[sides.border[missing]] * 2])
         sides = Sides(np.concatenate([sides.ends[~missing], *halves]), border, np.concatenate(spans))
     else:
-        raise BadInput(TOO_CLOSE)
+        raise NoMesh(TOO_CLOSE)
     a, b, c = np.moveaxis(every[triangles], 1, 0)
     twice = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     longest = np.max([np.sum((p - q) ** 2, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
     chords = shapely.get_parts(shapely.polygonize(shapely.linestrings(every[sides.ends])))
     if not len(chords):
-        raise BadInput(TOO_CLOSE)
+        raise NoMesh(TOO_CLOSE)
     within = shapely.area(shapely.intersection(chords, region))
     present = shapely.union_all(chords[within > 0.5 * shapely.area(chords)])
     shapely.prepare(present)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from lumped.dynamics.explicit.step_limit import step_limit
 from lumped.dynamics.explicit.verlet import Verlet
 from lumped.dynamics.implicit.esdirk import Esdirk
 from lumped.dynamics.implicit.generalised_alpha import GeneralisedAlpha
@@ -16,6 +17,7 @@ from sheetbench.errors import BadInput
 INTEGRATORS: dict[str, type[Integrator]] = {
     kind.name: kind for kind in (GeneralisedAlpha, Esdirk, Verlet, Midpoint)
 }
+SHORTEST = 0.25  # share of the undamped explicit step, from which on implicit steps take less time
 
 
 def require_integrator(name: str) -> None:
@@ -25,23 +27,28 @@ def require_integrator(name: str) -> None:
 
 
 def resolve_integrator(name: str, system: System, options: Collection[str] = ()) -> tuple[str, str]:
-    """The integrator of a run, and why in a sentence where the name is "auto".
+    """Return the integrator of a run, and why in a sentence where the name is "auto".
 
-    Of those that adapt their steps `esdirk` takes a fifth of the time of `generalised-alpha` at like error
-    (docs/development/performance.md), and explicit ones take more, but for sheets that touch and leave an
-    obstacle; it has no chains. options: that it has to take.
+    `esdirk` takes a fifth of the time of `generalised-alpha` at like error (docs/development/performance.md);
+    it has no chains. Where a sheet touches an obstacle and leaves it, its steps are about two of `verlet`'s
+    undamped ones and cost some thirty evaluations of the forces, those of `verlet` four: dampers may make
+    these `SHORTEST` as long as the undamped ones (`docs/contact.md`). options: that it has to take.
     Raises BadInput where the integrator does not take one.
     """
-    chains = system.coupling is not None
     why = ""
     if name == AUTO:
         unlike = [one for one in options if one not in Esdirk.options]
-        takes_unlike = bool(unlike) and set(options) <= set(GeneralisedAlpha.options)
-        name = GeneralisedAlpha.name if chains or takes_unlike else Esdirk.name
-        if system.items and set(options) <= set(Verlet.options):
-            return Verlet.name, "least time at equal error, with obstacles"
-        why = "least time at equal error"
-        why += ", with chains" if chains else f", that takes {', '.join(unlike)}" if takes_unlike else ""
+        name, why = Esdirk.name, "least time at equal error"
+        if system.coupling is not None:
+            name, why = GeneralisedAlpha.name, f"{why}, with chains"
+        elif unlike and set(options) <= set(GeneralisedAlpha.options):
+            name, why = GeneralisedAlpha.name, f"{why}, that takes {', '.join(unlike)}"
+        elif system.items and set(options) <= set(Verlet.options):
+            shorter = 1.0 / step_limit(system, system.prescribed.place(0.0)).share
+            if shorter * SHORTEST <= 1.0:
+                name, why = Verlet.name, f"{why}, with obstacles"
+            else:
+                why = f"{why}, as dampers make explicit steps {shorter:.2g} times shorter"
     foreign = [one for one in options if one not in INTEGRATORS[name].options]
     if foreign:
         raise BadInput(f"integrator = {name!r}: does not take {', '.join(foreign)}")

@@ -62,7 +62,7 @@ class Status(StrEnum):
         "strains or turns beyond what the model means: not physical",
     )
     REFUSED = "refused", "the model does not support what the scene asks"
-    FAILED = "failed", "a program of your own ended without an answer"
+    FAILED = "failed", "a program or a mesh failed: there is no answer"
 
 
 def comparable(status: str, load_factor: float) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from comparisons.cli.options import ClusterOptions, Kind
+from comparisons.cli.options import CampaignOptions, Kind
 from comparisons.cli.output import PictureOptions
 from sheetbench.errors import BadInput
 from studies.stability.study import PARTS, maps
@@ -13,7 +13,7 @@ from studies.stability.study import PARTS, maps
 def command(
     part: Annotated[list[str] | None, Kind(choices=tuple(PARTS))] = None,
     *,
-    campaign: ClusterOptions,
+    campaign: CampaignOptions,
     output: PictureOptions,
 ) -> None:
     """Map where each model holds, degrades, refuses or fails: the verb on published and extreme scenes.

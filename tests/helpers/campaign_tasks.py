@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.sweep.load import conditions
 from sheetbench.scenes import BadInput
 
 
@@ -51,6 +52,12 @@ def mark(x: int, folder: str, seconds: float) -> dict[str, Any]:
     time.sleep(seconds)
     started.with_suffix(".ended").touch()
     return {"x": x, "process": os.getpid()}
+
+
+def where(x: int, seconds: float = 0.0) -> dict[str, Any]:
+    """The worker that it runs on."""
+    time.sleep(seconds)
+    return {"x": x, "worker": conditions()["worker"]}
 
 
 def refuse() -> dict[str, Any]:

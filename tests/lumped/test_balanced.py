@@ -59,6 +59,7 @@ def test_one_oscillator_has_the_singular_values_of_the_textbook():
 def test_the_fewest_states_within_a_tolerance(whole):
     found = whole.balanced(tolerance=0.5)
     assert found.bound <= 0.5 < whole.balanced(found.order - 1).bound
+    assert whole.balanced(1).order_within(0.5) == found.order
     assert worst(whole, found) <= 0.5 and found.order < len(whole.a)
 
 

@@ -12,6 +12,7 @@ from lumped.lattice import build
 from lumped.masses import mass_matrix, masses, sheet_masses
 from lumped.statics.solver import build_problem
 from sheetbench.scenes import Material, Scene, Sheet
+from sheetbench.scenes.objects.grading import through
 from studies.transfer.scenes import transfer_scenes
 
 SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.002)
@@ -94,10 +95,11 @@ def test_edges_that_hold_the_director_share_nothing():
     assert np.allclose(found, np.diag(masses(SCENE, lattice)), rtol=1e-14, atol=1e-18)
 
 
-@pytest.mark.parametrize("grid", [(2, 2), (2, 5), (3, 3)])
+@pytest.mark.parametrize("grid", [(2, 2), (2, 5), (3, 3), (4, 3), (9, 3)])
 def test_few_masses_keep_a_positive_inertia(grid):
-    lattice = build(SHEET, (*grid, 2), 0.002, twisting=EVERY)
-    assert np.linalg.eigvalsh(mass_matrix(SCENE, lattice, "higher-order").toarray())[0] > 0.0
+    for at in ((), (0.07,), (0.02, 0.09), (0.1, 0.12)):  # narrow cells beside wide ones, at ends too
+        lattice = build(SHEET, (*grid, 2), 0.002, twisting=EVERY, grading=through((at, ())))
+        assert np.linalg.eigvalsh(mass_matrix(SCENE, lattice, "higher-order").toarray())[0] > 0.0
 
 
 def test_springs_fitted_to_frequencies_keep_their_masses():

@@ -46,6 +46,11 @@ class StepLimit:
         """A step with some distance to the limit [s]: large rotations and tension raise ω_max a little."""
         return self.safety * self.step
 
+    @property
+    def share(self) -> float:
+        """The step over that without dampers."""
+        return 0.5 * self.frequency * self.step
+
     def describe(self) -> str:
         """The limit and where it comes from."""
         turn = self.frequency * self.step
@@ -90,11 +95,10 @@ def soften_items(system: System) -> None:
 
 
 def _largest(system: System, blocks: np.ndarray) -> float:
-    """Largest eigenvalue of M⁻¹A on the free motions."""
-    size = system.reduced_mass.shape[0]
-    matrix = system.problem.system.matrix(blocks)
+    """Largest eigenvalue of M⁻¹A on the free motions, without the multipliers, which have no mass."""
+    size, moving = system.reduced_mass.shape[0], ~system.algebraic
     value = eigsh(
-        matrix,
+        system.problem.system.matrix(blocks)[moving][:, moving],
         k=1,
         M=system.reduced_mass,
         Minv=LinearOperator((size, size), matvec=lambda b: system.solve_mass(b.ravel()), dtype=float),

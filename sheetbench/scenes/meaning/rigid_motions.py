@@ -79,17 +79,22 @@ def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
     return ""
 
 
+def unstopped_motions(scene: SceneFields) -> list[str]:
+    """Return the names of rigid motions that neither supports nor, out of the plane, obstacles stop."""
+    free = free_rigid_motions(scene)
+    if not (free and scene.obstacles):
+        return free
+    resting = (Held(edge="x0", components=("z",)), Held(edge="x1", components=("z",)))
+    return list(_left_free(scene.sheet, scene.supports + resting, scene.cutouts))
+
+
 def require_static(scene: SceneFields, linear: str = "") -> None:
     """Raise SceneError unless the supports stop every rigid motion, or obstacles those out of the plane; for
     friction; for obstacles of what is `linear`, who it is."""
     if linear:
         require_no_obstacles(scene, linear)
     require_frictionless(scene)
-    free = free_rigid_motions(scene)
-    if free and scene.obstacles:
-        resting = (Held(edge="x0", components=("z",)), Held(edge="x1", components=("z",)))
-        free = list(_left_free(scene.sheet, scene.supports + resting, scene.cutouts))
-    if free:
+    if free := unstopped_motions(scene):
         raise SceneError(
             f"scene '{scene.name}': support: nothing stops {', '.join(free)}; a static answer needs supports "
             'that stop every rigid motion (for instance kind = "clamped" on one edge)'

@@ -12,7 +12,7 @@ from sheetbench.scenes.meaning.composition import carried, mass_of
 from sheetbench.scenes.meaning.distances import nearest
 from sheetbench.scenes.meaning.natural_state import TENSOR, Source, expansion_of, plies_of, sources_of
 from sheetbench.scenes.meaning.region import area_in, resultant
-from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions
+from sheetbench.scenes.meaning.rigid_motions import free_rigid_motions, unstopped_motions
 from sheetbench.scenes.objects.actuators import Actuator, Chain, CurvatureTable
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.layers import plane_stress
@@ -77,8 +77,18 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     if scene.springs is not None:
         yield "springs", "the lattice takes the scene's own constants instead of calibrated ones"
     yield "probes", f"{', '.join(f'{name} {_point(point)}' for name, point in scene.probes.items())} mm"
-    free = ", ".join(free_rigid_motions(scene))
-    yield "at rest", f"not solved: nothing stops {free}" if free else "held: no rigid-body motion is free"
+    yield "at rest", _at_rest(scene)
+
+
+def _at_rest(scene: SceneFields) -> str:
+    """Return what holds the sheet, or why there is no answer at rest."""
+    if free := ", ".join(unstopped_motions(scene)):
+        return f"not solved: nothing stops {free}"
+    if any(obstacle.friction for obstacle in scene.obstacles):
+        return "not solved: friction is in motion only"
+    if free := ", ".join(free_rigid_motions(scene)):
+        return f"held in its plane; obstacles alone can stop {free}"
+    return "held: no rigid-body motion is free"
 
 
 def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
@@ -153,7 +163,7 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     """Yield name and meaning of each of what makes a sheet other than flat at rest."""
     for source in sources_of(scene):
         strain, curvature = (
-            source.of.last_factor * np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
+            np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
             for part in (source.strain, source.curvature)
         )
         parts = list[str]()
@@ -163,9 +173,10 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
             parts += [f"an arc of radius {1e3 / abs(k):.4g} mm along {axis}, towards {towards}"] if k else []
         parts += [f"sheared by {strain[2]:.3g}"] if strain[2] else []
         parts += [f"twisted by {curvature[2]:.3g} 1/m"] if curvature[2] else []
-        parts += ["held flat, stresses from {:.3g} to {:.3g} Pa".format(*_stresses(scene, source))]
-        over = "" if source.of.history is None else f", over {source.of.history.time[-1]:g} s"
-        yield source.name, (", ".join(parts) if len(parts) > 1 else "as it is drawn") + over
+        low, high = (_pascals(float(f"{stress:.3g}")) for stress in _stresses(scene, source))
+        parts += [f"held flat, stresses from {low} to {high}"]
+        whole = ", ".join(parts) if len(parts) > 1 else "as it is drawn"
+        yield source.name, whole + _over_time(source.of.history)
 
 
 def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
@@ -176,7 +187,7 @@ def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
             own = (source.strain - z * source.curvature) / TENSOR
             if isinstance(source.of, Temperature):
                 own = expansion_of(scene, number) * (source.of.change + z * source.of.gradient)
-            sums.append(-source.of.last_factor * (plane_stress(ply) @ own)[:2])
+            sums.append(-(plane_stress(ply) @ own)[:2])
     return float(np.min(sums)), float(np.max(sums))
 
 
@@ -270,8 +281,7 @@ def _actuator(actuator: Actuator, sheet: Sheet) -> str:
     length = sheet.lengths[EDGES[actuator.edge].along_axis]
     curvature = actuator.curvature
     if isinstance(curvature, CurvatureTable):
-        first, last = curvature.value[0], curvature.value[-1]
-        bent = f"its curvature from {first:g} to {last:g} 1/m in {curvature.time[-1]:g} s"
+        bent = f"its curvature from {_course(curvature.value)} 1/m in {curvature.time[-1]:g} s"
     elif isinstance(curvature, tuple):
         bent = f"its joints' curvatures from {min(curvature):g} to {max(curvature):g} 1/m"
     else:
@@ -304,7 +314,14 @@ def _on_edges(point: PlanPoint, sheet: Sheet) -> str:
 def _over_time(history: FactorTable | None) -> str:
     if history is None:
         return ""
-    return f", times {history.factor[0]:g} to {history.factor[-1]:g} over {history.time[-1]:g} s"
+    return f", times {_course(history.factor)} over {history.time[-1]:g} s"
+
+
+def _course(values: Sequence[float]) -> str:
+    """Return the first and the last value, with the extremes between where they are beyond both."""
+    beyond = {min(values), max(values)} - {values[0], values[-1]}
+    turns = sorted(beyond, key=[*values].index)
+    return " to ".join(f"{value:g}" for value in (values[0], *turns, values[-1])).replace("-", "−")
 
 
 def _point(point: PlanPoint) -> str:
@@ -312,10 +329,9 @@ def _point(point: PlanPoint) -> str:
 
 
 def _pascals(value: float) -> str:
-    for size, unit in ((1e6, "MPa"), (1e3, "kPa")):
-        if value >= size:
-            return f"{value / size:g} {unit}"
-    return f"{value:g} Pa"
+    sizes = ((1e6, "MPa"), (1e3, "kPa"), (0.0, "Pa"))
+    size, unit = next((size or 1.0, unit) for size, unit in sizes if abs(value) >= size)
+    return f"{value / size:g} {unit}".replace("-", "−")
 
 
 def _mm(length: float) -> str:

@@ -110,7 +110,7 @@ ROWS = {
     f"compare {ONE} --uncertainty --no-uncertainty": "--uncertainty and --no-uncertainty: give one",
     f"compare {ONE} --duration 0.1 --branch path": "--branch: no effect with --duration",
     f"tradeoff {ONE} --retry": "--retry: no effect without --out",
-    f"tradeoff {ONE} --workers 2 --scheduler tcp://127.0.0.1:9": "--workers: no effect with --scheduler",
+    f"crosscheck {ONE} --workers 2 --scheduler tcp://127.0.0.1:9": "no scheduler there with a worker",
     f"crosscheck {ONE} --judges '' --meshes 4,8": "--meshes: no effect without external codes",
     f"calibrate {ONE} --loss-factor 0.1": "--at HZ",
     f"calibrate {ONE} --loss-factor 0.1 --prony a.csv": "--prony and --loss-factor",

@@ -5,9 +5,10 @@ import time
 import numpy as np
 import pytest
 import shapely
+from cases import sheet
 from skfem import Basis, ElementQuad2
 
-from fem_reference.surface.biquadratic import AT_GAUSS, jacobians, shape
+from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS, jacobians, shape
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import _through, mesh_of, plan_of
 from fem_reference.surface.mesh_points import SizeField, _quadtree
@@ -78,6 +79,22 @@ def test_elements_fill_the_plan_and_stand_upright(plan, count, graded):
     assert np.linalg.norm(np.diff(sides[along], axis=1)[:, 0], axis=1).sum() == pytest.approx(
         shapely.intersection(inner, region).length, rel=1e-2
     )
+
+
+@pytest.mark.parametrize("count", [6, 16])
+@pytest.mark.parametrize(("corners", "within"), [(6, 1e-6), (24, 1e-3), (96, 1e-3), (250, 1e-3)])
+def test_a_polygon_with_its_corners_on_a_circle(corners, within, count):
+    """Where their borders are nearly the same they are one; elsewhere what is between them is meshed."""
+    turns = 2.0 * np.pi * np.arange(corners) / corners
+    polygon = {"polygon": np.round(0.1 + 0.05 * np.stack([np.cos(turns), np.sin(turns)], 1), 8).tolist()}
+    pressure = {"kind": "pressure", "value": 1.0, "where": polygon}
+    patch = {"shape": {"circle": {"centre": (0.1, 0.1), "radius": 0.05}}, "young": 2e6}
+    scene = sheet(0.2, 0.2, 0.002, loads=[pressure], patches=[patch])
+    plan = plan_of(mesh_of(scene, count))
+    area = np.linalg.det(jacobians(plan.corners, AT_GAUSS[1]))
+    assert area.min() > 0.0
+    weights = GAUSS_WEIGHTS * area[plan.within(scene.loads[0].where)]
+    assert weights.sum() == pytest.approx(scene.loads[0].where.area.area, rel=within)
 
 
 def test_away_from_borders_elements_are_squares():

@@ -1,5 +1,7 @@
 """Sheets that fall on obstacles: energy, step limit, restitution, friction, obstacles that move."""
 
+import re
+
 import numpy as np
 import pytest
 from cases import sheet
@@ -51,6 +53,34 @@ def test_explicit_steps_are_hardly_shorter():
     ratio = free.settings["largest_step"] / touching.settings["largest_step"]
     assert 1.0 <= ratio < np.sqrt(1.0 + MOVING) + 1e-6
     assert ratio * SAFETY / TOUCHING <= 1.2
+
+
+ROD = {
+    "kind": "chain",
+    "edge": "x1",
+    "segments": 4,
+    "bending_stiffness": 1e-4,
+    "line_density": 0.02,
+    "radius": 0.002,
+}
+
+
+@pytest.mark.parametrize(
+    ("more", "integrator", "why"),
+    [
+        ({}, "verlet", "with obstacles"),
+        ({"damping_time": 1e-4}, "verlet", "with obstacles"),
+        ({"damping_time": 8e-3}, "esdirk", "as dampers make explicit steps [0-9]+ times shorter"),
+        ({"actuators": [ROD]}, "generalised-alpha", "with chains"),
+    ],
+)
+def test_auto_takes_the_steps_of_least_work(more, integrator, why):
+    """Implicit ones where stiffness-proportional dampers shorten explicit steps more than four times."""
+    material = {name: more[name] for name in more if name == "damping_time"}
+    scene = STRIP.replace(material=STRIP.material.replace(**material), actuators=more.get("actuators", []))
+    history = run(scene, 1e-3, **({"step": 1e-4} if integrator == "generalised-alpha" else {}))
+    assert history.status is Status.CONVERGED and history.integrator == integrator
+    assert re.fullmatch(f"least time at equal error, {why}", history.settings["integrator_reason"])
 
 
 def block(obstacle, slope=0.0, **more):

@@ -97,7 +97,12 @@ def test_words_say_radius_strain_and_stress():
         "2 % longer along x" in words["natural"] and "radius 200 mm along x, towards +z" in words["natural"]
     )
     assert "0.1 % longer along x" in words["temperature"]
-    assert f"to {-1e6 * 1e-3 / 0.7:.3g} Pa" in words["temperature"]
+    assert f"to −{1e3 * 1e-3 / 0.7:.3g} kPa" in words["temperature"]
+    passing = Natural(
+        curvature=(5.0, 0.0, 0.0), history=FactorTable(time=(0.0, 0.5, 1.0), factor=(0.0, 2.0, 0.0))
+    )
+    (said,) = dict(natural_in_words(scene(natural=passing))).values()
+    assert "radius 200 mm" in said and said.endswith("times 0 to 2 to 0 over 1 s")
 
 
 @pytest.mark.parametrize(

@@ -197,7 +197,9 @@ def homogenise(
         if spacing is None and not cell.endswith(".toml"):
             spacing = shorter / SPACINGS
         if spacing is not None and not shorter / MOST <= spacing <= shorter:
-            raise BadInput(f"--spacing = {spacing:g} m: of {shorter / MOST:g} to {shorter:g}, the shorter side")
+            raise BadInput(
+                f"--spacing = {spacing:g} m: from {shorter / MOST:g} to {shorter:g}, a side's length"
+            )
         cell = cell_of(cell, spacing, scene.sheet.thickness, hinge)
     else:
         require_effect("on a Cell, which has its own", {"spacing": spacing, "hinge": hinge})

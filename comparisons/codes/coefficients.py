@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations, count
 
 import numpy as np
-from scipy.linalg import null_space
+from scipy.linalg import block_diag, null_space
 from scipy.optimize import brentq, least_squares, minimize_scalar
 
 import fem_reference
@@ -51,10 +51,9 @@ class Moduli:
     def stable(self) -> bool:
         """Whether no deformation has a negative energy."""
         plane = np.block([[self.membrane, self.coupling], [self.coupling.T, self.bending]])
-        forms = [form for form in (plane, self.shear) if form is not None]
-        scales = [np.sqrt(np.maximum(np.abs(np.diag(form)), np.finfo(float).tiny)) for form in forms]
-        least = min(np.linalg.eigvalsh(form / np.outer(s, s))[0] for form, s in zip(forms, scales, strict=True))
-        return bool(least > -STABLE)
+        form = plane if self.shear is None else block_diag(plane, self.shear)
+        size = np.sqrt(np.maximum(np.abs(np.diag(form)), np.finfo(float).tiny))
+        return bool(np.linalg.eigvalsh(form / np.outer(size, size))[0] > -STABLE)
 
     def named(self) -> dict[str, float]:
         """The moduli by name, as A11 or D66."""

@@ -118,14 +118,15 @@ def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(quic
     assert (tmp_path / "lumped.vtu").exists()
 
 
-def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path):
+def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path, capsys):
     def answer(model, name=""):
         if model.spec.model == "shell":
             raise KeyboardInterrupt
         return fake_solutions.solution(model.scene, name)
 
     monkeypatch.setattr(table, "solve", answer)
-    assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
+    assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) == interruption.STATUS
+    assert f"files written so far are in {tmp_path}" in capsys.readouterr().err
     assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
     (record,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
     assert record["files"] == ["lumped.vtu"] and not record["finished"]

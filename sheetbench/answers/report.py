@@ -6,7 +6,7 @@ what its tables, notes and pictures are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 from sheetbench.answers.escape import html, markdown, terminal
 from sheetbench.answers.figure_style import PLAIN, FigureStyle, parse_figure
+from sheetbench.answers.files import digest, to_json, write_text
 from sheetbench.answers.files import folder as made
-from sheetbench.answers.files import to_json, write_text
 from sheetbench.answers.table import Table
 
 if TYPE_CHECKING:
@@ -36,8 +36,8 @@ class Picture:
     """A figure of an answer, made when it is drawn.
 
     compose: "module:function", which makes the figure `of` these in a style, or raises NoPicture. name: of
-    its files, without suffixes; description: kept in the files; formats: RASTER where most of it is an image,
-    FILM where `compose` writes the files itself, and knows no style.
+    its files, without suffixes; description: kept in the files, the answer in a line unless given; formats:
+    RASTER where most of it is an image, FILM where `compose` writes the files itself, and knows no style.
     """
 
     name: str
@@ -81,6 +81,11 @@ class Picture:
         if self.formats == FILM:
             return (self,)
         return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
+
+
+def drawn_from(tables: Iterable[Table]) -> str:
+    """Return the description of a picture of tables: sixteen digits that follow from their rows."""
+    return f"rows {digest(''.join(table.to_csv() for table in tables))}"
 
 
 @dataclass(frozen=True, repr=False)

@@ -176,6 +176,10 @@ def _report_error(error: Exception) -> int:
     if isinstance(error, (BadInput, NoEquilibrium)):
         print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
         return BAD_INPUT if isinstance(error, BadInput) else NOT_CONVERGED
+    if isinstance(error, MemoryError):
+        said = f"not enough memory: {terminal(str(error))}; take fewer masses or elements"
+        print(f"sheetbench: {said}", file=sys.stderr)
+        return BAD_INPUT
     traceback.print_exception(error)
     print(
         "sheetbench: this is a fault of the program, not of your input: please report it, with the lines "

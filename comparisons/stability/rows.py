@@ -8,7 +8,7 @@ from typing import Any
 Row = dict[str, Any]
 Cell = dict[str, Any]
 LARGE = 0.05  # an error that has to be explained
-FAULTS = {"failed": "a fault of the program", "lost": "its process died"}  # and no verdict on the model
+FAULTS = {"failed": "a fault of the program", "lost": "lost"}  # and no verdict on the model
 KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # else factor
 
 

@@ -103,6 +103,15 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(fault, monkeypatch, caps
     assert "please report it" in request
 
 
+def test_what_takes_more_memory_than_there_is_is_said_in_a_line(monkeypatch, capsys):
+    def fill(*_, **__):
+        raise MemoryError("Unable to allocate 9 GiB")
+
+    monkeypatch.setattr(table, "solve", fill)
+    assert run("compare", "two-edges-clamped", "--quiet") == 2
+    assert one_line(capsys).startswith("sheetbench: not enough memory: Unable to allocate 9 GiB; take fewer")
+
+
 @pytest.mark.usefixtures("undrawn")
 def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(quick, tmp_path, capsys):
     scene = scenes.load("two-edges-clamped")

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
@@ -84,8 +85,15 @@ class Picture:
 
 
 def drawn_from(tables: Iterable[Table]) -> str:
-    """Return the description of a picture of tables: sixteen digits that follow from their rows."""
-    return f"rows {digest(''.join(table.to_csv() for table in tables))}"
+    """Return the description of a picture of tables: sixteen digits that follow from their numbers, each to a
+    thousandth of its column's largest."""
+
+    def rounded(column: tuple[Any, ...]) -> list[float]:
+        numbers = [one for one in column if isinstance(one, float) and isfinite(one)]
+        largest = max(map(abs, numbers), default=0.0) or 1.0
+        return [round(one / largest, 3) + 0.0 for one in numbers]
+
+    return f"rows {digest(str([rounded(one) for table in tables for one in zip(*table.rows, strict=True)]))}"
 
 
 @dataclass(frozen=True, repr=False)

@@ -1,6 +1,4 @@
-"""Draw the still pictures of README and of pages in docs, in docs/images: `make pictures`.
-
-    python docs/pictures.py [NAME ...]    all unless named
+"""Draw the still pictures of README and of pages in docs, in docs/images: `make pictures`, or those named.
 
 A PNG says in its description what its numbers are; tests/test_docs.py holds it against the text and a fresh
 solve.
@@ -9,6 +7,8 @@ solve.
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -17,6 +17,7 @@ from PIL.PngImagePlugin import PngInfo
 
 import sheetbench as sb
 from sheetbench.answers import style
+from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Report
 
 IMAGES = Path(__file__).parent / "images"
@@ -40,26 +41,41 @@ COMPARED = (
     "finger-on-cylinder",
 )
 RUBBER = {"rubber-inflated-square": 12, "rubber-strip": 6}  # scenes of examples/rubber, elements of the solid
-FILM = IMAGES.parents[1] / "examples" / "air" / "film.toml"
-MOVED = {"settling": ("two-edges-settling", 1.0, None), "film-in-air": (FILM, 2.0, 1e-6)}  # [s], error
 DPI = 170  # 1224 pixels wide
 
 
-def main(*names: str) -> None:
-    """Draw those of these names, all unless any is given."""
+FILM = IMAGES.parents[1] / "examples" / "air" / "film.toml"
+MOVED: dict[str, tuple[str | Path, float, float | None]] = {  # scene, duration [s], error of a step
+    "settling": ("two-edges-settling", 1.0, None),
+    "film-in-air": (FILM, 2.0, 1e-6),
+}
+STILL, MOVING = "comparison.png", "history.png"
+
+
+def answers() -> dict[str, tuple[Callable[[], Answer], str]]:
+    """Return what finds the answer of every picture, and which of its files the picture is, by its name."""
+
+    def rubber(name: str, elements: int) -> Answer:
+        scene = IMAGES.parents[1] / "examples" / "rubber" / f"{name.removeprefix('rubber-')}.toml"
+        return sb.compare(scene, grid=17, reference="solid", elements=elements)
+
+    def moved(scene: str | Path, duration: float, error: float | None) -> Answer:
+        return sb.simulate(sb.load(scene), duration, error=error)
+
+    return {
+        **{name: (partial(sb.compare, name, uncertainty=False), STILL) for name in COMPARED},
+        **{name: (partial(rubber, name, elements), STILL) for name, elements in RUBBER.items()},
+        **{name: (partial(moved, *given), MOVING) for name, given in MOVED.items()},
+    }
+
+
+def main(names: list[str]) -> None:
+    """Draw those named, or all of them."""
     style.DPI = DPI
     with TemporaryDirectory() as folder:
-        for name in names or (*COMPARED, *RUBBER, *MOVED):
-            if name in MOVED:
-                moved, duration, error = MOVED[name]
-                run = sb.simulate(sb.load(moved), duration, error=error)
-                keep(run.report(), "history.png", Path(folder), name)
-            elif name in RUBBER:
-                scene = IMAGES.parents[1] / "examples" / "rubber" / f"{name.removeprefix('rubber-')}.toml"
-                answer = sb.compare(scene, grid=17, reference="solid", elements=RUBBER[name])
-                keep(answer.report(), "comparison.png", Path(folder), name)
-            else:
-                keep(sb.compare(name).report(), "comparison.png", Path(folder), name)
+        for name, (answer, drawn) in answers().items():
+            if name in names or not names:
+                keep(answer().report(), drawn, Path(folder), name)
 
 
 def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:
@@ -76,4 +92,4 @@ def keep(answer: Report, drawn: str, folder: Path, name: str) -> None:
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(sys.argv[1:])

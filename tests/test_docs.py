@@ -2,6 +2,7 @@
 
 import pkgutil
 import re
+import runpy
 import shlex
 from importlib.util import find_spec
 from pathlib import Path
@@ -10,9 +11,12 @@ import pytest
 from commands import run
 from PIL import Image
 
+import sheetbench as sb
 from comparisons.cli.app import VERBS, verb_group
-from comparisons.comparison.comparison import compare
 from sheetbench import scenes
+from sheetbench.answers.report import drawn_from
+from studies.codes.answer import codes
+from studies.pages import kept
 
 ROOT = Path(__file__).parent.parent
 README = ROOT / "README.md"
@@ -132,17 +136,46 @@ def test_make_targets_exist():
         assert re.search(rf"^{target}:", MAKE, re.M)
 
 
-def test_numbers_in_the_pictures_are_those_of_the_text_and_of_a_solve():
-    for name in ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge"):
-        with Image.open(ROOT / "docs/images" / f"{name}.png") as image:
-            kept = image.info["Description"]
-        assert kept == compare(name, uncertainty=False).figures()[0].description, f"{name}.png: make pictures"
-    with Image.open(ROOT / "docs/images/two-edges-clamped.png") as image:
-        shown = float(re.search(r"error at the probes ([\d.]+) %", image.info["Description"])[1])
+PICTURES = runpy.run_path(str(ROOT / "docs/pictures.py"))["answers"]()
+QUICK = ("two-edges-clamped", "one-edge-clamped", "curved-edge", "curved-edge-down", "actuated-edge")
+
+
+def described(picture):
+    with Image.open(ROOT / "docs/images" / f"{picture}.png") as image:
+        return image.text["Description"]
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[] if name in QUICK else pytest.mark.nightly) for name in PICTURES]
+)
+def test_a_picture_shows_what_a_solve_says_today(name):
+    answer, _ = PICTURES[name]
+    assert described(name) == answer().report().pictures[0].description, f"{name}.png: make pictures"
+
+
+@pytest.mark.nightly
+def test_the_map_of_stability_is_of_today():
+    assert described("stability") == sb.stability("two-edges-clamped", workers=1).result()
+
+
+def test_pictures_of_studies_show_the_rows_that_are_kept():
+    assert described("codes") == codes().figures()[0].description
+    assert described("master-curves") == drawn_from(kept("master-curves").tables)
+    rows = [drawn_from([table]) for table in kept("reproduction").tables]
+    for name in ("test-1", "test-2-up", "test-2-down"):
+        assert described(f"reproduction/{name}") in rows
+
+
+def test_numbers_in_the_pictures_are_those_of_the_text():
+    shown = float(re.search(r"error at the probes ([\d.]+) %", described("two-edges-clamped"))[1])
     caption = re.search(r"lattice is ([\d.]+) % off the converged shell", TEXT)
     row = re.search(r"^\| lumped \| .*\| ([\d.]+) \| [\d.]+ \| converged", TEXT, re.M)
     assert caption and row
     assert float(row[1]) == shown and float(caption[1]) == round(shown, 1)
+    scenes_drawn = [one for one in PICTURES if one in scenes.catalogue()]
+    errors = sorted(float(re.search(r"([\d.]+) %", described(one))[1]) for one in scenes_drawn)
+    said = re.search(r"are ([\d.]+) to ([\d.]+) % off on\D*half of them at most ([\d.]+) %", TEXT)
+    assert [*map(float, said.groups())] == [errors[0], errors[-1], errors[len(errors) // 2]]
 
 
 def test_the_page_of_the_catalogue_has_every_scene_with_a_picture():

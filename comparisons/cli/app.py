@@ -80,6 +80,7 @@ def _print_version() -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
+    last = arguments is None  # the process is the command's own
     arguments = sys.argv[1:] if arguments is None else arguments
     if arguments[:1] == ["help"]:
         arguments = [*arguments[1:], "--help"]
@@ -98,7 +99,7 @@ def main(arguments: list[str] | None = None) -> None:
         raise SystemExit(0)
     called = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one is read sooner
     command = verb_group(called, boxes=get_terminal_size().columns >= BOXES)
-    with interruption.heeded(), messages.in_lines():
+    with interruption.heeded(last), messages.in_lines():
         try:
             try:
                 status = command(args=arguments, prog_name="sheetbench", standalone_mode=False)
@@ -175,6 +176,10 @@ def _report_error(error: Exception) -> int:
     if isinstance(error, (BadInput, NoEquilibrium)):
         print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
         return BAD_INPUT if isinstance(error, BadInput) else NOT_CONVERGED
+    if isinstance(error, MemoryError):
+        said = f"not enough memory: {terminal(str(error))}; take fewer masses or elements"
+        print(f"sheetbench: {said}", file=sys.stderr)
+        return BAD_INPUT
     traceback.print_exception(error)
     print(
         "sheetbench: this is a fault of the program, not of your input: please report it, with the lines "

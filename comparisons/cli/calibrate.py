@@ -16,7 +16,7 @@ DAMPING = "loss_factor at band prony"
 
 
 @no_effect(
-    with_for_="export cell",
+    with_for_="export cell toml",
     with_cell=f"{SPRINGS} {DAMPING} grid export",
     without_cell="spacing hinge coefficient",
 )
@@ -100,7 +100,7 @@ def command(
     if for_ is not None:
         require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *exchange.CODES])))
     if for_ is not None and for_ in WRITERS:
-        of_springs = {**wanted.but(grid=None).settings, "toml": toml}
+        of_springs = wanted.but(grid=None).settings
         options = {f"--{name.replace('_', '-')}": value for name, value in of_springs.items()}
         require_effect(f"with --for {for_}", options)
         if why := undamped(CODES[for_], of.material):

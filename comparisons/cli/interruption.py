@@ -13,35 +13,42 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 STATUS = 130  # 128 + SIGINT, as shells have it
 PATIENCE = 1.2  # s, from the signal to the end of a process that does not heed it
 
-_left_behind = "nothing was kept"
+NOTHING = "nothing was kept"
+_left_behind, _folder = NOTHING, ""
 
 
 def promise(verb: str, out: object, resumed: bool) -> None:
     """Note what an interrupt of this verb leaves behind, given its --out; resumed: whether it keeps its runs
     there."""
-    global _left_behind
+    global _left_behind, _folder
+    _folder = ""
     if verb == "live":
         _left_behind = "the server has stopped; an open page keeps its last answers"
     elif out is None:
-        _left_behind = "nothing was kept"
+        _left_behind = NOTHING
     elif resumed:
         _left_behind = "the same command goes on"
     else:
-        _left_behind = f"files written so far are in {out}"
+        _left_behind, _folder = f"files written so far are in {out}", str(out)
 
 
 def say() -> None:
     """Print what an interrupt leaves behind, on standard error."""
-    print(f"interrupted; {_left_behind}", file=sys.stderr, flush=True)
+    empty = _folder and not any(Path(_folder).glob("[!.]*"))
+    print(f"interrupted; {NOTHING if empty else _left_behind}", file=sys.stderr, flush=True)
 
 
 @contextmanager
-def heeded() -> Iterator[None]:
-    """Let Ctrl-C end a block in time, whatever it does; only the main thread can arrange that."""
+def heeded(last: bool = False) -> Iterator[None]:
+    """Let Ctrl-C end a block in time, whatever it does; only the main thread can arrange that.
+
+    last: the process ends with the block, and its status is known: a signal after it counts for nothing.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -59,7 +66,7 @@ def heeded() -> Iterator[None]:
         signal.set_wakeup_fd(before)
         os.close(wake)
         if signal.getsignal(signal.SIGINT) is _once:  # else there was one, and the process ends
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+            signal.signal(signal.SIGINT, signal.SIG_IGN if last else signal.default_int_handler)
 
 
 def _once(number: int, frame: object) -> None:

@@ -54,8 +54,8 @@ def command(
     text = template(file.stem, checked(Sheet, of_sheet), checked(Material, of_material), edges)
     if found := slips(Scene.model_validate(tomllib.loads(text))):
         raise BadInput(f"{file} is not written: {'; '.join(found)}")
+    write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))  # a disk that is full leaves no scene
     write_text(file, text)
-    write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))
     console.note(f"{file} written, and {SCHEMA} beside it for editors")
     console.note(f"Next:  sheetbench check {file}")
     return file

@@ -256,7 +256,7 @@ class PictureOptions(OutputOptions):
     Args:
         figure (FORMATS): With --out: pictures for a paper, without a title, as pdf, svg or png;
             pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).
-        no_pictures: With --out: all files but the pictures.
+        no_pictures: With --out: all files but the pictures. Every verb takes it, for scripts.
     """
 
     no_effect: ClassVar[dict[str, str]] = {

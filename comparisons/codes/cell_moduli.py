@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Annotated, Any
 
 from comparisons.codes.cell import Cell, cell_of
@@ -72,7 +73,7 @@ def undamped(code: Code, material: Material) -> str:
 
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
-SPACINGS = 8  # cells along the shorter side, unless a spacing is given
+SPACINGS, MOST = 8, 1e4  # cells along the shorter side, unless a spacing is given; at most
 MISSED = 0.01  # of the sheet's modulus 11
 COEFFICIENTS: tuple[Any, ...] = ("coefficient", "unit", NUMBER("#.6g", "value"))
 MODULI = (
@@ -192,14 +193,22 @@ def homogenise(
     scene, given = scene_of(scene), dict(coefficients or {})
     require_plain(scene, "--cell")
     if isinstance(cell, str):
+        shorter = min(scene.sheet.lengths)
         if spacing is None and not cell.endswith(".toml"):
-            spacing = min(scene.sheet.lengths) / SPACINGS
+            spacing = shorter / SPACINGS
+        if spacing is not None and not shorter / MOST <= spacing <= shorter:
+            raise BadInput(
+                f"--spacing = {spacing:g} m: from {shorter / MOST:g} to {shorter:g}, a side's length"
+            )
         cell = cell_of(cell, spacing, scene.sheet.thickness, hinge)
     else:
         require_effect("on a Cell, which has its own", {"spacing": spacing, "hinge": hinge})
     if unknown := set(given) - set(cell.units()):
         raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
     chosen = nearest(cell, scene.material, scene.sheet.thickness) | given
+    if given and not moduli_of(cell, chosen).stable:
+        own = ", ".join(f"{name}={value:g}" for name, value in given.items())
+        raise BadInput(f"--coefficient {own}: a sheet of these cells has a negative stiffness")
     off, others, missing = None, None, ""
     try:
         off = limit_error(scene, moduli_of(cell, chosen))
@@ -220,4 +229,6 @@ def given_coefficients(entries: Sequence[str]) -> dict[str, float]:
             given[name] = float(value)
         except ValueError:
             raise BadInput(f"--coefficient {entry}: NAME=VALUE, the value a number") from None
+        if not isfinite(given[name]):
+            raise BadInput(f"--coefficient {entry}: not finite")
     return given

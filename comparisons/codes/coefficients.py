@@ -19,19 +19,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import combinations, count
 
 import numpy as np
-from scipy.linalg import null_space
+from scipy.linalg import block_diag, null_space
 from scipy.optimize import brentq, least_squares, minimize_scalar
 
 import fem_reference
 from comparisons.codes.cell import Cell, Place, cell_of
+from comparisons.models.context import context
 from comparisons.sweep.differences import error
 from fem_reference.surface.materials import Section, section_of
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Material, Scene
 
+STABLE = 1e-9  # below zero, of moduli over those on the diagonal: rounding
 ROUNDING = 1e-12  # of both moduli beside one off the diagonal
 
 
@@ -44,6 +46,14 @@ class Moduli:
     coupling: np.ndarray
     bending: np.ndarray
     shear: np.ndarray | None
+
+    @property
+    def stable(self) -> bool:
+        """Whether no deformation has a negative energy."""
+        plane = np.block([[self.membrane, self.coupling], [self.coupling.T, self.bending]])
+        form = plane if self.shear is None else block_diag(plane, self.shear)
+        size = np.sqrt(np.maximum(np.abs(np.diag(form)), np.finfo(float).tiny))
+        return bool(np.linalg.eigvalsh(form / np.outer(size, size))[0] > -STABLE)
 
     def named(self) -> dict[str, float]:
         """The moduli by name, as A11 or D66."""
@@ -151,13 +161,17 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
     """`limit_error` of any moduli in a scene, whose own answer is found once."""
     lengths = scene.sheet.lengths
     across = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
-    points = scene.probe_points()
-    sheet = fem_reference.solve(scene, model="shell", elements=across)
-    true = sheet.require_stable().displacement(points)
+    points, solved = scene.probe_points(), count(1)
+
+    def answer(**section: Section) -> np.ndarray:
+        context().progress(f"solving shell, {across} elements along the shorter side: no. {next(solved)} …")
+        found = fem_reference.solve(scene, model="shell", elements=across, **section)
+        return found.require_stable().displacement(points)
+
+    true = answer()
 
     def off(moduli: Moduli) -> float:
-        found = fem_reference.solve(scene, model="shell", elements=across, section=_section(scene, moduli))
-        share = error(found.require_stable().displacement(points), true)
+        share = error(answer(section=_section(scene, moduli)), true)
         if share is None:
             raise BadInput("the probes do not move: there is no error to tell")
         return share

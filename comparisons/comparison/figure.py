@@ -9,8 +9,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.figure import Figure
 
 from comparisons.comparison.answer import Comparison
@@ -28,7 +29,11 @@ from sheetbench.scenes import Scene
 LINE = 105  # characters of a title in full size
 VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
 FLAT = 1e-3  # of the largest displacement: what moves less across its plane is shown by how it stretches
-HEIGHTS, DIFFERENCES = "viridis", "magma_r"
+TALLEST = 1.9  # inches of a panel above others: the three and their words fill a page
+HEIGHTS = "viridis"
+DIFFERENCES = ListedColormap(
+    colormaps["magma_r"](np.linspace(0.0, 0.75, 256)), "magma_r"
+)  # labels on its dark end
 MODEL_NAMES = {
     "lumped": "Lumped lattice",
     "plate": "Mindlin plate",
@@ -66,14 +71,15 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     right.surface(reference, difference, difference_limits, DIFFERENCES, 0)
     flat = np.column_stack([plan, np.zeros(len(plan))])
     shown = ((left, lattice), (middle, reference), (right, reference))
-    ends = [draw(stage, solution) for stage, solution in shown[:2]]
+    ends = [*(draw(stage, solution) for stage, solution in shown[:2]), right.obstacles()]
     seen = np.vstack([flat, left.deformed(reference, plan), left.deformed(lattice, plan), *ends])
     probes = scene.probe_points()
     shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]
 
     rows, columns = style.panels(3)
     aspect = shots[0][0].shape[0] / shots[0][0].shape[1]
-    height = rows * (style.width / columns * aspect + 0.85) + 0.2 * style.titled
+    tall = style.width / columns * aspect
+    height = rows * ((min(tall, TALLEST) if style.narrow else tall) + 0.85) + 0.2 * style.titled
     figure = Figure(figsize=(style.width, height), layout="constrained")
     axes = figure.subplots(rows, columns).ravel()
     titles = [
@@ -127,7 +133,9 @@ def _elements(solution: Solution) -> int:
     return min(np.min(solution.settings.get("elements", 16)), 16)
 
 
-def colour_bar(figure: Figure, colours: str, limits: tuple[float, float], label: str, **place: Any) -> None:
+def colour_bar(
+    figure: Figure, colours: str | Colormap, limits: tuple[float, float], label: str, **place: Any
+) -> None:
     """A horizontal colour bar; place: as `Figure.colorbar` takes it."""
     mapped = ScalarMappable(Normalize(*limits), colours)
     bar = figure.colorbar(mapped, orientation="horizontal", **place)

@@ -119,7 +119,7 @@ class Desk(BaseHTTPRequestHandler):
     def do_POST(self) -> None:
         """Answer a question; one that contradicts itself is refused in a line."""
         length, refused = self.headers.get("Content-Length", ""), self.refusal(own=True)
-        if not (length.isascii() and length.isdigit() and int(length) <= MESSAGE):
+        if not (length.isascii() and length.isdigit() and len(length) < 9 and int(length) <= MESSAGE):
             refused = refused or HTTPStatus.REQUEST_ENTITY_TOO_LARGE
         if refused or self.what not in WAYS:
             return self.reply(refused or HTTPStatus.NOT_FOUND)

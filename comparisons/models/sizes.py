@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect
 from collections.abc import Callable
-from math import prod
+from math import isqrt, prod
 
 from comparisons.external import memory
 from comparisons.models.context import context
@@ -19,6 +19,8 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 
 MOST = 10**6  # masses or elements along a side
+MODES = 1.7  # memory of a reference's frequencies over that of its statics: shells of 32² elements
+DENSE = 3  # matrices of all states at once: peaks of 768 and 3072 states
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
@@ -34,13 +36,15 @@ def has_room(scene: Scene, spec: Spec) -> bool:
     return context().large or room is None or needed is None or needed.memory <= room
 
 
-def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") -> None:
+def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "", modes: bool = False) -> None:
     """Raise BadInput where a model takes more memory than there is, naming a size that would fit.
 
     option: by which the size is requested, --lumped or --elements by default; instead: what to do where
-    it is not requested.
+    it is not requested; modes: whether natural frequencies are wanted.
     """
     room, needed = memory.available(), size(scene, spec)
+    if room is not None and modes and not spec.MASSES:
+        room = round(room / MODES)
     if room is None or needed is None or needed.memory <= room:
         return
     counts = "x".join(str(n) for n in spec.counts(scene))
@@ -59,6 +63,17 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "") 
         f"memory, and {free} are free here; {instead or advice}, or give --large (in Python large=True) to "
         "try all the same"
     )
+
+
+def require_states(states: int) -> None:
+    """Raise BadInput where the dense matrices of a state space take more memory than there is."""
+    room, needed = memory.available(), DENSE * 8 * states**2
+    if room is not None and needed > room and not context().large:
+        taken, free, fitting = work.memory(needed), work.memory(room), isqrt(room // (8 * DENSE)) // 2
+        raise BadInput(
+            f"{work.count(states)} states: their matrices take about {taken} of memory, and {free} are free "
+            f"here; --state-space {fitting} would fit, or give --large to try all the same"
+        )
 
 
 def mesh(scene: Scene, spec: Spec) -> str:

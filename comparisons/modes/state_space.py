@@ -11,6 +11,7 @@ import numpy as np
 
 from comparisons.models.context import context
 from comparisons.models.resolve import resolve
+from comparisons.models.sizes import require_states
 from comparisons.models.spec import Lattice
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.pictures.work import Work
@@ -201,6 +202,7 @@ def linearise(
     context().progress(Work("linearising the lattice", model.size))
     found = lumped.linearise(scene, springs, about)
     most = found.mass.shape[0]
+    require_states(2 * min(modes or most, most))
     space = found.state_space(None if modes is None else min(modes, most))
     balanced = None if reduce is None else space.balanced(order, tolerance)
     return Linearisation(scene, f"lumped {springs.title}", about, found, space, balanced)

@@ -11,7 +11,7 @@ points as dark balls, obstacles pale. An arrow starts where its force acts and p
 from __future__ import annotations
 
 from functools import partial
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -36,7 +36,7 @@ from sheetbench.scenes import EDGES, Chain, Cylinder, EdgeLoad, Plane, Scene, ho
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
 ELEVATION = 27.0  # degrees above the plane
-PALE, OUTLINE, ROD, OBSTACLE = "#c9ced4", "#a9afb6", "#c8553d", "#d8d2c4"
+LINK, OUTLINE, ROD, OBSTACLE = "#5f6770", "#a9afb6", "#c8553d", "#d8d2c4"
 
 
 class Stage:
@@ -55,12 +55,12 @@ class Stage:
         self._supports(held)
 
     def lattice(self, mesh: FieldMesh, values: np.ndarray, limits: tuple[float, float], colours: str) -> None:
-        """Links in grey, diagonals paler than the rest; masses coloured by a value a mass."""
+        """Links, diagonals paler and thinner than the rest; masses coloured by a value a mass."""
         points = mesh.points + self.scale * mesh.point_data["displacement"]
         pairs = np.vstack([cell for kind, cell in mesh.cells if kind == "line"])
         along = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0]) > 1e-9 * self.size
         straight = along.sum(axis=1) == 1
-        for some, colour, width in ((pairs[~straight], PALE, 2.0), (pairs[straight], GREY, 4.0)):
+        for some, colour, width in ((pairs[~straight], OUTLINE, 3.0), (pairs[straight], LINK, 6.0)):
             links = pyvista.PolyData(points, lines=np.insert(some, 0, 2, axis=1).ravel())
             self.plotter.add_mesh(links, color=colour, line_width=self._line * width, lighting=False)
         linked = np.unique(pairs)  # those of absent cells are not
@@ -80,9 +80,12 @@ class Stage:
         self.plotter.add_mesh(balls, smooth_shading=True, **shown)
 
     def obstacles(self, time: float | None = None) -> np.ndarray:
-        """The parts of obstacles that are near the sheet, at a time [s] or in their last places; corners
-        (n, 3) [m] of them."""
-        middle, shown = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0]), list[Any]()
+        """The parts of obstacles that are near the sheet, at a time [s] or in their last places; points
+        (n, 3) [m] of their surfaces."""
+        middle, shown = (
+            np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0]),
+            [np.empty((0, 3))],
+        )
         for one in self.scene.obstacles:
             at, along, radius = one.place(1.0, time), one.direction, one.radius
             way, side = ((middle - at) @ along) * along, 1.3 * self.size
@@ -93,11 +96,15 @@ class Stage:
                 body = pyvista.Cylinder(center=at + way, direction=along, resolution=80, **size)
             else:
                 body = pyvista.Sphere(radius=radius, center=at, theta_resolution=60, phi_resolution=60)
+            round_: Any = (
+                {} if isinstance(one, Plane) else {"culling": "back"}
+            )  # no far side through the near one
+            sharp = isinstance(one, Cylinder)
             self.plotter.add_mesh(
-                body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=True
+                body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=sharp, **round_
             )
-            shown += product(*np.reshape(body.bounds, (3, 2)))
-        return np.array(shown).reshape(-1, 3)
+            shown.append(body.points)
+        return np.concatenate(shown)
 
     def chain(self, points: np.ndarray) -> None:
         """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""

@@ -32,7 +32,7 @@ from comparisons.reproduction.published import KNOWN_FAULTS, PROBES, published_i
 from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Picture, Write
+from sheetbench.answers.report import Picture, Write, drawn_from
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Table, percent
 from sheetbench.choices import ELEMENTS, REPRODUCED
@@ -132,7 +132,8 @@ class Reproduction(Answer):
         ]
 
     def figures(self) -> list[Picture]:
-        return [Picture(one.name, "comparisons.reproduction.figure:test", (one,)) for one in self.answers]
+        compose = "comparisons.reproduction.figure:test"
+        return [Picture(one.name, compose, (one,), drawn_from([displacements(one)])) for one in self.answers]
 
     def notes(self) -> list[str]:
         return [DISPLACEMENTS] if self.answers else []

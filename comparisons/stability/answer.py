@@ -75,7 +75,7 @@ class Stability(Answer):
         return (f"{bound}, at rest against the {self.reference}, in motion against a fine step.",)
 
     def result(self) -> str:
-        ended = [verdict(row) for row in self.rows if place(row) is not None]
+        ended = [verdict(row) for row in self.rows if place(row) is not None and verdict(row) in ENDS]
         return f"{ended.count('holds')} of {len(ended)} cells hold"
 
     def complaints(self) -> list[str]:

@@ -8,13 +8,16 @@ from typing import Any
 Row = dict[str, Any]
 Cell = dict[str, Any]
 LARGE = 0.05  # an error that has to be explained
+FAULTS = {"failed": "a fault of the program", "lost": "lost"}  # and no verdict on the model
 KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # else factor
 
 
 def verdict(row: Row) -> str:
-    """Return how a cell ended: holds, off by more than `LARGE`, refuses, or fails."""
+    """Return how a cell ended: holds, off by more than `LARGE`, refuses, fails, or by one of `FAULTS`."""
     if row["status"] == "converged":
         return "off" if (row["error"] or 0.0) > LARGE else "holds"
+    if row["status"] in FAULTS:
+        return FAULTS[row["status"]]
     return "refuses" if row["status"] in ("refused", "strain-outside-model") else "fails"
 
 
@@ -30,8 +33,8 @@ def who(row: Row) -> str:
 
 def broken(rows: Iterable[Row]) -> list[str]:
     """Return a sentence for every row without an answer."""
-    lost = (row for row in rows if row["status"] in ("failed", "lost"))
-    return [f"{r['study']} {r['cell']}: {r['status']}: {r['message']}" for r in lost]
+    lost = (row for row in rows if row["status"] in FAULTS)
+    return [f"{r['study']} {r['cell']}: {verdict(r)}: {r['message']}" for r in lost]
 
 
 def percent(error: float | None) -> str:
@@ -39,7 +42,7 @@ def percent(error: float | None) -> str:
     if error is None:
         return ""
     if error < 5e-5:
-        return "0"
+        return "< 0.01"
     if error >= 1.0:
         return f"{100 * error:.0f}"
     return f"{100 * error:.2f}" if error < 0.01 else f"{100 * error:.2g}"

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from comparisons.stability.rows import LARGE, Row, percent
+from comparisons.stability.rows import FAULTS, LARGE, Row, percent
 from sheetbench.answers.style import GREY, STYLE
 
 MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}
@@ -20,7 +20,7 @@ OUTCOMES = {
     "within 1 %": "#a8d5c2",
     "within 5 %": "#d9ecd2",
     "off by more than 5 %": "#f6c667",
-    "converged": "#bfd5ea",
+    (NOT_COMPARED := "converged, not compared"): "#bfd5ea",
     "unstable": "#c9b3e0",
     "strain-outside-model": "#d0d0d0",
     "step-limit": "#ee9a7a",
@@ -28,18 +28,20 @@ OUTCOMES = {
     "singular": "#b98a6f",
     "inverted": "#8f6f9f",
     "non-finite": "#6b3030",
-    "refused": "#ffffff",
-    "failed": "#000000",
-    "lost": "#000000",
+    (REFUSED := "refused"): "#ffffff",
+    **dict.fromkeys(FAULTS.values(), "#000000"),
 }
+HATCHED: Any = {"hatch": "//////", "edgecolor": "#b0b0b0", "lw": 0.4}  # not as where nothing was run
 THEORY: Any = {"color": "#b2182b", "lw": 1.3, "zorder": 5}
 
 
 def outcome(row: Row) -> str:
     """Return the colour key of a row."""
-    error = row.get("error")
-    if row["status"] != "converged" or error is None:
-        return str(row["status"])  # "converged" where there is no reference to be off from
+    error, status = row.get("error"), str(row["status"])
+    if status != "converged":
+        return FAULTS.get(status, status)
+    if error is None:
+        return NOT_COMPARED
     if error > LARGE:
         return "off by more than 5 %"
     return "within 1 %" if error <= 0.01 else "within 5 %"
@@ -73,7 +75,7 @@ def tiles(
         (xs, across), (ys, up) = edges
         i, j = int(np.searchsorted(xs, at(x, row))), int(np.searchsorted(ys, at(y, row)))
         corner, size = (across[i], up[j]), (across[i + 1] - across[i], up[j + 1] - up[j])
-        axis.add_patch(Rectangle(corner, *size, facecolor=OUTCOMES[outcome(row)], edgecolor="white", lw=0.8))
+        axis.add_patch(Rectangle(corner, *size, **look(outcome(row))))
         middle = _mid(across, i, scale[0]), _mid(up, j, scale[1])
         axis.text(*middle, text(row), fontsize=5.2, ha="center", va="center")
     axis.set_xscale(scale[0])
@@ -81,6 +83,12 @@ def tiles(
     axis.set_xlim(edges[0][1][0], edges[0][1][-1])
     axis.set_ylim(edges[1][1][0], edges[1][1][-1])
     axis.tick_params(which="both", width=0.5, length=2)
+
+
+def look(ended: str) -> dict[str, Any]:
+    """Return colour and border of a tile."""
+    border = HATCHED if ended == REFUSED else {"edgecolor": "white", "lw": 0.8}
+    return {"facecolor": OUTCOMES[ended], **border}
 
 
 def _mid(edges: np.ndarray, i: int, scale: str) -> float:
@@ -109,7 +117,9 @@ def legend(figure: Figure, rows: Iterable[Row], *lines: Any) -> None:
     """Draw the colours that occur in the rows, and lines, below the panels."""
     occurring = set(map(outcome, rows))
     patches = [
-        Patch(facecolor=c, edgecolor=GREY, lw=0.4, label=n) for n, c in OUTCOMES.items() if n in occurring
+        Patch(**{"edgecolor": GREY, **look(name), "lw": 0.4}, label=name)
+        for name in OUTCOMES
+        if name in occurring
     ]
     below: Any = {"loc": "outside lower center", "ncols": 4, "frameon": False, "fontsize": 6.8}
     figure.legend(handles=[*patches, *lines], handlelength=1.6, **below)

@@ -254,6 +254,8 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
             raise KeyboardInterrupt from error
         row = {"traceback": traceback.format_exc()}
         status, message = "failed", f"{type(error).__name__}: {error}"
+        if isinstance(error, MemoryError):
+            row, status, message = {}, "lost", f"not enough memory: {error}"
     return Finished(key, status, plain(row), message, started, _now(), perf_counter() - clock)
 
 

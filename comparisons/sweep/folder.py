@@ -47,6 +47,7 @@ class Folder:
     ) -> None:
         self.path = folder(path, option)
         self.written: list[str] = []
+        self._overwrite = overwrite
         self._verb = verb
         self._record = record(list(command))
         self._about, self._variant = plain(dict(about or {})), plain(dict(variant or {}))
@@ -66,9 +67,15 @@ class Folder:
         write(self.path / name)
 
     def reserve(self, name: str) -> Path:
-        """Return the path of a file, or of a folder if its name ends in "/", and list it as this run's."""
+        """Return the path of a file, or of a folder if its name ends in "/", and list it as this run's.
+
+        Raises BadInput where one that no run wrote stands there, unless it may be overwritten.
+        """
         self._clear()
         if name not in self.written:
+            known = any(name in run["files"] for run in self._runs.values())
+            if not (known or self._overwrite) and (self.path / name).exists():
+                raise BadInput(f"{self.path / name}: not of a run here; move it, or --overwrite replaces it")
             self.written.append(name)
             self.note()
         return self.path / name
@@ -81,10 +88,11 @@ class Folder:
         missing = []
         for picture in report.pictures:
             progress(f"drawing {picture.names[0]} …")
+            for name in picture.names:
+                self.reserve(name)
             if reason := picture.write(self.path):
                 missing.append(reason)
-            else:
-                self.written += picture.names
+                self.written = [name for name in self.written if name not in picture.names]
         self.note(report.settings, report.words())
         return missing
 

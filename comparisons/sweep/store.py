@@ -42,7 +42,7 @@ class Finished:
 
     status: the solver's where the run is a solve, else `done`; `refused` where its input was refused (it
     raised BadInput), `failed` where it raised anything else, a fault whose "traceback" is all the row holds;
-    `lost` where it took its process down with it.
+    `lost` where it took its process down with it or had not enough memory.
     """
 
     key: str

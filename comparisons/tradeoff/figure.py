@@ -21,6 +21,7 @@ PANEL, NAMES, TITLE = 3.1, 0.2, 0.25  # inches: of a panel, a row of names, the 
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 BESIDE = ((-1, -1), (1, 1), (-1, 1), (1, -1))  # where the size of a row on the front is written, in turn
 SIZE = "size of a row"
+STALLED = 0.25  # order below which an error is no smaller on finer meshes
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 
 
@@ -42,7 +43,9 @@ def compose(found: Tradeoff | DynamicTradeoff, style: FigureStyle = PLAIN) -> Fi
         line: dict[str, Any] = {"color": colour, "marker": MARKERS.get(model, "P"), "lw": 0.9, "ms": 3.6}
         if model in REFERENCE_COLOURS:
             line["ls"] = (0, (4, 1.5))
-        label = plain(name) if slope is None else f"{plain(name)}  (order {slope:z.1f})"
+        label = plain(name)
+        if slope is not None:
+            label += f"  (order {slope:.1f})" if slope >= STALLED else "  (does not converge)"
         _against_time(left, rows, [i in on_front for i in known], line, label, found.COST[1])
         sized = [(1e3 * h, 100 * e) for h, e in (row.sized for row in rows) if h and e]
         if sized:

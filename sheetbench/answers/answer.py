@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -72,19 +73,21 @@ class Answer(ABC):
     def report(self) -> Report:
         """Return everything that is to be shown, made once."""
         title, subtitle, lead = self.heading()
+        result = self.result()
+        pictures = (replace(one, description=one.description or result) for one in self.figures())
         return Report(
             name=self.file_name,
             page=self.page_name,
             title=title,
             subtitle=subtitle,
             lead=lead,
-            result=self.result(),
+            result=result,
             document=self.document(),
             tables=tuple(self.tables()),
             printed=tuple(self.printed()),
             notes=tuple(self.notes()),
             complaints=tuple(self.complaints()),
-            pictures=tuple(self.figures()),
+            pictures=tuple(pictures),
             attachments=self.files(),
             settings=self.choices(),
             succeeded=self.succeeded,

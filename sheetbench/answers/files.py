@@ -16,9 +16,12 @@ from sheetbench.files import whole
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file, whole or not at all."""
+    """Write a text file, whole or not at all.
+
+    Bytes of a file's name that are not UTF-8 become \\udcXX, as JSON has them.
+    """
     with whole(path) as partial:
-        partial.write_text(text, encoding="utf-8")
+        partial.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 def folder(path: Path | str, option: str = "--out") -> Path:

@@ -11,7 +11,7 @@ from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.history import History
 from sheetbench.answers.style import COMPONENTS, MOST, plain
 
-DASHES: Any = {"uy": (0, (4, 2))}  # of a symmetric sheet it lies on ux
+DASHES: Any = {"uy": (0, (4, 4))}  # of a symmetric sheet it lies on ux
 ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 

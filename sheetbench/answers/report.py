@@ -6,17 +6,18 @@ what its tables, notes and pictures are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 from sheetbench.answers.escape import html, markdown, terminal
 from sheetbench.answers.figure_style import PLAIN, FigureStyle, parse_figure
+from sheetbench.answers.files import digest, to_json, write_text
 from sheetbench.answers.files import folder as made
-from sheetbench.answers.files import to_json, write_text
 from sheetbench.answers.table import Table
 
 if TYPE_CHECKING:
@@ -36,8 +37,8 @@ class Picture:
     """A figure of an answer, made when it is drawn.
 
     compose: "module:function", which makes the figure `of` these in a style, or raises NoPicture. name: of
-    its files, without suffixes; description: kept in the files; formats: RASTER where most of it is an image,
-    FILM where `compose` writes the files itself, and knows no style.
+    its files, without suffixes; description: kept in the files, the answer in a line unless given; formats:
+    RASTER where most of it is an image, FILM where `compose` writes the files itself, and knows no style.
     """
 
     name: str
@@ -81,6 +82,18 @@ class Picture:
         if self.formats == FILM:
             return (self,)
         return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
+
+
+def drawn_from(tables: Iterable[Table]) -> str:
+    """Return the description of a picture of tables: sixteen digits that follow from their numbers, each to a
+    thousandth of its column's largest."""
+
+    def rounded(column: tuple[Any, ...]) -> list[float]:
+        numbers = [one for one in column if isinstance(one, float) and isfinite(one)]
+        largest = max(map(abs, numbers), default=0.0) or 1.0
+        return [round(one / largest, 3) + 0.0 for one in numbers]
+
+    return f"rows {digest(str([rounded(one) for table in tables for one in zip(*table.rows, strict=True)]))}"
 
 
 @dataclass(frozen=True, repr=False)

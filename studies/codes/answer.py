@@ -12,7 +12,9 @@ from matplotlib.figure import Figure
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
+from sheetbench.answers.files import digest
 from sheetbench.answers.report import Picture
+from sheetbench.answers.style import DARK
 from sheetbench.answers.table import NUMBER, PERCENT, SECONDS, Column, Table, number, percent
 from studies.codes.results import CASES, OURS, SCENES, CodeResults, Trial, every_result
 
@@ -117,7 +119,7 @@ class Codes(Answer):
         return about, LEFT_OUT
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("codes", f"{__name__}:compose", (self,)),)
+        return (Picture("codes", f"{__name__}:compose", (self,), f"rows {digest(str(self.results))}"),)
 
 
 def _of_code(code: CodeResults) -> Table:
@@ -166,7 +168,11 @@ def compose(found: Codes, style: FigureStyle = PLAIN) -> Figure:
                 mark = "o" if ours else ".-" if ladder else "x"
                 label = code.title if axis is axes[0] and ours is not ladder else None
                 axis.plot(*at, mark, color=colours(number_), ms=4, lw=0.8, label=label)
-        axis.set(xscale="log", yscale="log", title=scene, xlabel="time to rest [s]")
-    axes[0].set_ylabel("error [%]   ● ours   × in use")
+        axis.set(
+            xscale="log", yscale="log", title=scene, xlabel="time of a solve, or of a motion to rest [s]"
+        )
+    axes[0].set_ylabel("error at the probes [%]")
+    for mark, label in (("o", "numbers of sheetbench"), ("x", "numbers in use")):
+        axes[0].plot([], [], mark, color=DARK, ms=4, label=label)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=6.5)
     return figure

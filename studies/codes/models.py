@@ -79,7 +79,7 @@ def climb(code: str, say: Callable[[str], None]) -> None:
         rows.append(
             Trial(SCENES[0], recipe, candidate.model, *(found[k] for k in ("status", "error", "seconds")))
         )
-    write_results(code, title, licence, rows)
+    write_results(code, title, licence, rows, f"--ladder {code}")
 
 
 def stand(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:

@@ -75,11 +75,11 @@ class CodeResults:
         return found
 
 
-def write_results(code: str, title: str, licence: str, rows: Iterable[Trial]) -> Path:
-    """Write a code's file of results; where it is."""
+def write_results(code: str, title: str, licence: str, rows: Iterable[Trial], arguments: str) -> Path:
+    """Write a code's file of results; where it is. arguments: those of `study codes` that measured them."""
     machine = f"{platform.machine()}, Python {platform.python_version()}, one thread"
     date = datetime.now(UTC).date().isoformat()
-    head = CodeResults(code, title, licence, date, machine, f"sheetbench study codes {code}=PYTHON", ())
+    head = CodeResults(code, title, licence, date, machine, f"sheetbench study codes {arguments}", ())
     text = json.dumps(asdict(replace(head, rows=())), indent=1, ensure_ascii=False).removesuffix("[]\n}")
     lines = ",\n".join(f"  {json.dumps(asdict(row), ensure_ascii=False)}" for row in rows)
     path = RESULTS / f"{code}.json"

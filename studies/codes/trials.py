@@ -142,7 +142,8 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
         say(f"{code}, {name}, {recipe.name}: {found.status}, {found.error}")
         rows[name, recipe.name] = found
         kept = [rows[name, recipe.name] for name, recipe in order if (name, recipe.name) in rows]
-        write_results(code, CODES[code].title, CODES[code].licence, kept)  # what is killed leaves what it has
+        # what is killed leaves what it has
+        write_results(code, CODES[code].title, CODES[code].licence, kept, f"{code}=PYTHON")
 
 
 def _write_files(case: Reference, code: str, recipe: Recipe, folder: Path) -> CodeSetup:

@@ -46,7 +46,7 @@ def _cantilever(axis: Axes, found: MasterCurves) -> None:
         mark, colour = "s" if model.startswith("shell") else "o", SERIES[number % len(SERIES)]
         axis.plot([d.load for d in own], [d.found for d in own], mark, color=colour, label=model, **HOLLOW)
     _codes(axis, found, "cantilever", lambda tip: tip[1] / (1.0 + tip[0]))
-    axis.set(xscale="log", yscale="log", xlabel="Γ = ρ_A g L³/B", ylabel="drop over reach H/W")
+    axis.set(xscale="log", yscale="log", xlabel=r"Γ = $\rho_A g L^3/B$", ylabel="drop over reach H/W")
 
 
 def _critical(axis: Axes, found: MasterCurves) -> None:
@@ -85,9 +85,11 @@ def _turned(axis: Axes, found: MasterCurves) -> None:
 def _codes(axis: Axes, found: MasterCurves, curve: str, *values: Way) -> None:
     for number, code in enumerate(dict.fromkeys(tip.code for tip in found.tips)):
         own = [tip for tip in found.tips if tip.code == code and tip.case.startswith(curve)]
+        if not own:
+            continue
         loads = [_load(tip.case) for tip in own] * len(values)
         shown = [value((tip.along, tip.down, tip.aside)) for value in values for tip in own]
-        colour = SERIES[(5 + number) % len(SERIES)]
+        colour = (DARK, GREY)[number % 2]  # other than all models of ours
         axis.plot(loads, shown, CODES[number], ms=5, color=colour, label=code.split(",")[0])
 
 

@@ -26,7 +26,7 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import spec_of
 from comparisons.scoring.reference import references
 from sheetbench.answers.answer import Answer
-from sheetbench.answers.report import Picture
+from sheetbench.answers.report import Picture, drawn_from
 from sheetbench.answers.solution import Solution
 from sheetbench.answers.table import Column, Table
 from sheetbench.scenes import Scene
@@ -165,7 +165,11 @@ class MasterCurves(Answer):
         )
 
     def figures(self) -> tuple[Picture, ...]:
-        return (Picture("master-curves", "studies.master_curves.figure:compose", (self,)),)
+        return (
+            Picture(
+                "master-curves", "studies.master_curves.figure:compose", (self,), drawn_from(self.tables())
+            ),
+        )
 
     def document(self) -> dict[str, Any]:
         return {

@@ -35,10 +35,10 @@ def of_lattices(found: Rubber, style: FigureStyle = PLAIN) -> Figure:
     axes[2].plot(stretch, error, ".-", ms=4, lw=1)
     blown = f"blown up ({found.constants[0].material})"
     for axis, title in zip(axes, ("pulled", "hung", blown), strict=True):
-        axis.axhspan(-2.0, 2.0, color="0.9", zorder=0)
-        axis.set(title=title, xlabel="largest stretch [%]")
+        axis.axhspan(-2.0, 2.0, color="0.9", zorder=0, label="within 2 %")
+        axis.set(title=title, xlabel="largest strain [%]")
     axes[0].set_ylabel("error of a linear lattice [%]")
-    drawn.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5, frameon=False)
+    drawn.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False)
     return drawn
 
 

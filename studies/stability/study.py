@@ -181,9 +181,10 @@ class StabilityMaps(Answer):
     def figures(self) -> list[Picture]:
         each = [one for one in self.maps if len({row["study"] for row in one.rows}) > 1]
         verb = "comparisons.stability.figure:compose"
-        drawn = [Picture(f"stability-{one.scene.name}", verb, (one,)) for one in each]
+        drawn = [Picture(f"stability-{one.scene.name}", verb, (one,), one.result()) for one in each]
         clamps = {t: one for one in self.maps for t in TURNS if one.scene.name == bent(t).name}
-        bends = [Picture("bent-clamps", f"{__name__}:of_clamps", (clamps,))] if clamps else []
+        said = "; ".join(f"{turns:g} of a circle: {one.result()}" for turns, one in clamps.items())
+        bends = [Picture("bent-clamps", f"{__name__}:of_clamps", (clamps,), said)] if clamps else []
         return [*drawn, *bends]
 
     def complaints(self) -> list[str]:

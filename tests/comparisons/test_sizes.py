@@ -122,6 +122,17 @@ def test_every_candidate_is_looked_at_before_the_first_run(store, monkeypatch):
         tradeoff(scenes.load(SCENE), [spec_of("shell", {"elements": 64})], **few)
 
 
+def test_modes_take_more_than_statics_and_state_spaces_are_dense(monkeypatch):
+    shell = of_reference("shell", (16, 16)).memory
+    room(monkeypatch, 1.3 * shell)
+    sb.solve(SCENE, "shell", elements=16)
+    with pytest.raises(BadInput, match=r"shell 16x16: .* --elements 1\d would fit"):
+        sb.modes(SCENE, grid=3, elements=16)
+    room(monkeypatch, GB // 10)
+    with pytest.raises(BadInput, match=r"3 072 states: .* 226 MB .*; --state-space 1\d{3} would fit"):
+        sb.modes(SCENE, grid=17, state_space=0)
+
+
 MOVED = "--duration 0.004 --lumped"
 LINES = [SMALL[name] for name in ("compare", "compare motion", "identify", "modes", "simulate")]
 MORE = [SMALL[name] for name in ("tradeoff", "tradeoff tolerance", "stability")]

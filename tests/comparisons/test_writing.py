@@ -1,6 +1,7 @@
 """Files of results are whole or absent, have one writer, and say in a line where they cannot be written."""
 
 import errno
+import json
 import os
 import subprocess
 import sys
@@ -13,7 +14,7 @@ from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import folder
 from sheetbench.answers.report import Report
 from sheetbench.files import require_file, whole
-from sheetbench.scenes import BadInput
+from sheetbench.scenes import BadInput, load
 
 
 def test_a_file_is_whole_or_as_it_was(tmp_path):
@@ -117,3 +118,37 @@ def test_overwriting_removes_runs_that_stream_to_folders_in_a_folder(tmp_path):
     (runs / "link").symlink_to(victim)
     again = Folder(out, "compare", ["sheetbench", "compare"], overwrite=True)
     assert not again.reserve("runs/").exists() and (victim / "mine.csv").exists()
+
+
+def test_a_file_that_no_run_wrote_is_replaced_only_on_request(tmp_path):
+    def write(text, **settings):
+        Folder(tmp_path, "check", ["sheetbench", "check"], **settings).write(
+            "check.md", lambda path: path.write_text(text)
+        )
+
+    mine = tmp_path / "check.md"
+    mine.write_text("mine")
+    with pytest.raises(BadInput, match="not of a run here; move it, or --overwrite"):
+        write("ours")
+    assert mine.read_text() == "mine"
+    write("ours", overwrite=True)
+    write("again")
+    assert mine.read_text() == "again"
+
+
+def test_a_new_scene_is_whole_or_not_there(tmp_path, capsys):
+    (tmp_path / "scene.schema.json").mkdir()
+    assert run("new", str(tmp_path / "s.toml")) == 2
+    assert "scene.schema.json: cannot be written" in one_line(capsys)
+    assert not (tmp_path / "s.toml").exists()
+
+
+def test_names_that_are_no_utf_8_are_names_too(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name = os.fsdecode(b"q\xff")
+    load("one-edge-clamped").save(f"{name}.toml")
+    for words in (("check", f"{name}.toml", "--out", name), ("calibrate", f"{name}.toml", "--export", "a")):
+        monkeypatch.setattr(sys, "argv", ["sheetbench", *words])
+        assert run(*words, "--no-pictures") == run(*words, "--no-pictures") == 0
+        manifest = json.loads((Path(words[-1]) / "manifest.json").read_text(encoding="utf-8"))
+        assert manifest["command"] == ["sheetbench", *words]

@@ -70,6 +70,8 @@ def stumble(over: str) -> dict[str, Any]:
         int("not a number")
     if over == "type":
         len(3)  # type: ignore[arg-type]
+    if over == "memory":
+        raise MemoryError("9 GiB")
     np.linalg.inv(np.zeros((2, 2)))
     return {}
 

@@ -8,6 +8,7 @@ none. It imports nothing of ours, so that it starts within a fifth of a second.
 """
 
 import sys
+import warnings
 from contextlib import redirect_stderr, redirect_stdout
 from io import BytesIO, StringIO
 from pathlib import Path
@@ -59,6 +60,7 @@ def _line(text: str) -> str:
 
 
 if __name__ == "__main__":
+    warnings.simplefilter("ignore")  # they would stand before the reason
     try:
         archive = BytesIO()
         np.savez(archive, **read(Path(sys.argv[1]), sys.argv[2]))  # type: ignore[arg-type]

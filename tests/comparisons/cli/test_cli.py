@@ -103,6 +103,15 @@ def test_a_fault_of_ours_is_not_passed_off_as_bad_input(fault, monkeypatch, caps
     assert "please report it" in request
 
 
+def test_what_takes_more_memory_than_there_is_is_said_in_a_line(monkeypatch, capsys):
+    def fill(*_, **__):
+        raise MemoryError("Unable to allocate 9 GiB")
+
+    monkeypatch.setattr(table, "solve", fill)
+    assert run("compare", "two-edges-clamped", "--quiet") == 2
+    assert one_line(capsys).startswith("sheetbench: not enough memory: Unable to allocate 9 GiB; take fewer")
+
+
 @pytest.mark.usefixtures("undrawn")
 def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(quick, tmp_path, capsys):
     scene = scenes.load("two-edges-clamped")
@@ -118,14 +127,15 @@ def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(quic
     assert (tmp_path / "lumped.vtu").exists()
 
 
-def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path):
+def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path, capsys):
     def answer(model, name=""):
         if model.spec.model == "shell":
             raise KeyboardInterrupt
         return fake_solutions.solution(model.scene, name)
 
     monkeypatch.setattr(table, "solve", answer)
-    assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) != 0
+    assert run("compare", "two-edges-clamped", "--out", str(tmp_path)) == interruption.STATUS
+    assert f"files written so far are in {tmp_path}" in capsys.readouterr().err
     assert {path.name for path in tmp_path.iterdir()} == {"lumped.vtu", "manifest.json"}
     (record,) = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))["runs"].values()
     assert record["files"] == ["lumped.vtu"] and not record["finished"]

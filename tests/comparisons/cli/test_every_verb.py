@@ -127,6 +127,17 @@ def test_an_answer_that_is_none_is_a_document_too(name, here, capsys):
     assert name != "modes state-space" or "no linear form about the equilibrium" in said.err
 
 
+OF_A_SCENE = [name for name, line in SMALL.items() if not OTHER.keys().isdisjoint(line.split())]
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", OF_A_SCENE)
+@pytest.mark.parametrize("scene", catalogue())
+def test_every_verb_takes_every_scene_of_the_catalogue(scene, name, here, ends):
+    """Or refuses it in a line."""
+    ends(*(scene if word in OTHER else word for word in SMALL[name].split()), "--json")
+
+
 def test_no_pictures_leaves_out_every_picture(here, monkeypatch):
     """Where the answer is written, for all verbs."""
     drawn = []

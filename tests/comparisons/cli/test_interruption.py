@@ -30,7 +30,7 @@ STABILITY = ["stability", "one-edge-clamped", "--vary", "load", "--workers", "1"
 
 @pytest.mark.sweep
 @pytest.mark.parametrize(("code", "arguments", "begun", "left"), [
-    (DEAF, COMPARE, "solving", "files written so far are in kept"),
+    (DEAF, COMPARE, "solving", "nothing was kept"),
     (COMMAND, SIMULATE, "of 500 s", "the same command goes on"),
     (COMMAND, TRADEOFF, "0/", "the same command goes on"),
     pytest.param(LINGERS, STABILITY, "0/", "", marks=pytest.mark.nightly),
@@ -48,3 +48,12 @@ def test_a_long_command_is_interrupted(tmp_path, monkeypatch, code, arguments, b
     assert terminal.end() == interruption.STATUS
     assert code is LINGERS or f"interrupted; {left}" in terminal.shown
     assert "Traceback" not in terminal.shown and "Error" not in terminal.shown
+
+
+@pytest.mark.sweep
+def test_an_interrupt_of_a_command_that_has_ended_changes_nothing(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    terminal = Terminal(LINGERS, "check", "two-edges-clamped")
+    terminal.wait_for("clearing up")
+    terminal.press(CTRL_C)
+    assert terminal.end() == 0 and "Traceback" not in terminal.shown

@@ -13,6 +13,7 @@ from comparisons.codes.cell import MESHES, Cell, cell_of
 from comparisons.codes.cell_moduli import parameters_of
 from comparisons.codes.coefficients import limit_error, moduli_of, nearest
 from comparisons.codes.table import CODES
+from comparisons.models.context import running
 from lumped import moduli
 from lumped.lattice import STEPS
 from sheetbench.errors import BadInput
@@ -148,6 +149,13 @@ def test_what_is_no_cell_is_refused_with_its_file_or_name(tmp_path, capsys, text
     assert run("calibrate", SCENE.name, "--cell", str(file)) == 2
     line = one_line(capsys)
     assert reason in line and "cell" in line
+
+
+def test_every_shell_of_a_search_is_told():
+    told = []
+    with running(progress=told.append):
+        limit_error(SCENE, moduli_of(cell_of("equilateral", 0.02, 0.0), UNIT), elements=2)
+    assert told == [f"solving shell, 2 elements along the shorter side: no. {n} …" for n in (1, 2)]
 
 
 def test_a_mesh_that_is_not_there_and_a_foreign_coefficient_are_refused():

@@ -8,20 +8,25 @@ import matplotlib
 import numpy as np
 import pytest
 from commands import run
-from fake_solutions import history
+from fake_solutions import history, solution
 from matplotlib.figure import Figure
 
+from comparisons.comparison import figure as comparing
+from comparisons.comparison.answer import Comparison
 from comparisons.models.check import check
 from comparisons.models.spec import Lattice
 from comparisons.modes import figure as swinging
 from comparisons.modes.spectra import spectra
+from comparisons.pictures import offscreen
 from comparisons.pictures.labels import place_labels
 from comparisons.pictures.plan import edge_ends, held_lines, load_arrows, plan_lines, plan_mesh, rims
+from comparisons.pictures.stage import Stage
 from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench.answers import history_figure as moving
+from sheetbench.answers import style
 from sheetbench.answers.figure_style import PLAIN, WIDTHS, FigureStyle, parse_figure
 from sheetbench.answers.style import STYLE, plain, save
 from sheetbench.errors import BadInput
@@ -179,3 +184,23 @@ def test_the_option(tmp_path, capsys):
     assert f'width="{72.0 * WIDTHS["single"]:f}pt"' in (out / "modes.svg").read_text(encoding="utf-8")
     assert f"/MediaBox [ 0 0 {72.0 * WIDTHS['double']:.8f}".encode() in (out / "modes.pdf").read_bytes()
     capsys.readouterr()
+
+
+@pytest.mark.skipif(bool(offscreen.why_not()), reason="needs to draw off screen")
+def test_a_comparison_of_a_sheet_that_hangs_low_fits_a_column(monkeypatch):
+    monkeypatch.setattr(style, "PIXELS", 60)
+    found = Comparison(SCENE, tuple(solution(SCENE, name, -0.5) for name in ("lumped", "shell")))
+    with matplotlib.rc_context(STYLE):
+        drawn = comparing.compose(found, *parse_figure("pdf:single"))
+    assert 25.4 * drawn.get_figheight() < 220.0  # mm of a page
+    assert comparing.DIFFERENCES(1.0)[0] > 0.2  # names of probes are read on it
+
+
+@pytest.mark.skipif(bool(offscreen.why_not()), reason="needs to draw off screen")
+def test_the_camera_sees_an_obstacle_and_no_box_about_it():
+    scene = load("napkin-on-ball")
+    stage = Stage(scene, solution(scene), 1.0, 60)
+    (ball,) = scene.obstacles
+    from_middle = np.linalg.norm(stage.obstacles() - np.array(ball.position), axis=1)
+    stage.plotter.close()
+    assert from_middle == pytest.approx(ball.radius, rel=1e-3)

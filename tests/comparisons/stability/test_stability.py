@@ -6,10 +6,13 @@ from campaigns import Here
 
 import lumped
 from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice
-from comparisons.stability import extremes
+from comparisons.stability import extremes, tiles
 from comparisons.stability.answer import limits, summary
 from comparisons.stability.extremes import scaled, stability
+from comparisons.sweep import task
+from sheetbench.answers.solution import Status
 from sheetbench.scenes import PointLoad, Pressure, load
 from studies.stability import limit
 
@@ -52,6 +55,22 @@ def test_a_sheet_that_cannot_be_is_a_refused_cell(store, monkeypatch):
     found = varied(store, "slenderness")
     assert {row["status"] for row in found.rows} == {"refused"} and found.succeeded
     assert all("thickness" in row["message"] for row in found.rows)
+
+
+def test_a_fault_of_the_program_is_no_verdict_on_a_model(store, monkeypatch):
+    def answer(model):
+        if model.spec.model == "lumped":
+            raise ValueError("wrong dimensions")
+        return solve(model)
+
+    monkeypatch.setattr(task, "answer", answer)
+    monkeypatch.setitem(extremes.FACTORS, "load", (1.0,))
+    found = varied(store, "load")
+    assert {row[1]: row[2:6] for row in summary(found).rows}["lumped"] == ("–",) * 4
+    assert "a fault of the program: ValueError: wrong dimensions" in found.complaints()[0]
+    assert found.result() == "1 of 2 cells hold" and not found.succeeded
+    looks = [tiles.look(tiles.outcome({"status": status})) for status in [*Status, "refused", "lost"]]
+    assert all(one["facecolor"] != "#ffffff" or one["hatch"] for one in looks)  # white: nothing was run
 
 
 def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):

@@ -76,6 +76,11 @@ def test_a_run_that_fails_is_a_row_and_a_fault_not_filed_as_the_users_mistake(st
         assert "in stumble" in outcome.row["traceback"]
 
 
+def test_what_has_not_enough_memory_is_lost_and_no_fault(store):
+    (found,) = carry_out([task("stumble", over="memory")], store, pool=Here)
+    assert (found.status, found.row) == ("lost", {}) and found.message.startswith("not enough memory: ")
+
+
 def test_an_interrupt_within_compiled_code_is_no_outcome(store):
     with pytest.raises(KeyboardInterrupt):
         carry_out([task("interrupted")], store, pool=Here)

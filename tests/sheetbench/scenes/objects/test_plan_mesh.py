@@ -152,6 +152,7 @@ $Elements
 1 2 0 2000000000 2000000000 2000000000
 $EndElements
 """
+STL = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid a\n"
 KNOWN = r"a mesh file's name ends in one of \.bdf, .*, \.vtu"
 
 
@@ -169,6 +170,7 @@ KNOWN = r"a mesh file's name ends in one of \.bdf, .*, \.vtu"
         ("m.obj", OBJ + "f 1 2 3 99\n", "a quad has point 98, counted from 0; the file has 4 points"),
         ("m.obj", OBJ + "f 1 2 3 -1\n", "a quad has point -2, counted from 0"),
         ("m.obj", OBJ.replace(".08", "nan") + "f 1 2 3 4\n", "a corner of a quad is no finite number"),
+        ("m.stl", STL, "meshio cannot read it: Error"),  # after a warning of NumPy's
         ("m.off", OFF + "3 0 1 -3\n", "a triangle has point -3"),
         ("m.off", OFF + "3 0 1 999999999999\n", "a triangle has point 999999999999"),
     ],

@@ -158,7 +158,10 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
             source.of.last_factor * np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
             for part in (source.strain, source.curvature)
         )
-        parts = list[str]()
+        parts, pretension = list[str](), getattr(source.of, "pretension", None)
+        if pretension:  # of which strain is each model's own to say
+            x, y = (source.of.last_factor * pull for pull in pretension)
+            parts, strain = [f"a tension of {x:.4g} N/m along x and {y:.4g} N/m along y"], np.zeros(3)
         for e, k, axis in zip(strain, curvature, "xy", strict=False):
             way, towards = "longer" if e > 0.0 else "shorter", "+z" if k > 0.0 else "−z"
             parts += [f"{100.0 * abs(e):.3g} % {way} along {axis}"] if e else []
@@ -179,7 +182,7 @@ def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
             if isinstance(source.of, Temperature):
                 own = expansion_of(scene, number) * (source.of.change + z * source.of.gradient)
             sums.append(-source.of.last_factor * (plane_stress(ply) @ own)[:2])
-    return float(np.min(sums)), float(np.max(sums))
+    return float(np.min(sums)) + 0.0, float(np.max(sums)) + 0.0
 
 
 def _payload(payload: Mass, sheet: Sheet) -> str:

@@ -224,8 +224,10 @@ def _support(support: AnySupport, sheet: Sheet) -> str:
                 f"clamped, turned by {abs(tilt):g} rad ({degrees(abs(tilt)):.3g}°): the sheet starts off "
                 f"{'downwards' if tilt > 0.0 else 'upwards'}"
             )
+        case Hinged(twist="held"):
+            held = "hinged: the mid-surface held, free to turn about the edge alone (hard simple support)"
         case Hinged():
-            held = "hinged: the mid-surface held, free to turn"
+            held = "hinged: the mid-surface held, free to turn (soft simple support)"
         case Held() | Point():
             free = [axis for axis in "xyz" if axis not in support.components]
             slides = f", free to move along {' and '.join(free)}" if free else ""

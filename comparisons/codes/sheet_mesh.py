@@ -175,8 +175,6 @@ def refusal(scene: Scene) -> str:
         return "their clamps stand upright, and supports stay where they are"
     if scene.shaped_by:
         return f"{scene.shaped_by}: their meshes are of whole rectangles"
-    if any(payload.inertia is not None for payload in scene.masses):
-        return "mass.inertia: their vertices are points without moments of inertia"
     if any(
         not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
         for load in scene.loads

@@ -186,13 +186,12 @@ def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
 
 
 def _payload(payload: Mass, sheet: Sheet) -> str:
-    if payload.at is None:
-        return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}"
+    if payload.at is not None:
+        return f"{1e3 * payload.mass:.3g} g at {_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
     x, y, z = (1e7 * moment for moment in payload.inertia or (0.0, 0.0, 0.0))
     turning = f", moments of inertia {x:.3g} and {y:.3g} g·cm² about x and y" if x or y else ""
     turning += ", of that about z, the sheet's normal, nothing is taken" if z else ""
-    place = f"{_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
-    return f"{1e3 * payload.mass:.3g} g at {place}{turning}"
+    return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}{turning}"
 
 
 def _weight(scene: SceneFields, mass: float) -> str:

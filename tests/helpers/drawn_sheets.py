@@ -90,6 +90,8 @@ def furnish(seed: int) -> Document:
     """A drawn sheet with some of what else a scene may have: natural strain or pretension, heat, held points,
     tilted and sliding edges, supports that move, forces, payloads, obstacles."""
     pen, scene = _Pen(10_000 + seed, True), draw(seed, seed % 2 > 0)
+    for patch in scene.get("patches", []) if seed % 4 < 2 else []:  # as thick all over, which the solid takes
+        patch["young"] = patch.pop("thickness", 0.0) * 3e9 or patch["young"]
     lx, ly, h = (scene["sheet"][key] for key in ("length_x", "length_y", "thickness"))
     whole = "outline" not in scene["sheet"] and "cutouts" not in scene
 

@@ -43,6 +43,13 @@ def test_lines_are_moved_to_places(places, on_lines):
     assert np.array_equal(y.at, even[1].at)
 
 
+def test_lines_grow_with_the_sheet():
+    """All of the growth was the last cell's."""
+    grown, grading = SHEET.replace(length_x=0.9 * SHEET.length_x), through(((0.035, 0.06), ()), SHEET.lengths)
+    drawn, at_rest = (grid_lines(each, (17, 5, 2), grading)[0] for each in (SHEET, grown))
+    assert at_rest.widths == pytest.approx(0.9 * drawn.widths, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     "places",
     [

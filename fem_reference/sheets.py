@@ -31,7 +31,6 @@ GRADINGS = ("edges", "uniform")
 def plate(
     scene: Scene,
     elements: Elements = 16,
-    hard_edges: tuple[str, ...] = (),
     section: Section | None = None,
     graded: bool | None = None,
     *,
@@ -40,19 +39,15 @@ def plate(
 ) -> DiscretePlate:
     """Return the discrete plate on elements along the shorter side (near-square), or (nx, ny).
 
-    graded: finer towards the edges, or equal elements; unless given, where an edge lets twist go. hard_edges:
-    edges on which the tilt along the edge is held as well. A hinged support is soft; with its edge hard it is
-    the simple support of the published Mindlin benchmarks. section: stiffness per width, from material and
-    thickness unless given; reach: of the grading (`mesh.mesh_of`).
+    graded: finer towards the edges, or equal elements; unless given, where an edge lets twist go. section:
+    stiffness per width, from material and thickness unless given; reach: of the grading (`mesh.mesh_of`).
     """
     from fem_reference.plate.discrete import DiscretePlate
 
     if graded is None:
-        graded = not scene.twisting_edges() <= set(hard_edges)
-    made = DiscretePlate(mesh_of(scene, elements, graded, reach), scene, section, hard_edges, moving)
-    return made.named(
-        elements, graded=graded, hard_edges=list(hard_edges) or None, section=section and section._asdict()
-    )
+        graded = bool(scene.twisting_edges())
+    made = DiscretePlate(mesh_of(scene, elements, graded, reach), scene, section, moving)
+    return made.named(elements, graded=graded, section=section and section._asdict())
 
 
 def shell(

@@ -16,6 +16,7 @@ from lumped.fitting.methods import CALIBRATIONS, calibrate
 from lumped.footprint import footprint
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
+from lumped.pretension import calibrated_at_rest
 from lumped.sections import require_alike, sections_of
 from lumped.sensitivity import sensitivity
 from lumped.statics.buckling import buckling
@@ -53,6 +54,7 @@ __all__ = [
     "buckling",
     "build_problem",
     "calibrate",
+    "calibrated_at_rest",
     "describe",
     "explicit_limit",
     "footprint",

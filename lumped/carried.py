@@ -2,12 +2,13 @@
 
 Each mass of the lattice takes of a payload at a point the share that it would take of a force there:
 bilinearly among the columns of the cell, equally among the layers, so that the mass and its first moment are
-those of the payload; of one spread over a part of the sheet, as an area load is shared. A body's moments of
-inertia J act on the rate of the director at its point, the columns' in the same shares, d = Bᵀ x:
+those of the payload; of one spread over a part of the sheet, as an area load is shared. The moments of
+inertia J of such a body act on the rates of the columns' directors, d = bᵀ x of a column's layers x, each by
+its share s of the area:
 
-    M = B Bᵀ ⊗ J
+    M = s b bᵀ ⊗ J
 
-which neighbours share; its rows add up to zero, so that it has no weight.
+which the layers share; its rows add up to zero, so that it has no weight.
 """
 
 from __future__ import annotations
@@ -34,15 +35,16 @@ def point_masses(scene: Scene, lattice: Lattice) -> np.ndarray:
 
 
 def rotary_masses(scene: Scene, lattice: Lattice) -> sp.bsr_array:
-    """What neighbours share for the bodies' moments of inertia, (3 n, 3 n) [kg] in blocks of 3 × 3."""
+    """Return what layers share for the bodies' moments of inertia, (3 n, 3 n) [kg] in blocks of 3 × 3."""
     count, layers = lattice.mass_count, lattice.grid[2]
     heights = lattice.positions[:layers, 2]
-    lever = np.tile(layers * heights / (heights @ heights), count // layers)
+    lever = heights / (heights @ heights)
     total = sp.bsr_array((3 * count, 3 * count), blocksize=(3, 3))
     for payload in scene.masses:
-        if payload.at is not None and payload.inertia is not None:
-            director = sp.csc_array((lever * _shares(lattice, np.array(payload.at)))[:, None])
-            total = total + sp.kron(director @ director.T, np.diag(payload.of_director), format="bsr")
+        if payload.inertia is not None:
+            area = areas_of_masses(scene, lattice, payload.where).reshape(-1, layers).sum(axis=1)
+            directors = sp.kron(sp.diags_array(area / area.sum()), np.outer(lever, lever))
+            total = total + sp.kron(directors, np.diag(payload.of_director), format="bsr")
     return total
 
 

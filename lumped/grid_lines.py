@@ -72,7 +72,10 @@ def grid_lines(sheet: Sheet, grid: Grid, grading: Graded = 0.0) -> tuple[Lines, 
     for axis in (0, 1):
         ends = grading.ends(axis) if isinstance(grading, Grading) else (True, True)
         found = _lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends)
-        lines.append(_through(found, grading.places[axis]) if isinstance(grading, Grading) else found)
+        if isinstance(grading, Grading):
+            grown = sheet.lengths[axis] / grading.sides[axis]
+            found = _through(found, [grown * place for place in grading.places[axis]])
+        lines.append(found)
     return lines[0], lines[1]
 
 

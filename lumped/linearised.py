@@ -50,10 +50,10 @@ from sheetbench.scenes import (
     Curved,
     Scene,
     Symmetric,
-    holds_director,
     require_no_branches,
     require_static,
     scene_of,
+    tilt_axes,
 )
 from sheetbench.scenes.objects.supports import named
 
@@ -205,7 +205,7 @@ def _inputs(
         for axis in () if isinstance(support, Symmetric) else axes:
             place, row = np.zeros_like(u), rows.ravel()
             free = ~problem.constraints.fixed[row, axis]
-            place[row if holds_director(support) else row[free], axis] = 1.0
+            place[row if axis in tilt_axes(support) else row[free], axis] = 1.0
             moved = place.ravel()
             columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
     bent = [of for of in scene.natural_states if of != "temperature"]

@@ -23,13 +23,13 @@ import numpy as np
 
 from lumped.calibration import MAKERS, Calibration
 from lumped.mid_surface import MidSurface
+from lumped.pretension import calibrated_at_rest
 from lumped.sections import sections_of
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene, require_static
-from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.meaning.parameters import FIBRES, parameter, put
 
 STEP = 1e-4  # of a parameter, for the difference of residuals
@@ -124,4 +124,5 @@ def _changed(
     if (cells := sections_of(changed, calibration.grid, calibration.grading)) is not None:
         own["cells"] = cells
     make = MAKERS[calibration.method]
-    return changed, make(sheet_at_rest(changed), changed.material, calibration.grid, **own)
+    grid, material = calibration.grid, changed.material
+    return changed, calibrated_at_rest(changed, lambda sheet: make(sheet, material, grid, **own))

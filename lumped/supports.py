@@ -1,7 +1,8 @@
 """Supports as linear constraints on the masses: u = T q + g(λ), q the free unknowns.
 
 clamped  every layer of the edge's row held, on the director of the clamp
-hinged   the mean of the layers held: the last layer is minus the sum of the others
+hinged   the mean of the layers held: the last layer is minus the sum of the others; with the twist held
+         every layer's component along the edge
 held     the mean of the layers held in the named components
 curved   every layer held on the director of the rod
 symmetric  the component across the edge held, in every layer
@@ -27,7 +28,7 @@ from lumped.pattern import SHARED_UP_TO, MassPattern
 from sheetbench.numerics.cache import cached, frozen
 from sheetbench.numerics.reduced_system import ReducedSystem, reduced
 from sheetbench.numerics.sparse_products import Rows, csr_arrays, product
-from sheetbench.scenes import Scene, Sheet, Support, held_axes, holds_tilt
+from sheetbench.scenes import Scene, Sheet, Support, held_axes, tilt_axes
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted, shifts
 from sheetbench.scenes.objects.supports import named
 
@@ -133,10 +134,8 @@ def _constrain(
         masses = masses[~moved[masses[:, 0]]]
         axes = held_axes(support)
         holders[name] = (masses, axes)
-        if holds_tilt(support):
-            fixed[masses.reshape(-1, 1), list(axes)] = True
-        else:
-            dependent[masses[:, -1:], list(axes)] = True
+        fixed[masses.reshape(-1, 1), list(tilt_axes(support))] = True
+        dependent[masses[:, -1:], list(axes)] = True
     fixed[lattice.absent_masses] = True
     last, along = np.nonzero(dependent & ~fixed)
     layers, held = last[:, None] + np.arange(1 - lattice.grid[2], 1), fixed.copy()

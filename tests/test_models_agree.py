@@ -6,7 +6,7 @@ from cases import relative, sheet
 
 from sheetbench.answers.solution import Status
 from sheetbench.face import solve
-from sheetbench.scenes import Material
+from sheetbench.scenes import EDGES, Hinged, Material, Pressure
 
 # E1, E2, G12 [MPa], degrees, length and width [mm] of a sheet 1 mm thick; errors in percent with 5, 9 and 17
 # masses across, against a shell of 16 elements across
@@ -69,3 +69,23 @@ def test_a_stretched_rubber_bends_as_what_it_has_thinned_to():
     assert deflection(solve(scene, "shell", elements=6)) == pytest.approx(0.9088, rel=4e-3)
     assert lattice(layer_distance=thickness / (3.0 * stretch) ** 0.5) == pytest.approx(0.9088, rel=6e-3)
     assert lattice() * stretch == pytest.approx(0.9088, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    "model", ["lumped:grid=9", "plate:elements=6", "shell:elements=6", "solid:elements=6"]
+)
+def test_a_square_hinged_with_its_twist_held_is_naviers_plate(model):
+    """w D/qa⁴ = 0.00406235 of Kirchhoff's plate (Timoshenko & Woinowsky-Krieger), and by Reissner's shear
+    0.0737 q a²/(5/6 G h) more; without the twist 0.85 h/a more, four per cent."""
+    side, h, poisson, load = 0.1, 0.005, 0.3, 1e-3
+    bending, shear = 1e6 * h**3 / (12.0 * (1.0 - poisson**2)), 5.0 / 6.0 * 1e6 / (2.0 * 1.3) * h
+    exact = 0.00406235 * load * side**4 / bending + 0.0736713 * load * side**2 / shear
+    edges = [Hinged(edge, twist="held") for edge in EDGES]
+    hard = sheet(side, side, h, 1e6, poisson, supports=edges, loads=[Pressure(load)])
+    found, soft = (
+        solve(each, model).displacement([(side / 2.0, side / 2.0)])[0, 2]
+        for each in (hard, hard.replace(supports=[Hinged(edge) for edge in EDGES]))
+    )
+    second_order = 0.025 if model.startswith("lumped") else 3e-3
+    assert found == pytest.approx(exact, rel=second_order)
+    assert soft / found == pytest.approx(1.0 + 0.85 * h / side, abs=0.01)

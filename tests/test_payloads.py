@@ -25,8 +25,16 @@ def strip(*masses, young=YOUNG, **more):
     return sheet(LENGTH, WIDTH, THICK, **given)
 
 
-def body(mass=TIP, moments=None, at=(LENGTH, WIDTH / 2.0)):
-    return {"at": at, "mass": mass, **({"inertia": moments} if moments else {})}
+END = {"rectangle": {"x": (0.95 * LENGTH, LENGTH), "y": (0.0, WIDTH)}}
+
+
+def body(mass=TIP, at=(LENGTH, WIDTH / 2.0)):
+    return {"at": at, "mass": mass}
+
+
+def turning(moments, where=END):
+    """Moments of inertia of a body that weighs nothing."""
+    return {"where": where, "mass": 1e-9, "inertia": moments}
 
 
 def frequencies(scene, model, count=1, **more):
@@ -53,21 +61,33 @@ def closed_form(mass, moment=0.0):
 @pytest.mark.parametrize("moment", [0.0, 1e-5])
 def test_a_strip_with_a_body_at_its_tip_has_the_beams_first_frequency(model, moment):
     """The moment of inertia takes 3 % off it; at a point the width of the strip gives way a little."""
-    found = frequencies(strip(body(moments=(0.0, moment, 0.0) if moment else None)), model)[0]
+    found = frequencies(strip(body(), turning((0.0, moment, 0.0))), model)[0]
     assert found == pytest.approx(closed_form(TIP, moment), rel=1e-3)
     assert closed_form(TIP, 1e-5) < 0.975 * closed_form(TIP)
 
 
 def test_a_body_that_turns_about_the_strip_slows_its_twist_alone():
     """Of the fixed rod with a third of its own inertia and the body's at the end, G J/L the spring."""
-    plain, turning = (frequencies(strip(body(moments=m)), "shell", 4) for m in (None, (2e-6, 0.0, 0.0)))
+    slow = strip(body(), turning((2e-6, 0.0, 0.0)))
+    plain, turned = (fem_reference.modes(each, "shell", 4, 4).frequencies for each in (strip(body()), slow))
     spring = YOUNG / 2.0 * WIDTH * THICK**3 / 3.0 * (1.0 - 0.63 * THICK / WIDTH) / LENGTH
     whole = 2e-6 + BEAM * (WIDTH**2 + THICK**2) / 36.0
-    twist = turning[np.argmin(np.abs(turning[:, None] - plain).min(axis=1) < 1e-4 * turning)]
-    assert turning[0] == pytest.approx(plain[0], rel=1e-6)
+    twist = turned[np.argmin(np.abs(turned[:, None] - plain).min(axis=1) < 1e-4 * turned)]
+    assert turned[0] == pytest.approx(plain[0], rel=1e-6)
     assert twist == pytest.approx(np.sqrt(spring / whole) / (2.0 * np.pi), rel=0.05)
-    fine = lumped.modes(strip(body(moments=(2e-6, 0.0, 0.0))), calibrated(strip(), (41, 9)), 4).frequencies
-    assert np.allclose(fine, turning, rtol=0.02)
+    fine = lumped.modes(slow, calibrated(strip(), (41, 9)), 4).frequencies
+    assert np.allclose(fine, turned, rtol=0.02)
+
+
+def test_a_body_that_turns_with_a_part_has_a_frequency_that_converges():
+    """At a point the fourth fell without end, 5.09, 5.07, 4.86 Hz."""
+    where = {"rectangle": {"x": (0.084, 0.096), "y": (0.0, 0.012)}}
+    scene = sheet(0.15, 0.012, 1.5e-3, 4e6, 0.0, 1100.0, masses=[turning((1e-9, 2e-6, 0.0), where)])
+    scene = scene.replace(masses=[*scene.masses, {"at": (0.09, 0.006), "mass": 4e-3}])
+    coarse, fine = (fem_reference.modes(scene, "shell", n, count=4).frequencies for n in ((25, 2), (50, 4)))
+    assert coarse == pytest.approx(fine, rel=2e-4)
+    lattice = lumped.modes(scene, calibrated(scene, (26, 3)), 4).frequencies
+    assert lattice[[0, 1, 3]] == pytest.approx(fine[[0, 1, 3]], rel=2e-3)  # the third twists it, 2 cells wide
 
 
 RUNS = [("lumped", "midpoint"), ("lumped", "esdirk"), ("lumped", "verlet"), "plate", "shell"]
@@ -77,7 +97,7 @@ RUNS = [("lumped", "midpoint"), ("lumped", "esdirk"), ("lumped", "verlet"), "pla
 @pytest.mark.parametrize("run", RUNS, ids=str)
 def test_a_swing_keeps_its_energy_and_reaches_as_far_as_the_others(run):
     """From the flat sheet the potential energy goes into motion and springs and back; nothing else acts."""
-    scene = strip(body(moments=(2e-6, 2e-6, 1e-6)), young=2e8)
+    scene = strip(body(), turning((2e-6, 2e-6, 1e-6)), young=2e8)
     if isinstance(run, tuple):
         history = lumped.simulate(scene, calibrated(scene, (11, 3)), duration=0.2, integrator=run[1])
     else:
@@ -105,7 +125,7 @@ def test_a_mass_spread_over_a_part_is_a_patch_of_higher_density(model):
 
 
 def test_a_state_space_has_the_body_and_its_weight():
-    scene = strip(body(moments=(1e-6, 1e-6, 1e-6)), young=2e8)
+    scene = strip(body(), turning((1e-6, 1e-6, 1e-6)), young=2e8)
     own = calibrated(scene, (11, 3))
     linear = lumped.linearise(scene, own)
     about = lumped.modes(scene, own, 2, "gregory", "deformed").frequencies

@@ -169,12 +169,12 @@ def refusal(scene: Scene) -> str:
     """Why codes of triangles cannot have a scene; nothing where they can."""
     if scene.actuators or any(not isinstance(s, Clamped | Hinged) for s in scene.supports):
         return "these codes hold sheets by clamped and hinged edges only"
+    if any(isinstance(support, Hinged) and support.twist == "held" for support in scene.supports):
+        return 'twist = "held": their hinges let the twist of the edge go'
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
         return "their clamps stand upright, and supports stay where they are"
     if scene.shaped_by:
         return f"{scene.shaped_by}: their meshes are of whole rectangles"
-    if any(payload.inertia is not None for payload in scene.masses):
-        return "mass.inertia: their vertices are points without moments of inertia"
     if any(
         not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
         for load in scene.loads

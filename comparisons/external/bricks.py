@@ -33,9 +33,9 @@ from sheetbench.scenes import (
     Material,
     PointLoad,
     Scene,
-    Symmetric,
     held_axes,
     holds_director,
+    tilt_axes,
 )
 from sheetbench.scenes.meaning.composition import weights
 from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
@@ -206,9 +206,8 @@ def held(scene: Scene, bricks: Bricks) -> Held:
     ties: dict[tuple[int, int], Tie] = {}
     for support in scene.supports:
         nodes, along = bricks.supported(support), held_axes(support)
-        if isinstance(support, Symmetric):
-            fixed[nodes[:, None], along] = True
-        elif not holds_director(support):
+        if not holds_director(support):
+            fixed[nodes[:, None], tilt_axes(support)] = True
             for column in bricks.columns(nodes):
                 mean = bricks.mean(column)
                 ties |= {(int(column[0]), axis): Tie(axis, column, mean) for axis in along}

@@ -89,7 +89,10 @@ def refined(
         if not room or (len(grids) > 1 and (unknowns > CHECKED or (np.abs(foretold) <= enough).all())):
             return fit, best, foretold, grids
         settings = fit.model.settings
-        chosen = {"calibration": settings["calibration"], "grading": of_settings(settings)}
+        chosen = {
+            "calibration": settings["calibration"],
+            "grading": of_settings(settings, scene.sheet.lengths),
+        }
         halved = lattice_model(scene, replace(lattice, grid=finer, **chosen))
         context().progress(f"looking at cells half as large, {finer[0]} × {finer[1]} masses")
         on_halved = replace(fit, model=replace(halved, settings={**settings, "grid": list(finer)}))

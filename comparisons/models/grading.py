@@ -78,7 +78,7 @@ def grading_of(scene: Scene, grid: Sequence[int], lattice: Lattice) -> tuple[Gra
 def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice) -> Graded:
     """Return equal cells but for lines on the sides of shapes, where no grading is requested."""
     requested = lattice.grading is not None or not scene.shaped_by or one_size(grid, lattice)
-    return 0.0 if requested else through(sides_of_shapes(scene))
+    return 0.0 if requested else through(sides_of_shapes(scene), scene.sheet.lengths)
 
 
 def _ends_of_cells(scene: Scene, grid: Sequence[int], grading: Grading) -> str:
@@ -103,7 +103,7 @@ def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
     found = []
     if why := settings.get("grading_reason"):
         given = settings.get("grading")  # a text of a specification, None where none is given
-        shown = given if isinstance(given, str) else f"{of_settings(settings):g}"
+        shown = given if isinstance(given, str) else f"{of_settings(settings, (1.0, 1.0)):g}"
         found.append(why if given is None else f"grading {shown}: {why}")
     if why := settings.get("calibration_reason"):
         found.append(f"calibration {settings['calibration']}: {why}")

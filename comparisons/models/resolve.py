@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar, cast
 from warnings import warn
 
@@ -30,8 +30,7 @@ from sheetbench.choices import (
     method_of,
 )
 from sheetbench.errors import BadInput, Implausible, require_choice, require_effect
-from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.natural_state import sheet_at_rest
+from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.meaning.plausibility import layer_slips
 from sheetbench.scenes.objects.grid import Grid
 from sheetbench.scenes.objects.quantities import require_positive
@@ -95,10 +94,14 @@ class Resolved(Generic[S]):
 
         spec: Spec = self.spec
         assert isinstance(spec, Lattice)
-        grading = fixed(spec.grading)
         if spec.calibration is None:
-            return lumped.given(self.scene, self.grid, grading)
-        sheet, material = sheet_at_rest(self.scene), self.scene.material
+            return lumped.given(self.scene, self.grid, fixed(spec.grading))
+        return lumped.calibrated_at_rest(self.scene, partial(self._calibrated, spec, training))
+
+    def _calibrated(self, spec: Lattice, training: Sequence[Scene] | None, sheet: Sheet) -> Calibration:
+        import lumped
+
+        grading, material = fixed(spec.grading), self.scene.material
         if spec.layer_distance is not None:
             for slip in layer_slips(sheet, spec.layer_distance, "layer-distance"):
                 warn(Implausible(slip), stacklevel=2)

@@ -136,7 +136,6 @@ class Elements(Spec):
     layers: int | None = None
     clamp: str | None = None
     grading: str | None = None
-    hard_edges: tuple[str, ...] | None = None
     branch: str | None = None
 
     @property

@@ -30,10 +30,12 @@ strain law  1.3 times what Biot's and neo-Hooke's laws would move the probes by,
 clamp       0.75 |ν|/(1 − ν) h/a where an edge is clamped: a clamp holds the surface and its normal, and
             leaves the thickness free to change (docs/theory.md, section 8). One that holds the whole face
             stops the change of thickness that bending brings, within a zone of length h
+hinge       0.85 h/a where an edge is hinged and its twist free: a thin square hinged all around, of which the
+            hard simple support, Kirchhoff's, takes so much (h/a 0.01 to 0.05, ν 0.3; `twist = "held"`)
 
-Shares of the largest displacement. The clamp's part is no error of the answer to the scene as it is worded,
-but what another clamp would change; so it stands beside the others and is not added to them. Against the
-solid with either clamp, and the shell with the three laws, the bounds hold on the scenes of
+Shares of the largest displacement. The parts of clamps and hinges are no errors of the answer to the scene as
+it is worded, but what other ones would change; so they stand beside the others and are not added to them.
+Against the solid with either clamp, and the shell with the three laws, the bounds hold on the scenes of
 `tests/comparisons/sweep/test_model_error.py`, h/a from 0.013 to 0.15.
 """
 
@@ -45,18 +47,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from sheetbench.answers.solution import Solution, Status
-from sheetbench.scenes import EDGES, Clamped, Curved, Scene, Symmetric
+from sheetbench.scenes import EDGES, Clamped, Curved, Hinged, Scene, Symmetric
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.kinematics import UP, bent_or_tilted
 from sheetbench.scenes.meaning.natural_state import plies_of
 from sheetbench.scenes.objects.layers import bends_when_pulled
-from sheetbench.scenes.objects.supports import holds_director, place
+from sheetbench.scenes.objects.supports import holds_director, place, tilt_axes
 
 MODELS = ("shell", "solid")
 PARTS = ("membrane", "bending", "shear")
 SHEAR, NORMAL = 1.2, 1.3
 LAW, SECOND_ORDER = 2.3, 1.3
-CLAMP = 0.75
+CLAMP, HINGE = 0.75, 0.85
 DECAY, LEAVING = 7.498, 0.5  # per thickness; thicknesses
 ALONG = 31  # points of an edge where its rise is looked at
 
@@ -68,6 +70,7 @@ class ModelError:
     thickness: float
     strain_law: float
     clamp: float
+    hinge: float = 0.0
 
     @property
     def value(self) -> float:
@@ -81,12 +84,15 @@ class ModelError:
         if self.clamp > 0.0:
             change = f"(up to {_percent(self.clamp)})"
             sentences.append(f"not included: a clamp that also holds the thickness {change}")
+        if self.hinge > 0.0:
+            change = f"(up to {_percent(self.hinge)} less)"
+            sentences.append(f'not included: hard simple supports, twist = "held" {change}')
         return "; ".join(sentences)
 
     def as_dict(self) -> dict[str, float | dict[str, float]]:
         """For JSON."""
         parts = {"thickness": self.thickness, "strain_law": self.strain_law}
-        return {"model": self.value, "model_parts": parts, "clamp": self.clamp}
+        return {"model": self.value, "model_parts": parts, "clamp": self.clamp, "hinge": self.hinge}
 
 
 def _percent(share: float) -> str:
@@ -102,12 +108,14 @@ def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> Mod
     slenderness, poisson = scene.sheet.thickness / min(_whole(scene)), scene.material.poisson
     square = _over_length_that_bends(slenderness**2, answer.energies)
     clamped = any(isinstance(support, Clamped | Curved) for support in scene.supports)
+    soft = any(isinstance(support, Hinged) and not tilt_axes(support) for support in scene.supports)
     stated = scene.material.law is not None and answer.settings.get("law") == scene.material.law
     solid = answer.model == "solid"
     return ModelError(
         thickness=0.0 if solid else max((SHEAR + NORMAL * poisson**2) * square, _rise(scene, answer)),
         strain_law=0.0 if law_chosen or stated else _strain_law(scene, answer),
         clamp=CLAMP * abs(poisson) / (1.0 - poisson) * slenderness if clamped else 0.0,
+        hinge=HINGE * slenderness if soft else 0.0,
     )
 
 

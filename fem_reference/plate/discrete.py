@@ -18,7 +18,6 @@ Source: Hughes, The Finite Element Method (2000), ch. 5.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 from typing import ClassVar
 
@@ -34,18 +33,16 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, section_at
-from fem_reference.surface.supports import Supports
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
-from sheetbench.scenes import EDGES, Scene, outside_model
+from sheetbench.scenes import Scene, outside_model
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
 class DiscretePlate(DiscreteShell):
     """A scene's plate on any flat mesh of straight-sided quadrilaterals [m]; BadInput for folded ones.
 
-    hard_edges: edges on which the tilt along the edge is held as well; section: stiffness per width, from
-    material and thickness unless given.
+    section: stiffness per width, from material and thickness unless given.
     """
 
     model = "plate"
@@ -59,10 +56,8 @@ class DiscretePlate(DiscreteShell):
         mesh: MeshQuad,
         scene: Scene,
         section: Section | None = None,
-        hard_edges: tuple[str, ...] = (),
         moving: bool = False,
     ):
-        self._hard_edges = hard_edges
         super().__init__(mesh, scene, section, moving=moving)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:
@@ -70,12 +65,6 @@ class DiscretePlate(DiscreteShell):
         state = natural_at(self.scene, AT_GAUSS[0] @ nodes)
         made = PlateElements.build(nodes, section or section_at(self.scene, nodes))
         return made, state and state.made(_own)
-
-    def supports_of(self) -> Supports:
-        found = super().supports_of()
-        for name in self._hard_edges:
-            found.tilt[self.plan.on_boundary(name), EDGES[name].along_axis] = True
-        return replace(found, director=found.director | found.tilt.all(axis=1))
 
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright

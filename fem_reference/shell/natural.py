@@ -7,14 +7,14 @@ import numpy as np
 
 from fem_reference.shell.element import AT_SITES, BENDING, MEMBRANE, STRAINS, TABLES
 from fem_reference.surface.biquadratic import AT_GAUSS, IN_PLANE, pulled_back
-from fem_reference.surface.materials import Section, green
+from fem_reference.surface.materials import Section, green, stretched
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
 def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:
     """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest."""
-    state = natural_at(scene, AT_SITES @ nodes)
+    state = natural_at(stretched(scene), AT_SITES @ nodes)
     if state is None:
         return None
 
@@ -35,7 +35,7 @@ def sampled(nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
 def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
     """Return the section per area and strain of the sheet as drawn, of one per natural area and strain;
     corners: the elements' nodes (m, 9, 2) [m]."""
-    state = natural_at(scene, AT_GAUSS[0] @ corners)
+    state = natural_at(stretched(scene), AT_GAUSS[0] @ corners)
     if state is None or not (strain := state.at()[0]).any():
         return section
     stretch = np.eye(2) + strain

@@ -39,7 +39,7 @@ from skfem.refdom import RefHex
 
 from fem_reference.solid.materials import SolidLaw
 from fem_reference.surface.biquadratic import IN_SPACE, THREE, TYING, lagrange, pulled_back
-from fem_reference.surface.materials import green
+from fem_reference.surface.materials import green, stretched
 from sheetbench.numerics.cache import frozen
 from sheetbench.scenes import Constants, Material, Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
@@ -243,6 +243,7 @@ def at_rest(plain: Bricks, scene: Scene) -> tuple[Bricks, NaturalState | None]:
     sampled = np.concatenate([np.array(sites) for sites in SAMPLED]).T
     sites = shape((sampled + 1.0) / 2.0)[0].T @ plain.positions  # (m, k, 3)
     points = shape(reference().points)[0].T @ plain.positions[..., :2]
+    scene = stretched(scene)
     state, mid_surface = natural_at(scene, sites[..., :2]), natural_at(scene, points)
     if state is None or mid_surface is None:
         return plain, None

@@ -2,7 +2,8 @@
 
 Hinged and held edges hold the mean of every column along the edge, and the face turns freely about it; a
 held mid-line would be the same for a thin sheet, but for the dent of a line support, which grows without
-bound as the mesh is refined. A clamp holds the edge's face:
+bound as the mesh is refined. Where a hinge holds the twist, it holds the component along the edge in the
+whole face. A clamp holds the edge's face:
 
     "shell-like"  the face stays on the director, free to change its thickness along it: the components across
                   the director are held everywhere, the one along it on the mid-line only. This is the
@@ -35,7 +36,7 @@ from fem_reference.surface import supports
 from fem_reference.surface.rod import Rod, hold_bases
 from fem_reference.surface.supports import Supports
 from sheetbench.errors import require_choice
-from sheetbench.scenes import Scene, Symmetric, holds_director
+from sheetbench.scenes import Scene, Symmetric, holds_director, tilt_axes
 from sheetbench.scenes.objects.supports import named
 
 CLAMPS = ("shell-like", "mean", "full")
@@ -108,11 +109,11 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
         edges[name] = held = np.zeros(columns.positions.shape, dtype=bool)
         held[:, columns.layers], nodes = on_line, on_line.any(axis=1)
         support = kinds.get(name)  # None of motions and of rods' bases, which hold as clamps do
-        if isinstance(support, Symmetric):
-            held |= on_line[:, None]
-        elif support is None or holds_director(support):
+        if support is None or holds_director(support):
             held[nodes, :, : 3 if clamp == "full" else 2] = True
             by_mean[nodes] |= clamp == "mean"
-        else:
-            by_mean[nodes] = True
+            continue
+        for axis in tilt_axes(support):
+            held[nodes, :, axis] = True
+        by_mean[nodes] |= not isinstance(support, Symmetric)
     return ColumnSupports(line, columns, edges, by_mean)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from sheetbench.scenes import EdgeLoad, Scene
-from sheetbench.scenes.objects.cells import Constants
+from sheetbench.scenes.meaning.composition import own_patches
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
 from sheetbench.scenes.objects.supports import Point, place
 
@@ -99,13 +99,5 @@ def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:
     places += [getattr(load, "where", None) for load in loads]
     places += [payload.where for payload in scene.masses]
     places += [patch.shape for patch in scene.patches if patch.natural is not None]
-    shapes = [shape for shape in places if shape is not None]
-    return [*shapes, *(patch.shape for patch in scene.patches)] if _differ(scene) else shapes
-
-
-def _differ(scene: Scene) -> bool:
-    """Whether a patch is not made of what the sheet is made of."""
-    if scene.sheet.taper_x or scene.sheet.taper_y:
-        return bool(scene.patches)
-    sheet = vars(Constants.of(scene.sheet, scene.material))
-    return any(sheet.get(name) != value for patch in scene.patches for name, value in patch.own.items())
+    places += [patch.shape for patch in own_patches(scene)]
+    return [shape for shape in places if shape is not None]

@@ -1,7 +1,7 @@
 """The scene's payloads in a reference (`scenes.objects.masses`): what they add to the mass of elements.
 
-    at a point      m N Nᵀ on the mid-surface,    N Nᵀ J on the director
-    over a part     m/A ∫ N Nᵀ dA on the mid-surface
+    at a point      m N Nᵀ on the mid-surface
+    over a part     m/A ∫ N Nᵀ dA on the mid-surface,   J/A ∫ N Nᵀ dA on the director
 
 with the shape functions N of the element that holds the point, and what resists the components of the
 director's rate, J. What a row adds up to is the mass that weighs at a node. Units: kg, kg m², m.
@@ -26,13 +26,11 @@ def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, 
         if payload.at is None:
             on = plan.within(payload.where)
             sizes = areas(plan.corners[on])
-            sizes *= payload.mass / sizes.sum()
-            by_place = np.einsum("eg,gi,gj->eij", sizes, AT_GAUSS[0], AT_GAUSS[0])
-            yield on, by_place, np.zeros((3, *by_place.shape))
+            pairs = np.einsum("eg,gi,gj->eij", sizes / sizes.sum(), AT_GAUSS[0], AT_GAUSS[0])
         else:
-            element, value = shares(plan.mesh, np.array([payload.at]))
+            on, value = shares(plan.mesh, np.array([payload.at]))
             pairs = value[:, :, None] * value[:, None, :]
-            yield element, payload.mass * pairs, payload.of_director[:, None, None, None] * pairs
+        yield on, payload.mass * pairs, payload.of_director[:, None, None, None] * pairs
 
 
 def add_carried(scene: Scene, plan: Plan, masses: np.ndarray) -> None:

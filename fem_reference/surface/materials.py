@@ -17,9 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fem_reference.surface import plies
-from fem_reference.surface.biquadratic import AT_GAUSS
+from fem_reference.surface.biquadratic import AT_GAUSS, IN_PLANE, pulled_back
 from sheetbench.scenes import Constants, Material, Scene
-from sheetbench.scenes.meaning.composition import constants_at
+from sheetbench.scenes.meaning.composition import constants_at, of_sheet
+from sheetbench.scenes.meaning.natural_state import held_at_drawn_size
 
 SHEAR_CORRECTION = 5.0 / 6.0
 
@@ -58,6 +59,21 @@ def green(stretch: np.ndarray) -> np.ndarray:
     times as large, U = 1 + e0 that of the mid-surface at the full share. Elements sample E0 where they do E.
     """
     return np.asarray(stretch + 0.5 * stretch @ stretch)
+
+
+def stretched(scene: Scene) -> Scene:
+    """Return the scene with the natural strain that gives its pretension by these strains of the natural
+    sides, whose stress in a sheet held where it is drawn is its tension: there the stretch is 1."""
+
+    def tension(strain: np.ndarray) -> np.ndarray:
+        inside = strain[[[0, 2], [2, 1]]]
+        stretch, sheet = np.eye(2) + inside, of_sheet(scene)
+        turn = pulled_back(np.linalg.inv(stretch), IN_PLANE)
+        section = section_of(sheet, sheet.thickness).membrane
+        by = [1.0, 1.0, 2.0] * green(inside)[[0, 1, 0], [0, 1, 1]]
+        return -np.linalg.det(stretch) * turn.T @ section @ turn @ by
+
+    return held_at_drawn_size(scene, tension)
 
 
 def section_of(material: Material | Constants, thickness: float) -> Section:

@@ -17,7 +17,7 @@ import numpy as np
 
 from fem_reference.surface.mesh import Plan
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EDGES, Scene, Symmetric, held_axes, holds_director
+from sheetbench.scenes import Scene, held_axes, holds_director, tilt_axes
 from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
 from sheetbench.scenes.objects.shapes import COINCIDENT
 from sheetbench.scenes.objects.supports import Point, named, place
@@ -134,9 +134,10 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
     for name, support in named_supports.items():
         on, edges[name] = on_edge[name], np.zeros((len(nodes), 3), dtype=bool)
         edges[name][np.ix_(on[movers[on] == 0.0], held_axes(support))] = True
-        director[on] |= holds_director(support)
-        if isinstance(support, Symmetric):
-            tilt[on, EDGES[support.edge].normal_axis] = True
+        if holds_director(support):
+            director[on] = True
+        elif axes := tilt_axes(support):
+            tilt[on, axes[0]] = True
     for motion in motions.values():
         edges[motion.held_as] = np.zeros((len(nodes), 3), dtype=bool)
         edges[motion.held_as][on_edge[motion.edge]] = True

@@ -25,7 +25,13 @@ CASES: dict[str, tuple[Any, ...]] = {
     "slit-annulus": ("slit annular plate, lifted", round_shapes.slit_annulus),
     "heavy-elastica": ("strip under its own weight", strips.heavy_elastica),
     "settling-strip": ("strip that settles under its own weight", strips.settling),
-    "mindlin-simple": ("Mindlin plate, hard simple support", square_plates.loaded, "hinged", "plate"),
+    "mindlin-simple": (
+        "Mindlin plate, hard simple support",
+        square_plates.loaded,
+        "hinged",
+        "plate",
+        "shell",
+    ),
     "mindlin-clamped": ("Mindlin plate, clamped", square_plates.loaded, "clamped", "plate", "shell"),
     **{
         name: (benchmark.title, square_plates.frequencies, benchmark)

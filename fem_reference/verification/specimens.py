@@ -30,9 +30,9 @@ def specimen(
     return Scene(name="specimen", sheet=sheet, material=material, supports=tuple(supports), **more)
 
 
-def around(kind: type[Clamped | Hinged], edges: Iterable[str] = EDGES) -> list[Support]:
-    """Supports of a kind along edges, all unless given."""
-    return [kind.model_validate({"edge": edge}) for edge in edges]
+def around(kind: type[Clamped | Hinged], edges: Iterable[str] = EDGES, **more: Any) -> list[Support]:
+    """Supports of a kind along edges, all unless given; more: of their keys."""
+    return [kind.model_validate({"edge": edge, **more}) for edge in edges]
 
 
 def moved(

@@ -43,7 +43,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import product
 from math import pi, sin, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,7 +52,7 @@ from fem_reference.surface.materials import section_of
 from fem_reference.verification.rows import EXACT, OURS, Row, curve, lowest, mesh_change, relatively
 from fem_reference.verification.specimens import E1, E2, FIBRES, NU, G, around, moved, specimen
 from fem_reference.vibration import modes
-from sheetbench.scenes import EDGES, Clamped, Hinged, Layer, Material, Scene, Sheet
+from sheetbench.scenes import Clamped, Hinged, Layer, Material, Sheet
 from sheetbench.scenes.objects.natural import Natural
 
 ELEMENTS = 16
@@ -142,18 +142,13 @@ def locking(model: str) -> Iterator[Row]:
 
 
 def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:
-    """w D/(q L⁴) at the centre, D the thin plate's; kind: "hinged" is hard (plate only), or "clamped"."""
+    """w D/(q L⁴) at the centre, D the thin plate's; kind: "hinged", with the twist held, or "clamped"."""
     material = Material(young=1e7, poisson=poisson, density=1000.0)
     rigidity = section_of(material, ratio).bending[0, 0]
     load = SMALL * ratio * rigidity / CLAMPED[0.001]
-    scene = specimen(Sheet(1.0, 1.0, ratio), material, around(Hinged if kind == "hinged" else Clamped), load)
-    return _middle(scene, model, elements, hard=kind == "hinged") * rigidity / load
-
-
-def _middle(scene: Scene, model: str, elements: int, hard: bool) -> float:
-    """w [m] at the centre; hard: edges, which the plate alone knows."""
-    options: dict[str, Any] = {"hard_edges": tuple(EDGES)} if hard else {}
-    return float(moved(scene, (0.5, 0.5), model, elements, **options)[2])
+    edges = around(Hinged, twist="held") if kind == "hinged" else around(Clamped)
+    scene = specimen(Sheet(1.0, 1.0, ratio), material, edges, load)
+    return float(moved(scene, (0.5, 0.5), model, elements)[2]) * rigidity / load
 
 
 def frequencies(benchmark: Benchmark) -> Iterator[Row]:
@@ -185,9 +180,9 @@ def fibres(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row
     unit = 16.0 / pi**6 * sum(sin(m * pi / 2) * sin(n * pi / 2) / (m * n * delta(m, n)) for m, n in odd)
     load, inertia = SMALL * THIN.thickness / unit, FIBRES.density * THIN.thickness
     exact = sorted(0.5 * pi * sqrt(delta(*mn) / inertia) for mn in product(range(1, 12), repeat=2))[:6]
-    scene = specimen(THIN, FIBRES, around(Hinged), load, layers=layers)
+    scene = specimen(THIN, FIBRES, around(Hinged, twist="held"), load, layers=layers)
     for model in ("plate", "shell"):
-        mesh, middle = MESH.format(model), _middle(scene, model, ELEMENTS, hard=model == "plate")
+        mesh, middle = MESH.format(model), float(moved(scene, (0.5, 0.5), model, ELEMENTS)[2])
         yield relatively("w D22/qa⁴", mesh, unit * across, source, middle / load * across, 5e-3)
         found = modes(scene, model, ELEMENTS, count=6).frequencies
         yield from lowest("mode {} [Hz]", mesh, exact, "Leissa 1969", found, 1e-2)

@@ -71,19 +71,18 @@ class Strips(NamedTuple):
     """Cells by their place along the edges normal to an axis and by how far across they are, (places, across)
     each: how they twist there, and whether a free edge beside them crosses this one (`corner`).
 
-    lines: across which they lie, of a whole rectangle; its strips are as the grid is graded, others of cells
-    like that at their end. alike: whether a strip's cells are the same but for their width."""
+    lines: across which they lie, of a whole rectangle, whose strips are of its own cells, one where all are
+    alike; others are of cells like that at their end."""
 
     twist: Twist
     corner: np.ndarray
     lines: Lines | None
-    alike: bool
 
     def taken(
-        self, place: np.ndarray, cell: np.ndarray, count: np.ndarray, far: bool, both: bool, unknown: float
+        self, place: np.ndarray, cell: np.ndarray, count: np.ndarray, far: bool, both: bool
     ) -> tuple[np.ndarray, bool]:
         """Return what free edges add to D̃66 of the cells at the near or the far end of strips of so many
-        cells, (m,) [N·m], and whether there is a factor for each; unknown: the factor of those without.
+        cells, (m,) [N·m], and whether there is a factor for each; those without have the most.
 
         On a graded grid every cell along an edge has the f of the strip of cells that begins with it. Of a
         strip whose edges are both free and whose cells are finer towards one it is that of the strip and its
@@ -92,18 +91,17 @@ class Strips(NamedTuple):
         for cells in set(count.tolist()):
             of = count == cells
             at = place[of], cell[of]
-            strips = [part[at][:, None] for part in self.twist[:4]]
             if self.lines is None:
-                strips[0] = np.repeat(strips[0], cells, axis=1)
+                strips, number = [part[at][:, None] for part in self.twist[:4]], cells
             else:
-                if not self.alike:
-                    strips = [part[at[0], ::step] for part in self.twist[:4]]
-                strips[0] = self.lines.widths[None, ::step]
-                if both and not symmetric(self.lines):
-                    strips = [row if row.shape[1] == 1 else np.hstack([row, row[:, ::-1]]) for row in strips]
+                strips, number = [part[at[0], ::step] for part in self.twist[:4]], len(self.lines.widths)
+            if strips[0].shape[1] == 1:
+                strips[0] = np.repeat(strips[0], number, axis=1)
+            elif both and self.lines is not None and not symmetric(self.lines):
+                strips = [np.hstack([row, row[:, ::-1]]) for row in strips]
             factor[of] = edge_factors(strips[0], strips[1], strips[2], strips[3], self.twist.lost[at], both)
         found = bool(np.all(factor > 0.0))
-        factor = np.where(np.isnan(factor), unknown, factor)
+        factor = np.where(np.isnan(factor), MOST, factor)
         factor = np.where(self.corner[place, cell], np.maximum(factor, AT_CORNERS), factor)
         return (factor - 1.0) * self.twist.twisting[place, cell], found
 

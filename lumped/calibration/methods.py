@@ -72,9 +72,10 @@ def given(
             f"scene '{scene.name}': springs.grid = {own}: these springs are not those of {other} masses; "
             f"solve on {own}, or find others: sheetbench calibrate --grid {other} --toml"
         )
-    if grading not in (None, table.graded):
+    graded = table.graded(scene.sheet.lengths)
+    if grading not in (None, graded):
         raise Impossible(
-            f"scene '{scene.name}': springs.grading = {table.graded:g}: these springs are not those of "
+            f"scene '{scene.name}': springs.grading = {graded:g}: these springs are not those of "
             f"grading {grading:g}; leave --grading out, or find others: "
             f"sheetbench calibrate --grading {grading:g} --toml"
         )
@@ -82,11 +83,11 @@ def given(
     springs = Springs.read(table)
     if table.grading and not springs.varies and requested[:2] != (2, 2):
         raise Impossible(
-            f"scene '{scene.name}': springs.grading = {table.graded:g}: unequal cells have springs of their "
-            f"own, and these are the same for all: sheetbench calibrate --grading {table.graded:g} --toml"
+            f"scene '{scene.name}': springs.grading = {graded:g}: unequal cells have springs of their "
+            f"own, and these are the same for all: sheetbench calibrate --grading {graded:g} --toml"
         )
-    cells = sections_of(scene, requested, table.graded)
-    each = each_cell(scene.sheet, scene.material, requested, table.graded, cells if springs.varies else None)
+    cells = sections_of(scene, requested, graded)
+    each = each_cell(scene.sheet, scene.material, requested, graded, cells if springs.varies else None)
     return replace(report("scene", each, springs), masses=table.masses, cells=cells)
 
 

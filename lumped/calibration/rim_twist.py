@@ -25,7 +25,7 @@ import numpy as np
 
 from lumped import moduli, sections
 from lumped.calibration.cell_by_cell import EachCell
-from lumped.calibration.edge_twist import AT_CORNERS, MOST, Strips, Twist, edge_factors, symmetric, twist_of
+from lumped.calibration.edge_twist import AT_CORNERS, Strips, Twist, edge_factors, symmetric, twist_of
 from lumped.coverage import ObliqueRims
 from lumped.spring_constants import RIMS_OWN, Springs, along_edge, either, rank_one
 
@@ -52,7 +52,6 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
         rims, notes = at_oblique_rims(oblique, each, twist, whole)
         rims /= square
     unlike = each.cells is not None or not all(map(symmetric, each.lines))
-    unknown = MOST if springs.varies else 1.0
     found: dict[str, list[np.ndarray]] = defaultdict(list)
     for axis, lines in enumerate(each.lines):
         # by place along the edges normal to the axis, and across from them
@@ -60,17 +59,17 @@ def with_twist(each: EachCell, springs: Springs, whole: moduli.Moduli) -> tuple[
         rows, share, oblique_near, on_rims = (part.swapaxes(0, axis) for part in of_cells)
         own = Twist._make(part[..., axis].swapaxes(0, axis) for part in twist)
         corner = ~np.logical_and(*_beside(rows, False))
-        strips = Strips(own, corner, None if drawn else lines, each.cells is not None)
+        strips = Strips(own, corner, None if drawn else lines)
         usable = _aligned(share, oblique_near) & ~(oblique_near & corner) if drawn else rows
         (places, first), (_, last) = (np.nonzero(rows & ~other.T) for other in _beside(rows.T, False))
         for far in (False, True)[: 1 + unlike]:
             cells, outer = (last, rows.shape[1] - 1) if far else (first, 0)
             chosen = usable[places, cells]
             place, cell, count = places[chosen], cells[chosen], (last - first)[chosen] + 1
-            two, known = strips.taken(place, cell, count, far, True, unknown)
+            two, known = strips.taken(place, cell, count, far, True)
             of = count == rows.shape[1]
             one = two.copy()
-            one[of], also = strips.taken(place[of], cell[of], count[of], far, False, unknown)
+            one[of], also = strips.taken(place[of], cell[of], count[of], far, False)
             if not (known and also):
                 edge = "a rim" if drawn else f"{'xy'[axis]}{int(far)}"
                 notes.append(f"no twisting stiffness of the cells along {edge} makes their edge right")

@@ -9,7 +9,7 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.statics.problem import Problem
-from sheetbench.scenes import Scene, held_axes, holds_director
+from sheetbench.scenes import Scene, held_axes, tilt_axes
 from sheetbench.scenes.objects.supports import named
 from sheetbench.scenes.objects.tables import PiecewiseCurve
 
@@ -79,5 +79,5 @@ def _by_supports(scene: Scene, problem: Problem) -> list[tuple[np.ndarray, int, 
             row = problem.constraints.holders[name][0].ravel()
             for axis in held_axes(support):
                 free = ~problem.constraints.fixed[row, axis]
-                found.append((row if holds_director(support) else row[free], axis, course))
+                found.append((row if axis in tilt_axes(support) else row[free], axis, course))
     return found

@@ -15,6 +15,7 @@ from lumped.calibration.consistent import consistent
 from lumped.contact import Contact
 from lumped.lattice import Weights
 from lumped.loads import Loads
+from lumped.pretension import stretched
 from lumped.sections import require_alike
 from lumped.statics import validity
 from lumped.statics.answer import solution
@@ -130,7 +131,7 @@ def build_problem(
     couple = partial(Coupling, scene) if scene.actuators else None
     assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges())
     lines = assembly.lattice.lines
-    if (state := natural_of_cells(scene, *(line.at for line in lines))) is not None:
+    if (state := natural_of_cells(stretched(scene, assembly), *(line.at for line in lines))) is not None:
         assembly.grow(state)
     alike = same is not None and same.assembly.lattice is assembly.lattice
     if same is not None and alike and couple is None and assembly.natural is None:

@@ -29,7 +29,7 @@ from sheetbench.scenes.objects.supports import (
     encloses_volume,
     held_axes,
     holds_director,
-    holds_tilt,
+    tilt_axes,
 )
 from sheetbench.scenes.objects.tables import FactorTable, PiecewiseCurve
 from sheetbench.scenes.scene import Scene

@@ -191,7 +191,7 @@ def test_no_reference_leaves_a_reaction_out(monkeypatch, model):
 @pytest.mark.parametrize(
     ("model", "options"),
     [
-        ("plate", {"hard_edges": ("y0", "y1"), "graded": False}),
+        ("plate", {"graded": False}),
         ("shell", {"graded": False}),
         ("solid", {"clamp": "full", "layers": 2}),
         ("solid", {"law": "neo-hookean", "grading": "uniform"}),

@@ -33,7 +33,7 @@ SHEET = Sheet(length_x=0.16, length_y=0.04, thickness=1e-3)
     ],
 )
 def test_lines_are_moved_to_places(places, on_lines):
-    x, y = grid_lines(SHEET, (17, 5, 2), through((places, ())))
+    x, y = grid_lines(SHEET, (17, 5, 2), through((places, ()), SHEET.lengths))
     even = grid_lines(SHEET, (17, 5, 2))
     assert len(x.at) == 17 and x.at[[0, -1]] == pytest.approx([0.0, 0.16]) and x.widths.min() > 1e-3
     assert np.abs(np.subtract.outer(on_lines, x.at)).min(axis=1, initial=1.0) == pytest.approx(
@@ -41,6 +41,13 @@ def test_lines_are_moved_to_places(places, on_lines):
     )
     assert on_lines or np.array_equal(x.at, even[0].at)
     assert np.array_equal(y.at, even[1].at)
+
+
+def test_lines_grow_with_the_sheet():
+    """All of the growth was the last cell's."""
+    grown, grading = SHEET.replace(length_x=0.9 * SHEET.length_x), through(((0.035, 0.06), ()), SHEET.lengths)
+    drawn, at_rest = (grid_lines(each, (17, 5, 2), grading)[0] for each in (SHEET, grown))
+    assert at_rest.widths == pytest.approx(0.9 * drawn.widths, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -58,7 +65,7 @@ def test_lines_are_moved_to_places(places, on_lines):
 def test_lines_are_moved_alike_from_either_end(places, count):
     grid, length = (count, 5, 2), SHEET.length_x
     there, back = (
-        grid_lines(SHEET, grid, through((each, ())))[0].at
+        grid_lines(SHEET, grid, through((each, ()), SHEET.lengths))[0].at
         for each in (places, tuple(length - place for place in reversed(places)))
     )
     assert length - there[::-1] == pytest.approx(back, abs=1e-12)
@@ -86,7 +93,8 @@ def test_the_places_are_the_sides_of_shapes_and_the_ends_of_edges_and_are_writte
     assert x == (0.035, 0.04, 0.06, 0.065, 0.085, 0.09, 0.11, 0.115) and y == (0.01, 0.03)
     assert sides_of_shapes(load("ray-fin")) == ((), (0.02, 0.08))
     assert sides_of_shapes(load("pouch"))[0] == (0.0125, 0.025, 0.075, 0.0875)
-    assert of_settings(as_settings(through(places))) == through(places)
+    grading = through(places, strip.sheet.lengths)
+    assert of_settings(as_settings(grading), strip.sheet.lengths) == grading
 
 
 def test_a_slit_narrower_than_a_cell_is_open():

@@ -224,7 +224,8 @@ def test_masses_are_the_sheets_and_the_payloads(distribution):
 def test_a_turn_of_all_masses_has_the_bodys_kinetic_energy(layers, turn):
     """v = ω × x, ½ vᵀ M v = ½ I ω² of x and y, none of the normal z; a shift has none."""
     moments = (3e-6, 2e-6, 5e-6)
-    scene, assembly = lattice_of({"at": AT, "mass": 1e-12, "inertia": moments}, layers=layers)
+    part = {"rectangle": {"x": (0.03, 0.08), "y": (0.02, 0.06)}}
+    scene, assembly = lattice_of({"where": part, "mass": 1e-12, "inertia": moments}, layers=layers)
     mass, positions = rotary_masses(scene, assembly.lattice), assembly.lattice.positions
     velocity = np.cross(turn, positions).ravel()
     assert velocity @ (mass @ velocity) == pytest.approx(np.array([*moments[:2], 0.0]) @ turn, abs=1e-18)

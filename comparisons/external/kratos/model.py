@@ -32,13 +32,12 @@ from comparisons.external.output import Failed, output_of
 from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import rectangle
 from sheetbench.scenes import (
-    EDGES,
     EdgeLoad,
     Pressure,
     Scene,
-    Symmetric,
     held_axes,
     holds_director,
+    tilt_axes,
 )
 from sheetbench.scenes.meaning.kinematics import DrivenEdge, MovedEdge, bent_or_tilted
 from sheetbench.scenes.objects.grid import near_square
@@ -113,10 +112,10 @@ def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.n
     for support in scene.supports:
         nodes = mesh.edge(support.edge)
         held[nodes[:, None], held_axes(support)] = True
-        if isinstance(support, Symmetric):
-            held[nodes[:, None], (3 + EDGES[support.edge].along_axis, 5)] = True
-        elif holds_director(support):
+        if holds_director(support):
             held[nodes, 3:] = True
+        elif axes := tilt_axes(support):
+            held[nodes[:, None], (4 - axes[0], 5)] = True
     driven: list[DrivenEdge] = [*bent_or_tilted(scene.supports, scene.sheet)]
     driven += [MovedEdge(motion, scene.sheet) for motion in scene.motions().values()]
     for edge in driven:

@@ -80,7 +80,7 @@ def parts_between(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> Iterator[
     middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
     plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
     left_over = np.ones((len(y) - 1, len(x) - 1))
-    for area, own in _disjoint(scene.patches):
+    for area, own in _disjoint(own_patches(scene)):
         share = shares_of(area, x, y)
         left_over -= share
         constants = plain.arrays(left_over.shape)
@@ -108,6 +108,22 @@ def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
     high, right = np.meshgrid(y[1:], x[1:], indexing="ij")
     return np.asarray(shapely.box(left, low, right, high))
+
+
+def own_patches(scene: SceneFields) -> tuple[Patch, ...]:
+    """Return the patches that change what the sheet is made of: none of the sheet's own constants, unless it
+    covers part of another."""
+    import shapely
+
+    even = not (scene.sheet.taper_x or scene.sheet.taper_y)
+    usual = {**vars(scene.material), "thickness": scene.sheet.thickness if even else None}
+    found: list[Patch] = []
+    for patch in scene.patches:
+        differs = any(value != usual.get(name) for name, value in patch.own.items())
+        areas = np.array([each.shape.area for each in found], dtype=object)
+        if differs or (patch.own and shapely.intersects(patch.shape.area, areas).any()):
+            found.append(patch)
+    return tuple(found)
 
 
 def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
@@ -173,7 +189,7 @@ def mass_over_stiffness(scene: SceneFields) -> float:
     if scene.homogeneous:
         return float(sheet.per_area / sheet.stretching)
     rest, mass, stiffness = area_in(scene, None), 0.0, 0.0
-    for area, own in _disjoint(scene.patches):
+    for area, own in _disjoint(own_patches(scene)):
         constants, size = sheet.arrays(()), scene.region.intersection(area).area
         _put(constants, own)
         rest -= size
@@ -183,9 +199,9 @@ def mass_over_stiffness(scene: SceneFields) -> float:
 
 def sides_of(scene: SceneFields) -> tuple[np.ndarray, np.ndarray]:
     """x and y [m], rising, of the patches' sides along the axes, of those within the sheet's edges."""
-    places = []
+    places, areas = [], [patch.shape.area for patch in own_patches(scene)]
     for axis, length in enumerate(scene.sheet.lengths):
-        sides = np.unique([*straight_sides(*(patch.shape.area for patch in scene.patches))[axis]])
+        sides = np.unique([*straight_sides(*areas)[axis]])
         inside = sides[(sides > COINCIDENT * length) & (sides < (1.0 - COINCIDENT) * length)]
         places.append(inside[np.diff(inside, prepend=-length) > COINCIDENT * length])
     return places[0], places[1]

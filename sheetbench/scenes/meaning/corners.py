@@ -32,11 +32,10 @@ from sheetbench.scenes.objects.supports import (
     AnySupport,
     Clamped,
     Curved,
-    Symmetric,
     held_axes,
-    holds_director,
     named,
     place,
+    tilt_axes,
 )
 
 EXACT = 1e-6  # m per metre of the longer side, and in a director: what numbers written in decimals leave
@@ -122,8 +121,7 @@ def _held(holder: Holder) -> tuple[set[int], set[int]]:
     every = {0, 1, 2}
     if isinstance(holder, EdgeMotion):
         return every, every
-    axes = set(held_axes(holder))
-    return axes, axes if isinstance(holder, Symmetric) else every if holds_director(holder) else set()
+    return set(held_axes(holder)), set(tilt_axes(holder))
 
 
 def _pose(

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from copy import copy
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeVar
 
 import numpy as np
 
+from sheetbench.errors import Impossible
 from sheetbench.scenes.meaning.composition import of_sheet, shares_of
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.layers import moments, plane_stress, resultants
@@ -19,6 +20,7 @@ from sheetbench.scenes.objects.sheet import Sheet
 if TYPE_CHECKING:
     from shapely import Polygon
 
+AnyFields = TypeVar("AnyFields", bound=SceneFields)
 TENSOR = np.array([1.0, 1.0, 0.5])  # components over (xx, yy, 2xy)
 
 
@@ -129,6 +131,32 @@ def sheet_at_rest(scene: SceneFields) -> Sheet:
     (lx, ly), outline = (1.0 + along) * scene.sheet.lengths, scene.sheet.outline
     drawn = outline and tuple((x * (1.0 + along[0]), y * (1.0 + along[1])) for x, y in outline)
     return scene.sheet.replace(length_x=float(lx), length_y=float(ly), outline=drawn)
+
+
+def held_at_drawn_size(scene: AnyFields, tension: Callable[[np.ndarray], np.ndarray]) -> AnyFields:
+    """Return the scene with, in place of its pretension, the natural strain with which a sheet held where it
+    is drawn has it by a model's own law, at the last factor of a history.
+
+    tension: natural strain [xx, yy, xy] → [Nx, Ny, Nxy] [N/m] of the flat sheet so held. Raises Impossible
+    where no strain gives it. Newton's method with the linear law's tangent, by Broyden's updates."""
+    from scipy.optimize import root
+
+    natural = scene.natural
+    if natural is None or natural.pretension is None:
+        return scene
+    factor = natural.last_factor or 1.0
+    compliance = -np.linalg.inv(resultants(plies_of(scene))[0] * scene.sheet.thickness) * TENSOR[:, None]
+    begin = factor * compliance @ [*natural.pretension, 0.0]
+
+    def left(strain: np.ndarray) -> np.ndarray:
+        return np.asarray(compliance @ tension(strain) - begin)
+
+    found = root(left, begin, jac=lambda _: np.eye(3), options={"xtol": 1e-15})
+    if not np.abs(left(found.x)).max() <= 1e-9 * np.abs(begin).max():
+        pull = ", ".join(f"{force:g}" for force in natural.pretension)
+        raise Impossible(f"natural.pretension = [{pull}]: no natural strain gives it by this model's law")
+    xx, yy, xy = (found.x / factor).tolist()
+    return scene.replace(natural=natural.replace(pretension=None, strain=(xx, yy, xy)))
 
 
 def _own(scene: SceneFields, natural: Natural) -> tuple[np.ndarray, np.ndarray]:

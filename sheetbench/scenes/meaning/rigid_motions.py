@@ -13,7 +13,7 @@ from sheetbench.scenes.objects.actuators import Chain
 from sheetbench.scenes.objects.cutouts import Cutout, common, region
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
-from sheetbench.scenes.objects.supports import Held, Point, Support, held_axes, holds_tilt, place
+from sheetbench.scenes.objects.supports import Held, Point, Support, held_axes, place, tilt_axes
 
 ROUND_OFF = 1e-9
 
@@ -53,8 +53,7 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
         moves = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
         velocities = np.concatenate([moves, -cross_matrix(arms)], axis=2)
         rows.append(velocities[:, axes].reshape(-1, 6))
-        if holds_tilt(support):
-            rows.append(np.hstack([np.zeros((3, 3)), -cross_matrix(UP)])[axes])
+        rows.append(np.hstack([np.zeros((3, 3)), -cross_matrix(UP)])[list(tilt_axes(support))])
     _, singular, motions = np.linalg.svd(np.concatenate(rows), full_matrices=False)
     rank = int(np.sum(singular > ROUND_OFF))
     free = motions[rank:]

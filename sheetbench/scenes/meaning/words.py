@@ -166,7 +166,10 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
             np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
             for part in (source.strain, source.curvature)
         )
-        parts = list[str]()
+        parts, pretension = list[str](), getattr(source.of, "pretension", None)
+        if pretension:  # of which strain is each model's own to say
+            x, y = (source.of.last_factor * pull for pull in pretension)
+            parts, strain = [f"a tension of {x:.4g} N/m along x and {y:.4g} N/m along y"], np.zeros(3)
         for e, k, axis in zip(strain, curvature, "xy", strict=False):
             way, towards = "longer" if e > 0.0 else "shorter", "+z" if k > 0.0 else "−z"
             parts += [f"{100.0 * abs(e):.3g} % {way} along {axis}"] if e else []
@@ -187,18 +190,17 @@ def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
             own = (source.strain - z * source.curvature) / TENSOR
             if isinstance(source.of, Temperature):
                 own = expansion_of(scene, number) * (source.of.change + z * source.of.gradient)
-            sums.append(-(plane_stress(ply) @ own)[:2])
-    return float(np.min(sums)), float(np.max(sums))
+            sums.append(-source.of.last_factor * (plane_stress(ply) @ own)[:2])
+    return float(np.min(sums)) + 0.0, float(np.max(sums)) + 0.0
 
 
 def _payload(payload: Mass, sheet: Sheet) -> str:
-    if payload.at is None:
-        return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}"
+    if payload.at is not None:
+        return f"{1e3 * payload.mass:.3g} g at {_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
     x, y, z = (1e7 * moment for moment in payload.inertia or (0.0, 0.0, 0.0))
     turning = f", moments of inertia {x:.3g} and {y:.3g} g·cm² about x and y" if x or y else ""
     turning += ", of that about z, the sheet's normal, nothing is taken" if z else ""
-    place = f"{_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
-    return f"{1e3 * payload.mass:.3g} g at {place}{turning}"
+    return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}{turning}"
 
 
 def _weight(scene: SceneFields, mass: float) -> str:
@@ -230,8 +232,10 @@ def _support(support: AnySupport, sheet: Sheet) -> str:
                 f"clamped, turned by {abs(tilt):g} rad ({degrees(abs(tilt)):.3g}°): the sheet starts off "
                 f"{'downwards' if tilt > 0.0 else 'upwards'}"
             )
+        case Hinged(twist="held"):
+            held = "hinged: the mid-surface held, free to turn about the edge alone (hard simple support)"
         case Hinged():
-            held = "hinged: the mid-surface held, free to turn"
+            held = "hinged: the mid-surface held, free to turn (soft simple support)"
         case Held() | Point():
             free = [axis for axis in "xyz" if axis not in support.components]
             slides = f", free to move along {' and '.join(free)}" if free else ""

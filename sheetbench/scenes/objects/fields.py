@@ -22,7 +22,7 @@ from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.springs import DamperSet, SpringSet
-from sheetbench.scenes.objects.supports import Point, Support, holds_tilt, place
+from sheetbench.scenes.objects.supports import Point, Support, place, tilt_axes
 
 if TYPE_CHECKING:
     from shapely import Polygon
@@ -176,7 +176,7 @@ class SceneFields(Frozen, defer_build=True):
     def twisting_edges(self) -> frozenset[str]:
         """The edges along which nothing holds the director: free, hinged and held ones."""
         bound = {actuator.edge for actuator in self.actuators}
-        return frozenset(EDGES) - bound - {support.edge for support in self.supports if holds_tilt(support)}
+        return frozenset(EDGES) - bound - {support.edge for support in self.supports if tilt_axes(support)}
 
     def probe_points(self) -> np.ndarray:
         """Plan points of the probes, (n, 2) [m], in the order of `probes`."""

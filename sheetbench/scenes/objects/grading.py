@@ -5,7 +5,8 @@ A number from 0 (cells of one size) to 1 is of every edge, a `Grading` of those 
 other are as long as in the middle of a sheet twice as long that is graded at both ends, where it is neither
 they are of one size.
 
-`places` are those that lines of the grid are moved to, the sides of a drawn sheet's shapes.
+`places` are those that lines of the grid are moved to, the sides of a drawn sheet's shapes, and on a
+sheet with other `sides`, as of one that has grown, the same shares of them.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -27,11 +28,12 @@ Places = tuple[tuple[float, ...], tuple[float, ...]]
 @dataclass(frozen=True)
 class Grading:
     """by: from 0, to 1; edges: those towards which cells are finer, some of the four; places: x and y [m],
-    rising, that lines are moved to."""
+    rising, that lines are moved to, on a sheet with these sides [m]."""
 
     by: float
     edges: tuple[str, ...]
     places: Places = ((), ())
+    sides: tuple[float, float] = (1.0, 1.0)
 
     def __format__(self, form: str) -> str:
         if any(self.places):
@@ -69,9 +71,9 @@ def towards(by: float, edges: Iterable[str] | None = None) -> Graded:
     return by if not by or chosen == tuple(EDGES) else Grading(by, chosen)
 
 
-def through(places: Places) -> Graded:
-    """Cells of one size but for the lines that are moved to these places."""
-    return Grading(0.0, tuple(EDGES), places) if any(places) else 0.0
+def through(places: Places, sides: tuple[float, float]) -> Graded:
+    """Cells of one size but for the lines that are moved to these places on a sheet with these sides [m]."""
+    return Grading(0.0, tuple(EDGES), places, sides) if any(places) else 0.0
 
 
 def places_with_lines(places: Sequence[float], length: float, count: int) -> list[float]:
@@ -164,8 +166,8 @@ def as_settings(grading: Graded) -> dict[str, Any]:
     return {"grading": grading}
 
 
-def of_settings(settings: Mapping[str, Any]) -> Graded:
-    """What `as_settings` has written; 0 where none is given."""
+def of_settings(settings: Mapping[str, Any], sides: tuple[float, float]) -> Graded:
+    """Return the grading that `as_settings` has written, on a sheet with these sides [m]; 0 for none."""
     if x_and_y := settings.get("lines_at"):
-        return through((tuple(x_and_y[0]), tuple(x_and_y[1])))
+        return through((tuple(x_and_y[0]), tuple(x_and_y[1])), sides)
     return towards(settings.get("grading") or 0.0, settings.get("graded_edges"))

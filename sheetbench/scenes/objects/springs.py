@@ -195,10 +195,9 @@ class SpringSet(Frozen):
         yield membranes and (self.area or self.stretch or self.shear) and both
         towards(self.grading, self.graded_edges)  # raises for what is no grading
 
-    @property
-    def graded(self) -> Graded:
-        """The grading of that lattice's lines."""
-        return through(self.lines_at) if self.lines_at else towards(self.grading, self.graded_edges)
+    def graded(self, sides: tuple[float, float]) -> Graded:
+        """Return the grading of that lattice's lines; sides: of its sheet [m]."""
+        return through(self.lines_at, sides) if self.lines_at else towards(self.grading, self.graded_edges)
 
 
 LATTICE = {"grid", "grading", "graded_edges", "lines_at", "masses"}  # keys of what the springs are of

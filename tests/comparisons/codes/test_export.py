@@ -95,7 +95,8 @@ def test_an_exported_lattice_carries_the_payload(tmp_path):
     export(tmp_path, laden, own)
     assert sum(float(row["mass"]) for row in table(tmp_path / "nodes.csv")) == pytest.approx(found.mass.sum())
     with pytest.raises(BadInput, match=r"mass.inertia: an exported lattice has masses alone"):
-        lumped.describe(scene.replace(masses=({"at": (0.1, 0.1), "mass": 0.1, "inertia": (1e-6,) * 3},)), own)
+        part = {"circle": {"centre": (0.1, 0.1), "radius": 0.05}}
+        lumped.describe(scene.replace(masses=({"where": part, "mass": 0.1, "inertia": (1e-6,) * 3},)), own)
 
 
 def test_tables_hold_obstacles_and_their_points(tmp_path):

@@ -168,8 +168,6 @@ def test_a_payload_is_in_the_masses_of_codes_that_have_them(code):
     assert more.sum() == pytest.approx(0.02)
     assert more @ laden.problem.mesh.vertices[:, :2] / 0.02 == pytest.approx([0.11, 0.1])
     assert laden.files()
-    turning = scene.replace(masses=({"at": (0.1, 0.1), "mass": 0.02, "inertia": (1e-6,) * 3},))
-    assert "mass.inertia: their vertices are points" in " ".join(setup(turning, code, 4, best=False).notes())
 
 
 def test_a_force_along_an_edge_is_shared_by_its_vertices():

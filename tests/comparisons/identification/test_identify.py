@@ -300,9 +300,14 @@ def test_damping_is_sought_from_a_scene_without_any():
 
 def test_the_finer_lattice_of_a_drawn_sheet_has_lines_on_shapes_too():
     fin, scene = scenes.load("ray-fin"), Lattice((9, 5, 2))
-    chosen = of_settings(lattice_model(fin, scene).settings)
+    chosen = of_settings(lattice_model(fin, scene).settings, fin.sheet.lengths)
     finer = lattice_model(fin, Lattice((17, 9, 2), grading=chosen))
-    assert chosen == of_settings(finer.settings) == lines_on_shapes(fin, scene.grid, scene) != 0.0
+    assert (
+        chosen
+        == of_settings(finer.settings, fin.sheet.lengths)
+        == lines_on_shapes(fin, scene.grid, scene)
+        != 0.0
+    )
 
 
 DAMPED = CANTILEVER.replace(loss_factor=0.12, frequency=3.0)

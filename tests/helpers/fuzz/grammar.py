@@ -171,10 +171,13 @@ def natural(draw: st.DrawFn, side: float) -> dict[str, Any]:
 
 @st.composite
 def payload(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
-    """A body at a point, small or large beside the sheet, with moments of inertia or without."""
+    """A body at a point, or over a part with moments of inertia, small or large beside the sheet."""
     at = [draw(st.sampled_from([0.0, 0.3, 1.0])) * length for length in lengths]
     data: dict[str, Any] = {"at": at, "mass": draw(numbers(1e-5, 0.1))}
     if draw(st.booleans()):
+        x, y = lengths
+        data["where"] = {"rectangle": {"x": [0.0, 0.5 * x], "y": [0.0, 0.5 * y]}}
+        del data["at"]
         data["inertia"] = draw(st.lists(numbers(0.0, 1e-5), min_size=3, max_size=3))
     return data
 

@@ -10,7 +10,17 @@ import lumped
 from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.closed_form import springs_of_cells
 from lumped.spring_constants import Springs, require_cells
-from sheetbench.scenes import BadInput, Cells, Material, Scene, Sheet, SpringSet, load
+from sheetbench.scenes import (
+    BadInput,
+    Cells,
+    Clamped,
+    Hinged,
+    Material,
+    PointLoad,
+    Scene,
+    Sheet,
+    SpringSet,
+)
 from sheetbench.scenes.objects.grading import Grading
 
 SIZES = {"length_x": 0.1, "length_y": 0.08, "thickness": 0.003}
@@ -98,17 +108,41 @@ def test_masses_and_weight_are_the_cells():
     assert lumped.modes(scene, springs, 2).frequencies[0] > 0.0
 
 
-@pytest.mark.parametrize("method", ["consistent", "consistent-membrane", "consistent-oblique"])
-def test_cells_that_are_all_the_same_are_the_sheet(method):
-    scene = load("two-edges-clamped")
-    cells = Cells.of(scene.sheet, scene.material)
+SQUARE, FLAT = Sheet(0.188, 0.188, 3e-3), Sheet(0.1455, 0.0571, 1.06e-3)
+
+
+@pytest.mark.parametrize(
+    ("method", "sheet", "grading"),
+    [
+        ("consistent", SQUARE, 0.0),
+        ("consistent-membrane", SQUARE, 0.0),
+        ("consistent-oblique", SQUARE, 0.0),
+        ("consistent", SQUARE, 0.5),  # the edges' strips were of cells like their first
+        ("consistent", SQUARE, Grading(0.6, ("x0",))),
+        # where no factor is enough it was the most, or one
+        ("consistent", FLAT, 0.0),
+    ],
+)
+def test_cells_that_are_all_the_same_are_the_sheet(method, sheet, grading):
+    cells = Cells.of(sheet, MATERIAL)
     table = cells.replace(thickness=np.full((4, 4), cells.thickness), young=np.full((4, 4), cells.young))
-    plain, listed = (
-        lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, 5, method, cells=each))
-        for each in (None, table)
+    pull = PointLoad(at=sheet.lengths, force=(0.0, 0.0, 1e-5))
+    scene = Scene("twisted", sheet, MATERIAL, supports=[Clamped("x0")], loads=[pull])
+    one, each = (
+        lumped.calibrate(sheet, MATERIAL, (5, 5), method, grading=grading, cells=of) for of in (None, table)
     )
-    moved = [each.mesh.point_data["displacement"] for each in (plain, listed)]
+    moved = [lumped.solve(scene, springs).mesh.point_data["displacement"] for springs in (one, each)]
     assert np.allclose(*moved, rtol=0.0, atol=1e-9 * np.abs(moved[0]).max())
+
+
+def test_a_twisted_plate_of_long_cells_is_not_far_too_soft():
+    """Two edges hinged, a force at the free corner: w = F a b/2D(1 − ν) of a thin plate. Where no factor
+    makes free edges right they have the most that there is: 4 % off, and 28 % with none."""
+    at, force, bending = (FLAT.length_x, FLAT.length_y), 1e-5, 5e6 * FLAT.thickness**3 / 12.0
+    scene = Scene("twisted", FLAT, Material(5e6, 0.0, 1e3), supports=[Hinged("x0"), Hinged("y0")])
+    scene = scene.replace(loads=[PointLoad(at=at, force=(0.0, 0.0, force))])
+    found = lumped.solve(scene, lumped.calibrate(FLAT, scene.material, (5, 5))).displacement([at])
+    assert found[0, 2] == pytest.approx(force * at[0] * at[1] / (2.0 * bending), rel=0.05)
 
 
 def test_tables_of_other_grids_and_methods_without_cells_are_refused():

@@ -27,7 +27,8 @@ TURNS = [[0.0] * 3, [0.1, 0.3, -0.1], [0.1, -0.2, 0.2]]
 TURNED = {"kind": "motion", "edge": "x0", **COURSE, "rotation": TURNS}
 CLAMP = {"edge": "x0", "kind": "clamped"}
 BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
-BODY = {"at": (0.188, 0.094), "mass": 0.02, "inertia": (2e-6, 2e-6, 1e-6)}
+PART = {"rectangle": {"x": (0.141, 0.188), "y": (0.047, 0.141)}}
+BODY = {"where": PART, "mass": 0.02, "inertia": (2e-6, 2e-6, 1e-6)}
 
 
 def rubber(**law):

@@ -1,0 +1,56 @@
+"""The natural strain that gives a sheet its pretension by a lattice's own springs.
+
+Held where it is drawn, a lattice of cells that are all stretched alike does the work Σ f·δx = N : δε A in a
+small strain of its plan, f the springs' forces on the masses at x, so that its tension N is Σ f xᵀ/A. Nothing
+holds its layers apart: Σ f_z z = 0. A cell that is stiffer or that the sheet has a part of, by a factor,
+counts as so much area. Derived here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import copy
+
+import numpy as np
+from scipy.optimize import newton
+
+from lumped.assembly import Assembly
+from lumped.calibration import Calibration
+from lumped.sections import CellSection
+from sheetbench.scenes import Scene, Sheet
+from sheetbench.scenes.meaning.composition import of_sheet
+from sheetbench.scenes.meaning.natural_state import NaturalState, Source, held_at_drawn_size, sheet_at_rest
+from sheetbench.scenes.objects.natural import Natural
+
+
+def stretched(scene: Scene, assembly: Assembly) -> Scene:
+    """Return the scene with the natural strain that gives its pretension in this lattice, not grown yet."""
+    lattice, areas = assembly.lattice, assembly.lattice.cell_areas
+    if assembly.cells is not None:
+        areas = areas * assembly.cells.bending[..., 0, 0] / CellSection.of(of_sheet(scene)).bending[..., 0, 0]
+    area, plan, size = areas.sum(), lattice.positions[:, :2], len(lattice.positions)
+    thicker = np.zeros((size if assembly.coupling is None else assembly.coupling.size, 3))
+    thicker[:size, 2] = height = lattice.positions[:, 2]
+    shape = tuple(len(line.widths) for line in reversed(lattice.lines))
+
+    def tension(strain: np.ndarray) -> np.ndarray:
+        source, grown = Source("natural", Natural(), strain, np.zeros(3)), copy(assembly)
+        grown.grow(NaturalState([source], shape, lambda _: np.ones(shape)))
+
+        def push(by: float) -> float:
+            return float(grown.force(by * thicker)[1][:size, 2] @ height)
+
+        by = newton(push, 0.0, x1=1e-3 * np.abs(strain).max(), tol=1e-13)
+        work = grown.force(by * thicker)[1][:size, :2].T @ plan
+        return np.array([work[0, 0], work[1, 1], 0.5 * (work[0, 1] + work[1, 0])]) / area
+
+    return held_at_drawn_size(scene, tension)
+
+
+def calibrated_at_rest(scene: Scene, calibrate: Callable[[Sheet], Calibration]) -> Calibration:
+    """Return the springs of a scene's sheet as long and as wide as it is at rest, of what finds those of a
+    sheet; with a pretension by springs of the linear law's size first."""
+    found = calibrate(sheet_at_rest(scene))
+    if scene.natural is None or scene.natural.pretension is None:
+        return found
+    return calibrate(sheet_at_rest(stretched(scene, Assembly(scene.sheet, found))))

@@ -62,17 +62,17 @@ MESHES = (1.0, 0.75, 0.5)  # elements, of those requested
 ROUNDING = 1e-9  # of the largest answer
 
 
-class Family(NamedTuple):
+class MeshFamily(NamedTuple):
     """What is known of a family of meshes: the most that p may be, and c."""
 
     order: float
     neighbours: float
 
 
-IN_ROWS, FITTED, SECOND_ORDER = Family(3.0, 0.35), Family(2.0, 1.0), Family(2.0, 0.35)
+IN_ROWS, FITTED, SECOND_ORDER = MeshFamily(3.0, 0.35), MeshFamily(2.0, 1.0), MeshFamily(2.0, 0.35)
 
 
-def family_of(scene: Scene) -> Family:
+def family_of(scene: Scene) -> MeshFamily:
     """Return that of a scene's meshes of quadratic elements."""
     return IN_ROWS if has_lines(scene) else FITTED
 
@@ -157,7 +157,7 @@ def estimate(
     answers: Sequence[np.ndarray],
     sizes: Sequence[float],
     layers: Sequence[Missed] = (),
-    family: Family = IN_ROWS,
+    family: MeshFamily = IN_ROWS,
 ) -> Uncertainty:
     """Bars of answers (n, k) on two or three meshes of rising size.
 

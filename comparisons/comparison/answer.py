@@ -203,7 +203,7 @@ class Comparison(Compared, Answer):
             *self._bar_notes(),
             *unseen(
                 ((s.model, self.error(s), self.field_errors.get(s.model)) for s in self.solutions),
-                self.bar and self.bar.error,
+                None if self.bar is None else self.bar.error,
             ),
             *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
             " · ".join(solution.label for solution in self.solutions),

@@ -61,7 +61,7 @@ def tradeoff(
     bar = limit(finer) if truth.usable else None
     return Tradeoff(
         scene,
-        tuple(TradeoffRow(**vars(row), **_errors(row, truth)) for row in rows),
+        tuple(_measured(row, truth) for row in rows),
         TradeoffRow(**vars(truth)),
         None if bar is None else bar.error,
         reasons,
@@ -74,7 +74,8 @@ def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
     return Elements("shell", max([least, *(2 * int(n) for n in shells)]))
 
 
-def _errors(row: Solved, truth: Solved) -> dict[str, float | None]:
+def _measured(row: Solved, truth: Solved) -> TradeoffRow:
     if not (row.usable and truth.usable):
-        return {}
-    return {"error": error(row.u, truth.u), "field_error": error(row.field, truth.field)}
+        return TradeoffRow(**vars(row))
+    errors = error(row.u, truth.u), error(row.field, truth.field)
+    return TradeoffRow(**vars(row), error=errors[0], field_error=errors[1])

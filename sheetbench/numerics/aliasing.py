@@ -108,6 +108,7 @@ store: Any = constant(_store)
 store_each: Any = constant(_store_each)
 
 if getattr(config, "DISABLE_JIT", False):  # the same in Python, where kernels are not compiled
+
     def load(kind: int, array: np.ndarray, i: int) -> Any:
         return load_each(kind, array, i, 0, 1)[0]
 

@@ -121,8 +121,8 @@ class Newton:
         found = self._solve_compiled(equation, guess, limits)
         if found is not None:
             return found
-        how = {"tolerance": limits.tolerance, "stale": limits.stale}
-        return self.solve(equation.by, equation.residual, equation.blocks, guess, **how)
+        parts = equation.by, equation.residual, equation.blocks, guess
+        return self.solve(*parts, limits.tolerance, stale=limits.stale)
 
     def excess(self, system: System, state: State, by: tuple[float, float]) -> float:
         """Return the energy [J] that a state has too much by an equation that has c₂ and c₁, along stiff

@@ -8,8 +8,9 @@ point of area A has
 On a plane each cell has a point at each of its corners, a column of masses. On a sphere or cylinder these
 sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with l as
 far as it is across a cylinder's axis, and points are at their middles; at their ends, masses among them, of a
-sheet that rests on the obstacle, or nothing would hold it at the start. In motion k is
-0.05 ρ h ω_max² at most and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 +
+sheet that rests on the obstacle, or nothing would hold it at the start. In motion areas are as much larger
+or smaller as masses are than their tributary ones, so that a sheet which lands flat stays flat, k is
+0.065 ρ h ω_max² at most, and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 +
 δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). `docs/contact.md` has the
 reasons, and what energy they take.
 """
@@ -22,6 +23,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.items import LatticeItem, Placed, Since
+from lumped.masses import over_tributary
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, free_rigid_motions
@@ -30,7 +32,7 @@ from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle
 
 THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 32 points
-MOVING = 0.065  # of ω_max², that contact in motion adds at most: 0.05 where the mass is A ρ h, not at edges
+MOVING = 0.065  # of ω_max², that contact in motion adds at most
 ROUNDED = 0.3  # δ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (m, p)
@@ -69,6 +71,8 @@ class Contact(LatticeItem):
         self.weights = np.repeat(weights, lattice.grid[2], axis=1) / lattice.grid[2]
         self.nodes = lattice.mid_cells.reshape(-1, self.weights.shape[1])
         self.area = np.outer(lattice.cell_areas[lattice.cell_areas > 0.0], shares)
+        inert = over_tributary(scene, lattice, assembly.inertia, assembly.cells)
+        self._inert = np.einsum("pq,mq->mp", self.weights, inert[self.nodes])
         self._rest = lattice.positions[self.nodes]
         constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
         self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
@@ -155,7 +159,7 @@ class Contact(LatticeItem):
         return float((self._spread(self.area * self.share * self.full, np.zeros(self._masses)) / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
-        self.rounded = ROUNDED
+        self.rounded, self.area = ROUNDED, self.area * self._inert
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
     def rounding(self) -> float:

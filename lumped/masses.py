@@ -71,6 +71,15 @@ def masses(
     return sheet_masses(scene, lattice, distribution, cells) + point_masses(scene, lattice)
 
 
+def over_tributary(
+    scene: Scene, lattice: Lattice, distribution: Distribution, cells: CellSection | None
+) -> np.ndarray:
+    """Return every mass over the tributary one, (n,), 0 of none: what acts on areas is larger by it, so that
+    a sheet which falls flat stays flat."""
+    own, tributary = (sheet_masses(scene, lattice, by, cells) for by in (distribution, "tributary"))
+    return np.divide(own, tributary, out=np.zeros_like(own), where=tributary > 0.0)
+
+
 def sheet_masses(
     scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: CellSection | None = None
 ) -> np.ndarray:

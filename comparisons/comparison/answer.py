@@ -14,6 +14,7 @@ from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.pictures.array_files import write_mesh
 from comparisons.pictures.plan import plan_mesh
+from comparisons.sweep.differences import unseen
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.solution import Solution, Status
@@ -42,8 +43,9 @@ MOVED = (
 )
 COSTS = (
     *("model", Column("what it is", prose=True, detail=True), NUMBER("d", "unknowns")),
-    *(NUMBER("d", "factorisations"), SECONDS("z.2f", "set-up"), MILLISECONDS(".1f", "solve")),
-    *(PERCENT("z.2f", "error"), PERCENT("z.2f", "est."), Column("status", prose=True)),
+    *(NUMBER("d", "factorisations", detail=True), SECONDS("z.2f", "set-up"), MILLISECONDS(".1f", "solve")),
+    *(PERCENT("z.2f", "error"), PERCENT("z.2f", "field error"), PERCENT("z.2f", "est.")),
+    Column("status", prose=True),
 )
 FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 
@@ -70,6 +72,7 @@ class Comparison(Compared, Answer):
                     "of": solution.model,
                     "against": self.reference.model,
                     "error": self.error(solution),
+                    "field_error": self.field_errors.get(solution.model),
                     "distinguishable": self.distinguishable(solution),
                 }
                 for solution in self.solutions
@@ -133,7 +136,7 @@ class Comparison(Compared, Answer):
         rows = (
             (
                 *(s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds),
-                *(self.error(s), self._expected(s)),
+                *(self.error(s), self.field_errors.get(s.model), self._expected(s)),
                 *(hypot(*s.reactions[name]) if name in s.reactions else None for name in exerting),
                 s.status_text,
             )
@@ -154,9 +157,8 @@ class Comparison(Compared, Answer):
 
     def figures(self) -> tuple[Picture, ...]:
         lattice, reference = self.solutions[:2]
-        off = self.error(lattice)
-        error_text = "" if off is None else f": error at the probes {100 * off:.2f} %"
-        described = f"{self.scene.name}: {lattice.label} against {reference.label}{error_text}"
+        both = f"{self.scene.name}: {lattice.label} against {reference.label}"
+        described = ": ".join(filter(None, [both, self.error_in_words(lattice)]))
         return (Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),)
 
     def files(self) -> dict[str, Write]:
@@ -199,10 +201,15 @@ class Comparison(Compared, Answer):
             *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
             *([f"{first}: {self.expected}"] if self.expected else []),
             *self._bar_notes(),
+            *unseen(
+                ((s.model, self.error(s), self.field_errors.get(s.model)) for s in self.solutions),
+                None if self.bar is None else self.bar.error,
+            ),
             *dict.fromkeys(note for s in self.solutions for note in choice_notes(s.settings)),
             " · ".join(solution.label for solution in self.solutions),
             f"difference: |u − {ref}| / |{ref}| at the probe. "
-            f"error: largest component of u − {ref} over the probes / largest component of {ref}."
+            f"error: largest component of u − {ref} over the probes / largest component of {ref}; "
+            "field error: likewise over the sheet."
             + " ±: mesh error of the reference at the probe."
             * (self.bar is not None),
         ]

@@ -2,8 +2,9 @@
 
 With u the displacement of a model and u_ref that of the reference at the same plan points,
 
-    error     largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
-    relative  |u − u_ref| / |u_ref| at one probe
+    error        largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
+    field_error  likewise, over points all over the sheet in place of the probes
+    relative     |u − u_ref| / |u_ref| at one probe
 
 Both are fractions, and None where they have no meaning: the reference does not move there by more than
 round-off, a number is not finite, or one of the two models did not reach the full load.
@@ -19,7 +20,7 @@ import numpy as np
 from comparisons.comparison import branches
 from comparisons.comparison.error_bar import ErrorBar
 from comparisons.models.expected_error import ExpectedError, NoEstimate
-from comparisons.sweep.differences import error, relative
+from comparisons.sweep.differences import error, field_points, relative
 from comparisons.sweep.model_error import ModelError, model_error
 from fem_reference.uncertainty import ROUNDING
 from sheetbench.answers.solution import Solution, Status
@@ -94,6 +95,20 @@ class Compared:
             return None
         points = self.scene.probe_points()
         return error(solution.displacement(points), self.reference.displacement(points))
+
+    @cached_property
+    def field_errors(self) -> dict[str, float | None]:
+        """The error over the sheet of every other model that has one, by name."""
+        points = field_points(self.scene)
+        moved = {s.model: s.displacement(points) for s in self.solutions if self.measurable(s)}
+        truth = moved.pop(self.reference.model, None)
+        return {} if truth is None else {model: error(u, truth) for model, u in moved.items()}
+
+    def error_in_words(self, solution: Solution) -> str:
+        """Return the error at the probes and over the sheet, nothing where there is none."""
+        at, over = self.error(solution), self.field_errors.get(solution.model)
+        sheet = "" if over is None else f", over the sheet {100 * over:.2f} %"
+        return "" if at is None else f"error at the probes {100 * at:.2f} %{sheet}"
 
     @property
     def differences(self) -> tuple[Difference, ...]:

@@ -87,10 +87,8 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
         MODEL_NAMES.get(reference.model, reference.model),
         "Difference",
     ]
-    error = comparison.error(lattice)
-    caption = "" if error is None else f"error at the probes {100 * error:.2f} %"
     for panel, (image, _), title, subtitle in zip(
-        axes, shots, titles, (lattice.label, reference.label, caption), strict=True
+        axes, shots, titles, (lattice.label, reference.label, comparison.error_in_words(lattice)), strict=True
     ):
         panel.imshow(image, interpolation="lanczos")
         panel.set_axis_off()

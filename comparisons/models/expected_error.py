@@ -110,6 +110,18 @@ def resolves(scene: Scene, grid: Grid) -> bool:
     return all(layer.bent_edge or layer.width >= FOLD * cell for layer in layers(scene))
 
 
+def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
+    """Return the finer grid of a resolved lattice, and how many times as many cells in plan it has; or why
+    there is no estimate."""
+    grid = scene_grid(scene, lattice.grid)
+    finer = finer_grid(grid)
+    if converges(lattice, finer):
+        return finer, prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
+    if prod(finer[:2]) > MOST:
+        return NoEstimate(f"{finer[0]} × {finer[1]} masses would be needed")
+    return NoEstimate("these springs do not tend to the sheet on finer grids")
+
+
 def expected_error(
     scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
 ) -> ExpectedError | NoEstimate:
@@ -120,13 +132,11 @@ def expected_error(
     """
     if solution.status is not Status.CONVERGED:
         return NoEstimate(f"the lattice is {solution.status}")
-    grid = scene_grid(scene, lattice.grid)
-    finer = finer_grid(grid)
-    masses = " × ".join(str(n) for n in finer[:2])
-    if not converges(lattice, finer):
-        large = prod(finer[:2]) > MOST
-        needed = f"{masses} masses would be needed"
-        return NoEstimate(needed if large else "these springs do not tend to the sheet on finer grids")
+    found = finer_of(scene, lattice)
+    if isinstance(found, NoEstimate):
+        return found
+    finer, ratio = found
+    masses = f"{finer[0]} × {finer[1]}"
     if not resolves(scene, finer):
         return NoEstimate("the load bends the sheet within a cell or two, on a finer grid too")
     fine = solve(lattice.but(grid=finer))
@@ -138,7 +148,6 @@ def expected_error(
         snaps = f"the sheet snaps {len(fine.snaps)} times, here {len(solution.snaps)}"
         return NoEstimate(f"on {masses} masses {snaps}")
     points = scene.probe_points()
-    ratio = prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
     stretch = largest_stretch(scene, fine, finer)
     value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)
     if isinstance(value, str):
@@ -146,10 +155,10 @@ def expected_error(
     return ExpectedError(value, finer, fine.solve_seconds)
 
 
-def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float) -> float | str:
-    """Return e of displacements (n, 3) on grids with `ratio` times as many cells in plan on the finer; or why
-    there is none, as the end of a sentence: they are alike but for rounding, too far apart, or `stretch`
-    makes the laws of strain weigh more."""
+def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float = 0.0) -> float | str:
+    """Return e of displacements (n, 3), or of other values, on grids with `ratio` times as many cells in plan
+    on the finer; or why there is none, as the end of a sentence: they are alike but for rounding, too far
+    apart, or `stretch` makes the laws of strain weigh more."""
     size, difference = float(np.max(np.abs(fine))), float(np.max(np.abs(coarse - fine)))
     if not difference > ROUNDING * size:
         return "are the same but for rounding"

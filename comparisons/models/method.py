@@ -29,6 +29,7 @@ from sheetbench.scenes.objects.grid import LAYERS
 
 MEMBRANE = "consistent-membrane"
 RUBBER = "hyperelastic"
+OF_A_LAW = (RUBBER, "neo-hookean")
 INCOMPRESSIBLE = 0.4
 FAR = 600.0
 STRETCHED = 0.1
@@ -40,6 +41,9 @@ def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> 
     left_open = lattice.calibration is lattice.k is lattice.layer_distance is None
     if scene.material.law is not None and lattice.k is None and lattice.calibration in (None, AUTO):
         return RUBBER, f"the material has the law {scene.material.law}"
+    if scene.material.law is not None and lattice.calibration not in OF_A_LAW:
+        left_out = f"the material's law {scene.material.law}, which {RUBBER} has, is left out"
+        return lattice.calibration, f"linear springs: {left_out}, at a stretch of ε about ε of the force"
     if lattice.calibration != AUTO and not (left_open and lattice.grading == AUTO):
         return lattice.calibration, ""
     if grid[2] != LAYERS and not scales(scene).strain > STRETCHED:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.models.expected_error import NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.modes.damping import ModeDamping, damping_table, mode_damping
 from comparisons.modes.pairing import CELLS, Pair, kinds, on_cells, pairs_of
@@ -53,7 +54,8 @@ class Spectra(Answer):
 
     about: "flat" or "deformed"; sag [m]: the largest displacement that the lattice's flat tangent gives under
     the scene's loads, None where there are none, or nothing that stops a rigid motion; buckling: of the
-    lattice first, then of the references, none unless requested.
+    lattice first, then of the references, none unless requested; expected: the grid error to expect of each
+    of the lattice's load factors, None of one without, or why there is none of any.
     """
 
     file_name = "modes"
@@ -62,6 +64,7 @@ class Spectra(Answer):
     about: About = "flat"
     sag: float | None = None
     buckling: tuple[Buckling, ...] = ()
+    expected: tuple[float | None, ...] | NoEstimate | None = None
 
     def __getitem__(self, index: int) -> Spectrum:
         return self.found[index]
@@ -122,9 +125,11 @@ class Spectra(Answer):
             spectrum.model: [asdict(mode) for mode in modes]
             for spectrum, modes in zip(self.found, self.damping, strict=False)
         }
+        why_not = self.expected.reason if isinstance(self.expected, NoEstimate) else None
         buckling = {
             "solutions": [one.as_dict() for one in self.buckling],
             "pairs": [pair.as_dict() for pair in self.buckling_pairs],
+            **({"no_estimate": why_not} if why_not else {"expected_errors": self.expected}),
         }
         return {
             "scene": self.scene.document(),
@@ -143,7 +148,8 @@ class Spectra(Answer):
         if self.buckling:
             buckled = [(one.model, one.load_factors.tolist()) for one in self.buckling]
             caption, factor = "Buckling: load factors, times the loads", NUMBER(".5g")
-            shown.append(_paired(caption, "buckling", factor, buckled, self.buckling_pairs))
+            errors = self.expected if isinstance(self.expected, tuple) else ()
+            shown.append(_paired(caption, "buckling", factor, buckled, self.buckling_pairs, expected=errors))
         damped = zip(self.found, self.damping, strict=False)
         return *shown, *(
             damping_table(modes, f"Damping of the modes: {one.model}", f"damping-{one.model}")
@@ -202,6 +208,10 @@ class Spectra(Answer):
                     *band
                 )
             )
+        if isinstance(self.expected, NoEstimate):
+            notes.append(f"{self[0].model}, buckling: {self.expected}")
+        elif self.expected:
+            notes.append("est.: grid error to expect of a load factor, from a second solve on a finer grid")
         if self[0].modes.rigid:
             notes.append(f"{self[0].modes.rigid} rigid-body modes, of frequency 0, are left out")
         if self.scene.actuators:
@@ -216,13 +226,15 @@ def _paired(
     found: Sequence[tuple[str, list[float]]],
     pairs: Sequence[Pair],
     kinds: Sequence[str | None] = (),
+    expected: Sequence[float | None] = (),
 ) -> Table:
-    """Return a row per mode of the first model: its value, and number and value of the mode of the same shape
-    of each other; difference and MAC from the second."""
+    """Return a row per mode of the first model: its value, the error expected of it where that is known, and
+    number and value of the mode of the same shape of each other; difference and MAC from the second."""
     (first, own), *others = found
     columns: list[tuple[Column, Sequence[Any]]] = [(NUMBER("d", "mode"), range(1, len(own) + 1))]
     columns += [(Column("kind"), kinds)] if any(kinds) else []
     columns.append((replace(value, name=first), own))
+    columns += [(PERCENT("z.2f", "est."), expected)] if expected else []
     beside = [[pair for pair in pairs if pair.against == model] for model, _ in others]
     for (model, values), theirs in zip(others, beside, strict=True):
         columns.append((NUMBER("d", f"{model}'s mode"), [pair.is_ for pair in theirs]))

@@ -14,10 +14,13 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from comparisons.models.context import context
+from comparisons.models.expected_error import NoEstimate, finer_of, grid_error
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
+from comparisons.models.sizes import has_room
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
+from comparisons.modes.pairing import on_cells, pairs_of
 from comparisons.pictures.work import Work
 from sheetbench.answers.modes import Buckling
 from sheetbench.answers.solution import About
@@ -59,12 +62,13 @@ def spectra(
         context().progress(Work(f"modes of {model.spec.model}", model.size))
 
     buckled = tuple(_buckling(own, models, count)) if buckling else ()  # refused before anything is solved
+    expected = _expected(own, buckled[0]) if buckling else None
     starting(own)
     found = [_lattice(own, count, about)]
     for model in models:
         starting(model)
         found.append(_reference(model, count, about))
-    return Spectra(scene, tuple(found), about, _sag(scene, own.springs), buckled)
+    return Spectra(scene, tuple(found), about, _sag(scene, own.springs), buckled, expected)
 
 
 def _buckling(own: Resolved[Lattice], models: Sequence[Resolved[Elements]], count: int) -> Iterator[Buckling]:
@@ -77,6 +81,29 @@ def _buckling(own: Resolved[Lattice], models: Sequence[Resolved[Elements]], coun
         if model.spec.kind != "plate":
             context().progress(Work(f"buckling of {model.spec.model}", model.size))
             yield fem_reference.buckling(model.scene, model.spec.kind, model.spec.elements, count)
+
+
+def _expected(own: Resolved[Lattice], found: Buckling) -> tuple[float | None, ...] | NoEstimate:
+    """Return the grid error to expect of each of a lattice's load factors, from those of the same shapes on
+    the finer grid of `comparisons.models.expected_error`; or why there is none."""
+    import lumped
+
+    scene, count = own.scene, len(found.load_factors)
+    other = finer_of(scene, own.spec)
+    if isinstance(other, NoEstimate):
+        return other
+    finer = own.spec.but(grid=other[0])
+    if not has_room(scene, finer):
+        return NoEstimate(f"{finer.size} masses take too much memory")
+    fine = lumped.buckling(scene, resolve(scene, finer, "modes").springs, count)
+    first, second = (
+        (one.model, one.load_factors, on_cells(scene, one.displacement)) for one in (found, fine)
+    )
+    errors = [
+        "" if pair.is_ is None else grid_error(first[1][[i]], second[1][[pair.is_ - 1]], other[1])
+        for i, pair in enumerate(pairs_of(first, [second], [None] * count))
+    ]
+    return tuple(None if isinstance(error, str) else error for error in errors)
 
 
 def _sag(scene: Scene, springs: Calibration) -> float | None:

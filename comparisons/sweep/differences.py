@@ -2,9 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
+from comparisons.pictures.plan import plan_mesh
 from sheetbench.errors import BadInput
+from sheetbench.scenes import Scene
+
+FIELD_CELLS = 16  # along the shorter side, at whose corners the field error is measured
+UNSEEN = 1.5  # field error over error, above which the probes see too little of the sheet
+
+
+def field_points(scene: Scene) -> np.ndarray:
+    """Return plan points (n, 2) [m] all over the sheet."""
+    return plan_mesh(scene, FIELD_CELLS).points[:, :2]
+
+
+def unseen(errors: Iterable[tuple[str, float | None, float | None]], bar: float | None = None) -> list[str]:
+    """Return a sentence on the models whose field error is far above the error at the probes; errors: name,
+    error and field error of each; bar: of the reference, below which no error is told."""
+    known = [(name, at, over) for name, at, over in errors if at is not None and over is not None]
+    names = [name for name, at, over in known if over > UNSEEN * max(at, bar or 0.0)]
+    why = f"error over the sheet more than {UNSEEN} times that at the probes; other [probes] show where"
+    return [f"{', '.join(names)}: {why}."] if names else []
 
 
 def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:

@@ -16,6 +16,7 @@ from comparisons.models.solve import solve
 from comparisons.models.spec import Lattice, Spec
 from comparisons.pictures.work import silent
 from comparisons.sweep import load
+from comparisons.sweep.differences import field_points
 from comparisons.sweep.solved import Ask, Solved
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import Solution
@@ -33,6 +34,10 @@ class SolvedHere(Solved):
     @cached_property
     def u(self) -> np.ndarray:
         return self.answer.displacement(self.ask.scene.probe_points())
+
+    @cached_property
+    def field(self) -> np.ndarray:
+        return self.answer.displacement(field_points(self.ask.scene))
 
     @property
     def seconds(self) -> float:

@@ -38,7 +38,7 @@ def limit(
     an order of 2 at most counts; in motion the layer counts for nothing.
     """
     from fem_reference.edge_layer import missed_by
-    from fem_reference.uncertainty import ASSUMED_ORDER, OWN_ORDER, estimate
+    from fem_reference.uncertainty import SECOND_ORDER, estimate, family_of
 
     usable = sorted((row for row in rows if row.usable), key=size)[:3]
     sizes = [*map(size, usable)]
@@ -47,8 +47,8 @@ def limit(
     ask, layers = usable[0].ask, []
     if ask.layered and ask.duration is None:
         layers = [missed_by(row.ask.scene, row.row["settings"]) for row in usable]
-    order = OWN_ORDER if ask.layered else ASSUMED_ORDER
-    return estimate([row.u for row in usable], sizes, layers, order)
+    family = family_of(ask.scene) if ask.layered else SECOND_ORDER
+    return estimate([row.u for row in usable], sizes, layers, family)
 
 
 def motion_bar(meshes: Sequence[Solved], longer: Solved) -> dict[str, float | None]:

@@ -116,6 +116,11 @@ class Solved:
         return np.array(probes) if self.ask.duration is None else np.concatenate(probes)
 
     @property
+    def field(self) -> np.ndarray:
+        """Displacement (n, 3) [m] all over the sheet, where the column `field` was wanted."""
+        return np.array(self.row["columns"]["field"], dtype=float)
+
+    @property
     def counts(self) -> list[int]:
         """Cells along x and y; nothing where the settings do not tell."""
         settings = self.row.get("settings") or self.ask.spec.settings

@@ -11,6 +11,7 @@ from typing import Any
 from comparisons.models.grading import parse_grading
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.sweep import load
+from comparisons.sweep.differences import unseen
 from comparisons.sweep.here import SolvedHere
 from comparisons.sweep.model_error import ModelError, share_of_tolerance
 from comparisons.tradeoff.trials import TrialSolves
@@ -22,7 +23,7 @@ from sheetbench.scenes.language.summary import few
 
 TRIED = (
     *(Column("model", prose=True), "size", MILLISECONDS(".2f", "solve"), PERCENT(".3g", "error")),
-    *(PERCENT(".3g", "in all"), Column("choice", words=("yes", ""))),
+    *(PERCENT(".3g", "field error"), PERCENT(".3g", "in all"), Column("choice", words=("yes", ""))),
 )
 
 
@@ -78,12 +79,14 @@ class Advice(Answer):
         doubts = load.warnings([row.conditions for row in rows], [row.samples for row in rows])
         return [*doubts, *(f"{one.model} {one.size} left out: {reason}" for one, reason in refused)]
 
-    def errors(self, row: SolvedHere) -> tuple[float | None, float | None]:
-        """Return the distance of a row from the finest one, and that with the finest one's bar and model
-        error, which a tolerance is held against; None where there is no answer."""
+    def errors(self, row: SolvedHere) -> tuple[float | None, float | None, float | None]:
+        """Return the distance of a row from the finest one at the probes and over the sheet, and the first
+        with the finest one's bar and model error, which a tolerance is held against; None where there is no
+        answer."""
         off = self.trials.error(row) if row.stable else None
         total = None if off is None else off + self.bar + (self.model.value if self.model else 0.0)
-        return off, total if total is not None and isfinite(total) else None
+        known = total is not None and isfinite(total)
+        return off, self.trials.field_error(row), total if known else None
 
     @property
     def reason(self) -> str:
@@ -100,7 +103,7 @@ class Advice(Answer):
         """Whether a model meets the tolerance, within the budget if there is one."""
         if self.chosen is None:
             return False
-        _, total = self.errors(self.chosen)
+        *_, total = self.errors(self.chosen)
         accurate = self.tolerance is None or (total is not None and total <= self.tolerance)
         return accurate and (self.budget is None or self.chosen.seconds <= self.budget)
 
@@ -108,7 +111,7 @@ class Advice(Answer):
         tried = []
         for row in self.trials.rows.values():
             own = _named(row.ask.spec) | {"status": row.status}
-            own |= dict(zip(("error", "total"), self.errors(row), strict=True))
+            own |= dict(zip(("error", "field_error", "total"), self.errors(row), strict=True))
             tried.append(own | {"solve_seconds": row.seconds})
         return {
             "scene": self.scene.name,
@@ -117,6 +120,7 @@ class Advice(Answer):
             "choice": None if self.choice is None else _named(self.choice),
             "predicted": {
                 "error": self.error,
+                "field_error": None if self.chosen is None else self.trials.field_error(self.chosen),
                 "uncertainty": self.bar,
                 **(self.model.as_dict() if self.model else {"model": None}),
                 "solve_seconds": None if self.chosen is None else self.chosen.seconds,
@@ -156,6 +160,7 @@ class Advice(Answer):
         return [
             f"{self.reason} ({few(self.trials.seconds)} s of trial solves)",
             *([] if command is None else [f"Solve it with:\n{command}"]),
+            *([] if self.chosen is None else self._unseen(self.chosen)),
             f"the scene needs {', '.join(self.needs)}",
             *self.warnings,
             *self.reasons,
@@ -165,6 +170,9 @@ class Advice(Answer):
             f"slenderness h/a = {number(scales.slenderness, '.3g')}; "
             f"membrane strain q a/(E h) = {number(scales.strain, '.2g')}; a: shorter side",
         ]
+
+    def _unseen(self, chosen: SolvedHere) -> list[str]:
+        return unseen([(chosen.ask.spec.label, *self.errors(chosen)[:2])], self.bar)
 
     def result(self) -> str:
         return self.reason if self.choice is None else f"{self.choice.label}: {self.reason}"

@@ -8,6 +8,7 @@ from math import inf
 from typing import Any
 
 from comparisons.sweep import load
+from comparisons.sweep.differences import unseen
 from comparisons.sweep.front import cheapest, error_order, front, grouped, order
 from comparisons.tradeoff.row import MOVED, TRADED
 from sheetbench.answers.answer import Answer
@@ -135,9 +136,11 @@ class Tradeoff(Priced):
         explained = (
             f"errors against {truth.label} ({truth.known.get('unknowns')} unknowns), whose own "
             f"uncertainty is {self.known} (grid convergence index of n, ¾ n and ½ n elements){left_out}. "
-            "error: at the probes. One thread; times on warm code; memory: growth of the process."
+            "error: at the probes; field error: over the sheet. One thread; times on warm code; memory: "
+            "growth of the process."
         )
-        return [*self.reasons, *self.cheapest(), explained, *self.warnings]
+        seen = unseen(((row.name, row.error, row.field_error) for row in self.rows), self.uncertainty)
+        return [*self.reasons, *self.cheapest(), *seen, explained, *self.warnings]
 
     def complaints(self) -> list[str]:
         failed = [row for row in self.rows if row.status != Status.CONVERGED]

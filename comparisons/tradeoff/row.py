@@ -16,7 +16,7 @@ from sheetbench.scenes.language.summary import milliseconds
 
 MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column("front", words=("yes", ""))
-OWN = ("label", "status", "message", "cell_size", "started", "finished", "error")
+OWN = ("label", "status", "message", "cell_size", "started", "finished", "error", "field_error")
 MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes")
 CONDITIONS = ("load_average", "machine", "worker", "versions")  # in the JSON where they are known
 _OF_AN_ANSWER = ("load_factor", "model_error", "probes", "traceback", *CONDITIONS)
@@ -25,7 +25,7 @@ TRADED = (
     *(NUMBER("d", "factorisations", detail=True), MILLISECONDS(".1f", "set-up", detail=True)),
     *(MILLISECONDS(".2f", "solve"), MILLISECONDS(".2f", "from", detail=True)),
     *(MILLISECONDS(".2f", "to", detail=True), MEMORY(".1f", "memory"), PERCENT(".3g", "error")),
-    *(FRONT, Column("status", detail=True)),
+    *(PERCENT(".3g", "field error"), FRONT, Column("status", detail=True)),
 )
 OF_A_RUN = ("unknowns", "steps", "peak_memory_bytes", *CONDITIONS)
 OF_A_MOTION = ("step_error", "period", "period_error", "damping", "damping_error")
@@ -43,10 +43,11 @@ MOVED = {
 
 @dataclass(frozen=True)
 class TradeoffRow(Solved):
-    """A row of the table of solves, at rest, with its error, a fraction, None where there is nothing to
-    measure."""
+    """A row of the table of solves, at rest, with its errors at the probes and over the sheet, fractions,
+    None where there is nothing to measure."""
 
     error: float | None = None
+    field_error: float | None = None
 
     @property
     def known(self) -> dict[str, Any]:
@@ -94,7 +95,7 @@ class TradeoffRow(Solved):
         spec, known = self.ask.spec, self.known
         unknowns, iterations, setup, memory = (known.get(name) for name in MEASURED)
         times = (setup, self.seconds, min(self.samples, default=None), max(self.samples, default=None))
-        return (spec.series, spec.size, unknowns, iterations, *times, memory, self.error)
+        return (spec.series, spec.size, unknowns, iterations, *times, memory, self.error, self.field_error)
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

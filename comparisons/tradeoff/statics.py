@@ -1,6 +1,6 @@
 """Error against cost: many models of one scene, measured alike, beside the finest reference.
 
-    error        at the probes, as `comparisons.comparison.comparison` defines it
+    error        at the probes, and field_error over the sheet, as `comparisons.comparison.errors` has them
     uncertainty  of the reference: its bar by the grid convergence index, from meshes of
                  n, ¾ n and ½ n elements a side (`fem_reference.uncertainty`)
     cost         see `comparisons.sweep.task`
@@ -29,7 +29,7 @@ from fem_reference.uncertainty import coarser
 from sheetbench.scenes import Scene, require_static
 
 REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
-TRADED = ("model_error",)  # columns
+TRADED = ("field", "model_error")  # columns
 
 
 def tradeoff(
@@ -61,7 +61,7 @@ def tradeoff(
     bar = limit(finer) if truth.usable else None
     return Tradeoff(
         scene,
-        tuple(TradeoffRow(**vars(row), error=_error(row, truth)) for row in rows),
+        tuple(_measured(row, truth) for row in rows),
         TradeoffRow(**vars(truth)),
         None if bar is None else bar.error,
         reasons,
@@ -74,5 +74,8 @@ def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
     return Elements("shell", max([least, *(2 * int(n) for n in shells)]))
 
 
-def _error(row: Solved, truth: Solved) -> float | None:
-    return error(row.u, truth.u) if row.usable and truth.usable else None
+def _measured(row: Solved, truth: Solved) -> TradeoffRow:
+    if not (row.usable and truth.usable):
+        return TradeoffRow(**vars(row))
+    errors = error(row.u, truth.u), error(row.field, truth.field)
+    return TradeoffRow(**vars(row), error=errors[0], field_error=errors[1])

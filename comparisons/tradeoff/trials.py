@@ -135,6 +135,10 @@ class TrialSolves:
         """Error of a row against the reference; infinite for an answer that is none."""
         return (error(row.u, self.reference.u) or 0.0) if row.stable else float("inf")
 
+    def field_error(self, row: SolvedHere) -> float | None:
+        """Error of a row over the sheet; None for an answer that is none."""
+        return error(row.field, self.reference.field) if row.stable else None
+
     def predicted_seconds(self, candidate: Spec) -> float:
         """Time of a candidate: as measured, or by the rates of its family."""
         if candidate in self.rows:

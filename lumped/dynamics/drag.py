@@ -18,7 +18,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.coverage import cell_shares
-from lumped.masses import sheet_masses
+from lumped.masses import over_tributary
 from lumped.pressure import add_forces
 from sheetbench.numerics.options import njit
 from sheetbench.scenes import Scene
@@ -42,10 +42,9 @@ class LatticeDrag(NamedTuple):
 def of_scene(scene: Scene, assembly: Assembly) -> LatticeDrag:
     """The drag on the masses of a scene's lattice."""
     lattice, cells = assembly.lattice, assembly.cells
-    inert, tributary = (sheet_masses(scene, lattice, by, cells) for by in (assembly.inertia, "tributary"))
     coefficient = 0.0 if scene.air is None else scene.air.coefficient
     area = np.zeros_like(lattice.positions)
-    weights = np.divide(inert, tributary, out=np.zeros_like(inert), where=tributary > 0.0)
+    weights = over_tributary(scene, lattice, assembly.inertia, cells)
     shares = cell_shares(scene, lattice, None)
     return LatticeDrag(coefficient, lattice.positions, lattice.mid_cells, shares, weights, area)
 

@@ -40,7 +40,7 @@ def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front():
     row = TradeoffRow(Ask(scene, Elements("shell", 2)), "converged")
     table, _ = Tradeoff(scene, (), row, None, None).tables()
     assert [column.name for column in table.columns if not column.detail] == [
-        "row", "model", "size", "unknowns", "solve", "memory", "error", "front",
+        "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
     ]  # fmt: skip
 
 

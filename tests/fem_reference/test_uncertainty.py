@@ -12,7 +12,7 @@ from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep import here as table
 from fem_reference.edge_layer import NOTHING, Missed, captured, missed_by
-from fem_reference.uncertainty import coarser, estimate, of_solutions, solve_with_bar
+from fem_reference.uncertainty import FITTED, coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
 from sheetbench.answers.solution import Status
@@ -57,6 +57,12 @@ def test_the_bar_is_1_35_times_the_largest_error_at_the_order_that_is_banked_on(
     assert found.error == pytest.approx(found.bar.item() / abs(found.answer.item()))
     if isinstance(answers, np.ndarray):
         assert not found.trusted.any() and found.extrapolated.item() == answers[0].item()
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0, 3.3])
+def test_on_meshes_fitted_to_rims_order_2_at_most_counts_and_neighbours_in_full(order):
+    found, counts = estimate(made(order), SIZES, family=FITTED), min(order, 2.0)
+    assert found.bar.item() == pytest.approx(2.0 * max(errors_at(made(order), counts)).item(), rel=1e-6)
 
 
 @pytest.mark.parametrize("odd", [0.6, 1.0, 5.0])
@@ -136,6 +142,33 @@ def test_the_bar_covers_the_true_error_at_the_default_mesh(name, model):
     assert found is not None
     assert np.all(np.abs(found.answer - truth) <= found.bar + 1e-12)
     assert found.error < (1e-3 if model == "shell" else 1e-2)
+
+
+ROUND = [  # sides, thickness; E, nu, rho; weight; supports of x0, x1, y0, y1; centre and radius of the hole
+    ((0.2185, 0.1509, 0.0012563, 507729, 0.3408, 1100.2), 0.000869381, "h-h-", (0.09978, 0.08079, 0.03218)),
+    ((0.2121, 0.1464, 0.0041359, 957382, 0.3628, 1006.4), 0.55314, "chhh", (0.12372, 0.08730, 0.02549)),
+    ((0.2923, 0.1704, 0.0027048, 6.77e6, 0.1112, 1175.5), 1.00928, "hhcc", (0.15568, 0.09361, 0.03660)),
+    ((0.1805, 0.1295, 0.0020707, 8.29e6, 0.3692, 1201.2), 2.85762, "cchh", (0.10035, 0.07591, 0.02679)),
+    ((0.1521, 0.0957, 0.0010980, 1.86e6, 0.4518, 1008.6), 0.157661, "c---", (0.08648, 0.05226, 0.01609)),
+]
+SHARES = np.array([[0.5, 0.85], [0.75, 0.5], [0.75, 0.75]])  # of the sides, where it is looked at
+
+
+@pytest.mark.nightly
+def test_bars_hold_at_round_holes():
+    """45 components of five drawn sheets, truth: 28 elements; by the rule of meshes in rows 28 were held."""
+    held = []
+    for data, weight, kinds, (x, y, radius) in ROUND:
+        names = {"h": "hinged", "c": "clamped"}
+        edges = zip(("x0", "x1", "y0", "y1"), kinds, strict=True)
+        supports = [{"kind": names[kind], "edge": edge} for edge, kind in edges if kind != "-"]
+        hole = {"shape": {"circle": {"centre": [x, y], "radius": radius}}}
+        scene = sheet(*data, weight=weight, supports=supports, cutouts=[hole])
+        points = SHARES * scene.sheet.lengths
+        _, found = solve_with_bar(scene, points, elements=12)
+        off = found.answer - fem_reference.solve(scene, "shell", elements=28).displacement(points)
+        held.append(np.abs(off) <= found.bar)
+    assert np.mean(held) >= 0.95
 
 
 def test_a_mesh_without_an_answer_is_left_out():

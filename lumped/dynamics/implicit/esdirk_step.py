@@ -11,10 +11,12 @@ alone would have too much energy. Energies are polynomials through the stages' p
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 
 from lumped.dynamics.implicit.compiled_stages import Stages, polynomials
-from lumped.dynamics.implicit.newton import Newton, StepEquation
+from lumped.dynamics.implicit.newton import STALE, Newton, StepEquation
 from lumped.dynamics.implicit.tableau import ABSCISSAE, CUMULATIVE, ERRORS, GAMMA, STAGES
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.system import State, System
@@ -89,10 +91,11 @@ class EsdirkStep:
             for i in range(len(times) - ended):
                 base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
                 equation = StepEquation(inside[i], float(times[i]), *base, (c1**2, c1))
-                try:
-                    found = newton.solve_equation(equation, u[i], tolerance)
-                except (StepFailed, SingularMatrixError):
-                    continue  # the polynomial's stays
+                found = u[i]  # the polynomial's stays where there is no solution
+                for stale in (None, STALE):  # with the step's factors, or anew with the best
+                    with suppress(StepFailed, SingularMatrixError):
+                        found = newton.solve_equation(equation, u[i], tolerance, stale)
+                        break
                 a[i] += c1**2 * (found - u[i])
                 u[i] = found
         if ended:

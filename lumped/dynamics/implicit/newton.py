@@ -79,10 +79,12 @@ class Newton:
         guess: np.ndarray,
         tolerance: float | None = None,
         weigh: Callable[[np.ndarray], np.ndarray] = lambda correction: correction,
+        stale: float | None = None,
     ) -> np.ndarray:
         """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
-        (size, 3) from the solution of the linear system. Raises StepFailed."""
-        problem = self._system.problem
+        (size, 3) from the solution of the linear system; stale: as of the iteration, else its own. Raises
+        StepFailed."""
+        problem, stale = self._system.problem, self._stale if stale is None else stale
         small = self.tolerance if tolerance is None else tolerance
         u, last, fresh = guess, np.inf, False
         if key != self._key:
@@ -99,22 +101,28 @@ class Newton:
                 return u
             if length > problem.size:
                 break
-            if length > self._stale * last and not fresh:
+            if length > stale * last and not fresh:
                 self._factor = None
             last, fresh = length, False
         self._factor = None
         raise StepFailed(UNSOLVED)
 
     def solve_equation(
-        self, equation: StepEquation, guess: np.ndarray, tolerance: float | None = None
+        self,
+        equation: StepEquation,
+        guess: np.ndarray,
+        tolerance: float | None = None,
+        stale: float | None = None,
     ) -> np.ndarray:
-        """u of the equation. tolerance [m]: of the last correction, else the iteration's own.
-        Raises StepFailed, or SingularMatrixError."""
-        small = self.tolerance if tolerance is None else tolerance
-        found = self._solve_compiled(equation, guess, small)
+        """u of the equation. tolerance [m]: of the last correction, stale: the ratio of successive ones from
+        which on factors are made anew, else the iteration's own. Raises StepFailed, or
+        SingularMatrixError."""
+        limits = self._limits(tolerance, stale)
+        found = self._solve_compiled(equation, guess, limits)
         if found is not None:
             return found
-        return self.solve(equation.by, equation.residual, equation.blocks, guess, small)
+        parts = equation.by, equation.residual, equation.blocks, guess
+        return self.solve(*parts, limits.tolerance, stale=limits.stale)
 
     def excess(self, system: System, state: State, by: tuple[float, float]) -> float:
         """Return the energy [J] that a state has too much by an equation that has c₂ and c₁, along stiff
@@ -132,7 +140,7 @@ class Newton:
         done, as where the tangent is not positive definite. tolerance [m]: as in `solve_equation`. Raises
         StepFailed."""
         compiled, first, left = self._compiled, 1, 0
-        limits, self.made = self._limits(self.tolerance if tolerance is None else tolerance), 0
+        limits, self.made = self._limits(tolerance), 0
         if compiled is None or not self.near(step.mass_coefficient):
             return False
         while True:
@@ -148,8 +156,10 @@ class Newton:
             if not self._factorise(equation, stages.u[first]):
                 return False
 
-    def _limits(self, small: float) -> NewtonLimits:
-        return NewtonLimits(small, self._system.problem.size, self._stale, CORRECTIONS)
+    def _limits(self, tolerance: float | None, stale: float | None = None) -> NewtonLimits:
+        small = self.tolerance if tolerance is None else tolerance
+        ratio = self._stale if stale is None else stale
+        return NewtonLimits(small, self._system.problem.size, ratio, CORRECTIONS)
 
     def near(self, mass_coefficient: float) -> bool:
         """Whether the compiled iteration's factors serve an equation with this c₂."""
@@ -174,13 +184,15 @@ class Newton:
                 self._factored = equation.by[0]
         return self._factored is not None
 
-    def _solve_compiled(self, equation: StepEquation, guess: np.ndarray, small: float) -> np.ndarray | None:
+    def _solve_compiled(
+        self, equation: StepEquation, guess: np.ndarray, limits: NewtonLimits
+    ) -> np.ndarray | None:
         """u of the equation, None where that is not compiled, or its tangent not positive definite. Raises
         StepFailed."""
         if (compiled := self._compiled) is None:
             return None
         u, left, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
-        given = equation.by, self._system.loads([equation.time])[0], self._limits(small), compiled.arrays
+        given = equation.by, self._system.loads([equation.time])[0], limits, compiled.arrays
         while self.near(equation.by[0]) or self._factorise(equation, u):
             solved, left = iterate(left, u, *base, *given, self._factors)
             if self._solved(solved, left):

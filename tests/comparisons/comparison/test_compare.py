@@ -53,6 +53,28 @@ def test_error_is_the_largest_component_over_the_probes_and_none_where_nothing_m
     assert relative(np.array([np.nan, 0.0, 0.0]), np.ones(3)) is None
 
 
+def test_the_error_over_the_sheet_stands_beside_that_at_the_probes():
+    """A lattice that is right at the only probe and 3 % off in the middle says so; one that is 3 % off
+    everywhere has two alike, and no note."""
+    scene = SCENE.replace(probes={"corner": (0.188, 0.188)})
+    truth, size = fake_solutions.solution(scene, "shell"), scene.sheet.lengths
+
+    def bulged(points):
+        bump = np.prod(4.0 * points / size * (1.0 - points / size), axis=1)
+        return truth.sample(points) + 3e-4 * bump[:, None] * [0.0, 0.0, 1.0]
+
+    lattices = fake_solutions.solution(scene, sample=bulged), fake_solutions.solution(scene, size=-0.0103)
+    for lattice, at_probe in zip(lattices, (0.0, 0.03), strict=True):
+        both = Comparison(scene, (lattice, truth))
+        (said,) = json.loads(to_json(both.document()))["errors"]
+        assert (said["error"], said["field_error"]) == pytest.approx((at_probe, 0.03), abs=1e-12)
+        costs = next(table for table in both.tables() if table.name == "models")
+        at = [column.name for column in costs.columns].index("field error")
+        assert [row[at] for row in costs.rows] == [pytest.approx(0.03), None]
+        assert both.figures()[0].description.endswith(f"{100 * at_probe:.2f} %, over the sheet 3.00 %")
+        assert any("over the sheet more than 1.5 times" in note for note in both.notes()) == (not at_probe)
+
+
 @pytest.mark.parametrize("status", [Status.DIVERGED, Status.STEP_LIMIT, Status.REFUSED])
 def test_a_partial_answer_is_kept_but_not_measured(status):
     partial = fake_solutions.solution(SCENE, "lumped", status=status, load_factor=0.4)
@@ -85,7 +107,12 @@ def test_a_probe_on_a_clamped_edge_has_no_bar_in_percent():
 
     def shown(answers):
         bar = ErrorBar(estimate(answers, [1.0, 4.0 / 3.0, 2.0]), ("held", "free"), (16, 12, 8), 0.0)
-        truth = fake_solutions.solution(HELD, "shell", sample=lambda points: answers[0])
+        near = {tuple(at): u for at, u in zip(HELD.probe_points(), answers[0], strict=True)}
+
+        def sample(points):
+            return np.array([near.get(tuple(at), meshes[0](at[None])[0]) for at in points])
+
+        truth = fake_solutions.solution(HELD, "shell", sample=sample)
         table, *_ = Comparison(HELD, (fake_solutions.solution(HELD), truth), bar).tables()
         names = [column.name for column in table.columns]
         rows = [dict(zip(names, row, strict=True)) for row in table.rows]

@@ -126,6 +126,17 @@ def test_it_chooses_where_nothing_but_a_grading_is_asked():
     found = solve(scene, "lumped", grid=3, grading="auto").settings
     assert (found["calibration"], found["calibration_reason"]) == (MEMBRANE, "x0 alone holds the sheet")
     assert "calibration_reason" not in solve(scene, "lumped", grid=3).settings
+    rubber = scene.replace(material=scene.material.replace(law="neo-hookean"))
+    for own in ({"calibration": "consistent"}, {"k": 500.0}):
+        taken, why = resolve_calibration(rubber, (5, 5, 2), Lattice(**own))
+        assert taken == own.get("calibration") and why.startswith(
+            "linear springs: the material's law neo-hookean"
+        )
+    assert resolve_calibration(rubber, (5, 5, 2), Lattice(calibration="hyperelastic")) == ("hyperelastic", "")
+    assert (
+        "linear springs"
+        in solve(rubber, "lumped", grid=3, calibration="consistent").settings["calibration_reason"]
+    )
     assert sb.calibrate(scene, grid=3, grading="auto").method == MEMBRANE
     assert sb.calibrate(scene, grid=3).method == "consistent"
 

@@ -119,6 +119,7 @@ def test_one_rule_says_what_a_tolerance_is_held_against():
     assert 0.0 < predicted["model"] == pytest.approx(sum(predicted["model_parts"].values()), rel=1e-12)
     for row in rows:
         assert row["total"] == pytest.approx(row["error"] + advice.bar + advice.model.value)
+    assert 0.0 < predicted["error"] < predicted["field_error"] < 0.02
     (table,) = advice.tables()
     taken = r"model error takes 0\.\d+ %, its mesh's bar 0\.\d+ %: 0\.\d+ % are left for the grid\."
     assert re.fullmatch(f"Of 1 % the shell's {taken}", table.text)

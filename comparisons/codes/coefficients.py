@@ -163,15 +163,15 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
     across = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
     points, solved = scene.probe_points(), count(1)
 
-    def answer(**section: Section) -> np.ndarray:
+    def answer(section: Section | None = None) -> np.ndarray:
         context().progress(f"solving shell, {across} elements along the shorter side: no. {next(solved)} …")
-        found = fem_reference.solve(scene, model="shell", elements=across, **section)
+        found = fem_reference.solve(scene, model="shell", elements=across, section=section)
         return found.require_stable().displacement(points)
 
     true = answer()
 
     def off(moduli: Moduli) -> float:
-        share = error(answer(section=_section(scene, moduli)), true)
+        share = error(answer(_section(scene, moduli)), true)
         if share is None:
             raise BadInput("the probes do not move: there is no error to tell")
         return share

@@ -96,9 +96,12 @@ class Resolved(Generic[S]):
         assert isinstance(spec, Lattice)
         if spec.calibration is None:
             return lumped.given(self.scene, self.grid, fixed(spec.grading))
-        return lumped.calibrated_at_rest(self.scene, partial(self._calibrated, spec, training))
+        calibrate = partial(self._calibrated, spec, spec.calibration, training)
+        return lumped.calibrated_at_rest(self.scene, calibrate)
 
-    def _calibrated(self, spec: Lattice, training: Sequence[Scene] | None, sheet: Sheet) -> Calibration:
+    def _calibrated(
+        self, spec: Lattice, name: str, training: Sequence[Scene] | None, sheet: Sheet
+    ) -> Calibration:
         import lumped
 
         grading, material = fixed(spec.grading), self.scene.material
@@ -107,12 +110,12 @@ class Resolved(Generic[S]):
                 warn(Implausible(slip), stacklevel=2)
         grading = grading or lines_on_shapes(self.scene, self.grid, spec)
         own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading}
-        named = method_of(spec.calibration, spec.k)
+        named = method_of(name, spec.k)
         cells = lumped.sections_of(self.scene, self.grid, grading)
         if "cells" in CALIBRATIONS[named].takes:
             own["cells"] = cells
         elif self.scene.uniform and self.scene.pierced and not self.fitted and cells is not None:
-            found = lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
+            found = lumped.calibrate(sheet, material, self.grid, name, k=spec.k, **own)
             return lumped.with_shares(found, sheet, material, cells)
         else:
             knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
@@ -120,8 +123,8 @@ class Resolved(Generic[S]):
         if self.fitted:
             from comparisons.models.training import fitted
 
-            return fitted(sheet, material, self.grid, spec.calibration, training=training, **own)
-        return lumped.calibrate(sheet, material, self.grid, spec.calibration, k=spec.k, **own)
+            return fitted(sheet, material, self.grid, name, training=training, **own)
+        return lumped.calibrate(sheet, material, self.grid, name, k=spec.k, **own)
 
 
 def resolve(

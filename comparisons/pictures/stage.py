@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import pyvista
+from matplotlib.colors import Colormap
 
 from comparisons.pictures import offscreen
 from comparisons.pictures.plan import (
@@ -36,6 +37,7 @@ from sheetbench.scenes import EDGES, Chain, Cylinder, EdgeLoad, Plane, Scene, ho
 REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
 MARGIN = 0.04  # as a share of the image's width
 ELEVATION = 27.0  # degrees above the plane
+Colours = str | Colormap
 LINK, OUTLINE, ROD, OBSTACLE = "#5f6770", "#a9afb6", "#c8553d", "#d8d2c4"
 
 
@@ -54,7 +56,9 @@ class Stage:
         self._outline()
         self._supports(held)
 
-    def lattice(self, mesh: FieldMesh, values: np.ndarray, limits: tuple[float, float], colours: str) -> None:
+    def lattice(
+        self, mesh: FieldMesh, values: np.ndarray, limits: tuple[float, float], colours: Colours
+    ) -> None:
         """Links, diagonals paler and thinner than the rest; masses coloured by a value a mass."""
         points = mesh.points + self.scale * mesh.point_data["displacement"]
         pairs = np.vstack([cell for kind, cell in mesh.cells if kind == "line"])
@@ -113,7 +117,12 @@ class Stage:
         self._balls(pyvista.PolyData(points), 0.01, color=ROD, specular=0.2)
 
     def surface(
-        self, solution: Solution, values: np.ndarray, limits: tuple[float, float], colours: str, lines: int
+        self,
+        solution: Solution,
+        values: np.ndarray,
+        limits: tuple[float, float],
+        colours: Colours,
+        lines: int,
     ) -> None:
         """The mid-surface, smooth, coloured by a value a plan point, with `lines` cells marked a side."""
         plan = plan_mesh(self.scene)
@@ -199,7 +208,7 @@ class Stage:
         )
 
 
-def _coloured(limits: tuple[float, float], colours: str) -> dict[str, Any]:
+def _coloured(limits: tuple[float, float], colours: Colours) -> dict[str, Any]:
     return {"scalars": "value", "cmap": colours, "clim": limits, "show_scalar_bar": False}
 
 

@@ -125,13 +125,25 @@ def test_a_shell_that_is_its_own_image_answers_alike(plan):
     assert max(changed_by(square(**OWN_IMAGES[plan]), shell).values()) < 1e-9
 
 
-FURNISHED = {"lattice": 100, "shell": 30, "solid": 8}  # so many seeds
+FURNISHED = {"lattice": 100, "shell": 32, "solid": 24}  # so many seeds
+ASIDE = {  # no equilibrium, or one that snaps: with any obstacle contact is not stiffened there; no mesh
+    "lattice": {20, 21, 40, 70},
+    "shell": {9, 14, 21},
+    "solid": {21},
+}
+
+
+def furnished():
+    """Models and seeds; the solid's of sheets as thick all over."""
+    for model, count in FURNISHED.items():
+        for seed in sorted(set(range(count)) - ASIDE[model]):
+            stepped = any("thickness" in patch for patch in furnish(seed).get("patches", []))
+            if not (model == "solid" and stepped):
+                yield model, seed
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize(
-    ("model", "seed"), [(model, seed) for model, count in FURNISHED.items() for seed in range(count)]
-)
+@pytest.mark.parametrize(("model", "seed"), list(furnished()))
 def test_a_sheet_with_everything_answers_alike_changed_and_in_other_words(model, seed):
     """Lines on a point were those of the sheet that had not grown: 0.4 %."""
     answers = {

@@ -96,11 +96,12 @@ class Resolved(Generic[S]):
         assert isinstance(spec, Lattice)
         if spec.calibration is None:
             return lumped.given(self.scene, self.grid, fixed(spec.grading))
-        calibrate = partial(self._calibrated, spec, spec.calibration, training)
-        return lumped.calibrated_at_rest(self.scene, calibrate)
+        return lumped.calibrated_at_rest(
+            self.scene, partial(self._calibrated, spec, spec.calibration, training)
+        )
 
     def _calibrated(
-        self, spec: Lattice, name: str, training: Sequence[Scene] | None, sheet: Sheet
+        self, spec: Lattice, method: str, training: Sequence[Scene] | None, sheet: Sheet
     ) -> Calibration:
         import lumped
 
@@ -110,21 +111,21 @@ class Resolved(Generic[S]):
                 warn(Implausible(slip), stacklevel=2)
         grading = grading or lines_on_shapes(self.scene, self.grid, spec)
         own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading}
-        named = method_of(name, spec.k)
+        named = method_of(method, spec.k)
         cells = lumped.sections_of(self.scene, self.grid, grading)
         if "cells" in CALIBRATIONS[named].takes:
             own["cells"] = cells
         elif self.scene.uniform and self.scene.pierced and not self.fitted and cells is not None:
-            found = lumped.calibrate(sheet, material, self.grid, name, k=spec.k, **own)
+            found = lumped.calibrate(sheet, material, self.grid, method, k=spec.k, **own)
             return lumped.with_shares(found, sheet, material, cells)
         else:
-            knowing = [name for name, method in CALIBRATIONS.items() if "cells" in method.takes]
+            knowing = [name for name, each in CALIBRATIONS.items() if "cells" in each.takes]
             lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
         if self.fitted:
             from comparisons.models.training import fitted
 
-            return fitted(sheet, material, self.grid, name, training=training, **own)
-        return lumped.calibrate(sheet, material, self.grid, name, k=spec.k, **own)
+            return fitted(sheet, material, self.grid, method, training=training, **own)
+        return lumped.calibrate(sheet, material, self.grid, method, k=spec.k, **own)
 
 
 def resolve(
@@ -155,7 +156,7 @@ def resolve(
         found = Resolved(scene, spec)
     if not context().large:
         if use != "springs" or found.fitted:
-            require_room(scene, found.spec, option, modes=use == "modes")
+            require_room(scene, found.spec, option)
         if found.fitted:
             from comparisons.models.training import ELEMENTS
 

@@ -101,6 +101,9 @@ def furnish(seed: int) -> Document:
     def some(high: float, low: float = 0.0) -> float:
         return low + (high - low) * pen.random.random()
 
+    for support in scene["supports"]:
+        if support["kind"] == "hinged":
+            support["twist"] = pen.either("free", "held")
     kind = pen.either("strain", "curvature", "both", "tension", "none", "none")
     if kind == "tension" and "patches" not in scene:
         scene["natural"] = {"pretension": [some(50.0), some(50.0)]}
@@ -112,7 +115,7 @@ def furnish(seed: int) -> Document:
         scene["temperature"] = {"change": some(0.0, -20.0), "gradient": some(500.0, -500.0)}
     held, motion = scene["supports"], {"time": [0.0], "displacement": [[1e-4, -5e-5, 1e-4]]}
     if "edge" in held[0] and pen.either(True, False, False):
-        held[0] |= {"motion": motion} if len(held) == 1 else {"tilt": 0.02}
+        held[0] |= pen.either({"motion": motion}, {"tilt": 0.02}) if len(held) == 1 else {}
     elif whole and pen.either(True, False):
         axes = pen.either(["x", "y", "z"], ["z"], ["x"], ["y", "z"])
         point = {"kind": "point", "at": anywhere()}
@@ -122,7 +125,11 @@ def furnish(seed: int) -> Document:
     if whole and pen.either(True, False):
         loads.append({"kind": "point", "at": anywhere(), "force": [1e-3, -2e-3, some(2e-3, -2e-3)]})
     if pen.either(True, False):
-        part = {"where": pen.shape(lx, ly)}
+        part = {
+            "where": pen.shape(lx, ly)
+            if whole
+            else {"rectangle": {"x": [0.0, 0.5 * lx], "y": [0.0, 0.3 * ly]}}
+        }
         scene["masses"] = [{"mass": 1e-3, **(pen.either({"at": anywhere()}, part) if whole else part)}]
     if pen.either(True, False, False, False):
         below = {"position": [0.6 * lx, 0.5 * ly, -0.03 - 0.5 * h - 1e-3], "radius": 0.03}

@@ -5,16 +5,22 @@ file whose functions it calls has changed. So this project adds a locator to num
 its own files alone: a folder named by a digest of all files that hold kernels. numba's settings, its other
 locators, and functions of other packages are left as they are.
 
-The folder lies in NUMBA_CACHE_DIR where the user has set it, else in the user's cache.
+The folder lies in NUMBA_CACHE_DIR where the user has set it, else in the user's cache, and where that cannot
+be written in a copy of it that goes with the process.
 """
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import logging
+import os
 import re
+import shutil
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import Any
 
 from numba.core import caching, config, event
@@ -52,9 +58,27 @@ class KernelLocator(caching.UserWideCacheLocator):  # type: ignore[misc]  # numb
 @cache
 def folder(file: str) -> Path:
     """Return where the kernels of a source file are kept."""
-    root = config.CACHE_DIR or user_cache_path("sheetbench")  # type: ignore[attr-defined]
     parts = Path(file).resolve().relative_to(ROOT).with_suffix("").parts
-    return Path(root, f"kernels-{digest()}", ".".join(parts))
+    return Path(root(), f"kernels-{digest()}", ".".join(parts))
+
+
+@cache
+def root() -> Path:
+    """Return a folder that can be written, for kernels of all digests."""
+    place = Path(config.CACHE_DIR or user_cache_path("sheetbench"))  # type: ignore[attr-defined]
+    with suppress(OSError):
+        place.mkdir(parents=True, exist_ok=True)
+    if os.access(place, os.W_OK | os.X_OK):
+        return place
+    passing = mkdtemp(prefix="sheetbench-")
+    atexit.register(shutil.rmtree, passing, ignore_errors=True)
+    kept = f"kernels-{digest()}"
+    if (place / kept).is_dir():
+        shutil.copytree(place / kept, Path(passing, kept))
+    logging.getLogger("sheetbench").info(
+        "%s cannot be written: kernels are kept as long as the process", place
+    )
+    return Path(passing)
 
 
 def compiled_before(file: str) -> bool:

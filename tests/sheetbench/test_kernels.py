@@ -66,6 +66,17 @@ def test_a_kernel_is_compiled_anew_where_any_file_with_kernels_changed(tmp_path)
     assert [ask(copy, cache), ask(copy, cache)] == [NOTICE + "\n", ""]
 
 
+def test_a_cache_that_cannot_be_written_is_read_and_left_as_it_is(tmp_path):
+    """As an image of a container has it, or a machine without a home."""
+    cache = tmp_path / "cache"
+    ask(ROOT, cache)
+    kept = sorted(path.name for path in cache.rglob("*"))
+    closed = "import os; free = os.access; os.access = lambda at, mode: not mode & os.W_OK and free(at, mode)"
+    assert NOTICE not in ask(ROOT, cache, f"{closed}\n{ASK}")
+    assert sorted(path.name for path in cache.rglob("*")) == kept
+    assert NOTICE in ask(ROOT, "/proc/none")
+
+
 USERS = """
 import sys
 import numpy as np, numba as nb

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sheetbench.numerics.typed import inner, njit
+from sheetbench.numerics.options import inner, njit
 
 ALONG, ALONG_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _T, _W = np.polynomial.legendre.leggauss(16)

@@ -112,7 +112,12 @@ class Touching(SheetItem):
         """Return sums at points (faces, m, p) of loads of groups; positive: shared among corners of parts,
         where none pulls."""
         out = np.zeros((*load.shape[:2], len(self.basis)))
-        np.add.at(out, (..., self.groups), load @ SPREAD if positive and not self.at_nodes else load)
+        face, element = (np.arange(n) for n in load.shape[:2])
+        np.add.at(
+            out,
+            (face[:, None, None, None], element[:, None, None], self.groups),
+            load @ SPREAD if positive and not self.at_nodes else load,
+        )
         return out
 
     def _pulled(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

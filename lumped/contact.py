@@ -1,9 +1,9 @@
 """Contact of the sheet with one rigid obstacle: a penalty on the mid-surface, offset by half the thickness.
 
-With its distance φ from the obstacle (`sheetbench.scenes.meaning.distances`) and depth d = ⟨h/2 + δ₀ − φ⟩ a
-point of area A has
+With δ the depth of a place, o = h/2 + δ₀ less its distance from the obstacle
+(`sheetbench.scenes.meaning.distances`),
 
-    energy A ψ(d),   force A p n,  p = ψ',   tangent A (p' n nᵀ − p ∇n);   ψ = ½ k d² at rest,  k = E/h.
+    energy ∫ ψ(δ) dA,   force ∫ p n dA,  p = ψ',   tangent ∫ p' n nᵀ − p ∂n/∂x dA over the patch {δ > 0}
 
 On a plane each cell has a point at each of its corners, a column of masses. On a sphere or cylinder these
 sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with l as
@@ -13,48 +13,73 @@ or smaller as masses are than their tributary ones, so that a sheet which lands 
 0.065 ρ h ω_max² at most, and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 +
 δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). `docs/contact.md` has the
 reasons, and what energy they take.
+Where δ is linear between corners of cells, on a plane under a sheet that is flat when nothing acts on it, its
+deepest points are corners, columns of masses, and each has a quarter of a cell's area. Else the patch may be
+anywhere in a cell and much smaller than it: the surface is curved at rest (`cell_surface`), δ is known at 3 ×
+3 points of each part of a cell, parts no longer than R/2, and biquadratic between them, and the integral is
+that over the patch (`patch`), whose size and place follow the sheet: a patch may slide, as that of a cradle
+does. At rest ψ = ½ k δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the
+thickness to give. In motion k is 0.05 ρ h ω_max² at most, cells are straight between masses, and the law is
+rounded over δ₁ = 0.3 h: ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁. Conserving midpoint steps have the mean force of
+Gonzalez (1996), from mean n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|². `docs/contact.md`
+has the reasons, and what energy they take.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from lumped.assembly import Assembly
+from lumped.cell_surface import CellSurface, shapes
 from lumped.items import LatticeItem, Placed, Since
 from lumped.masses import over_tributary
+from lumped.patch import integrate
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, free_rigid_motions
+from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import constants_at
-from sheetbench.scenes.meaning.distances import Near, dyad, near, projector
-from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle
+from sheetbench.scenes.meaning.distances import Near, near, projector
+from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
-THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 32 points
+THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 32 parts
+STIFFER = 30.0  # of E/h, where the patch may be small
 MOVING = 0.065  # of ω_max², that contact in motion adds at most
-ROUNDED = 0.3  # δ of the thickness, in motion
+ROUNDED = 0.3  # δ₁ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
-Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # A ψ [J], A p [N] and A p' [N/m] (m, p)
+TO_CORNERS = np.kron(*2 * [np.array([[1, 0, 0], [0.5, 0, 0.5], [0, 0, 1]])])  # shares of nine points, (9, 9)
 
 
-def points_of_cells(sides: np.ndarray, radius: float, ends: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return weights (p, 4) of a cell's corners in turn and shares (p,) of its area, of points at the middles
-    of the parts of its sides (2,) [m] or, on a plane always, at their ends."""
-    rules, fewest = [], 2 if np.isfinite(radius) else 1
-    ends |= fewest == 1
-    for parts in np.maximum(fewest, np.ceil(2.0 * sides / radius)).astype(int):
-        at = (np.arange(parts + ends) + 0.5 * (not ends)) / parts
-        shares = np.full(len(at), 1.0 / parts)
-        shares[[0, -1]] /= 1 + ends
-        rules.append((np.stack([1.0 - at, at], axis=1), shares))
-    (along_x, width), (along_y, height) = rules
-    return np.kron(along_y, along_x)[:, [0, 1, 3, 2]], np.kron(height, width)
+class Pressed(NamedTuple):
+    """Cells `of` that may touch, what their sides are (`CellSurface.vectors`), where their points (m, p) are,
+    and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives by depths (…, n, n)
+    [N/m], and the deepest place [m]."""
+
+    of: Any
+    sides: np.ndarray
+    found: Near
+    energy: np.ndarray
+    load: np.ndarray
+    slope: np.ndarray
+    deepest: np.ndarray
+
+
+def parts_of_cells(sides: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return r, s (p,) of the points of a cell, and numbers (t, 9) of those of each of its parts, as many
+    along its sides (2,) [m] as no part is longer than half a radius."""
+    n, m = np.maximum(1, np.ceil(2.0 * sides / radius)).astype(int)
+    lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
+    s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
+    number = np.arange(len(r)).reshape(2 * m + 1, 2 * n + 1)
+    windows = np.lib.stride_tricks.sliding_window_view(number, (3, 3))[::2, ::2]
+    return r, s, windows.reshape(-1, 9)
 
 
 class Contact(LatticeItem):
-    """Contact of a lattice with an obstacle: nodes (m, q) of cells, weights (p, q) of their points. Raises
-    BadInput for one too thin."""
+    """Contact of a lattice with an obstacle: nodes (m, q) of cells, basis (p, 8) and weights (p, q), in the
+    straight surface, of their points; groups (t, n) of points: the nine of each part, or corners one by one.
+    Raises BadInput for an obstacle too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle = name, obstacle
@@ -67,99 +92,171 @@ class Contact(LatticeItem):
         if obstacle.radius < THINNEST * sides.max():
             thin = f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm"
             raise BadInput(f"{thin}, which would step over it; {THINNEST:g} of that or more, or a finer grid")
-        weights, shares = points_of_cells(sides, obstacle.radius, bool(free_rigid_motions(scene)))
-        self.weights = np.repeat(weights, lattice.grid[2], axis=1) / lattice.grid[2]
-        self.nodes = lattice.mid_cells.reshape(-1, self.weights.shape[1])
-        self.area = np.outer(lattice.cell_areas[lattice.cell_areas > 0.0], shares)
-        inert = over_tributary(scene, lattice, assembly.inertia, assembly.cells)
-        self._inert = np.einsum("pq,mq->mp", self.weights, inert[self.nodes])
+        r, s, self._parts = parts_of_cells(sides, obstacle.radius)
+        self.surface, self.basis = CellSurface(lattice.grid, lattice.layer_distance), shapes(r, s)
+        self.nodes = lattice.mid_cells.reshape(-1, 4 * lattice.grid[2])
+        self.weights = self.basis[:, :4] @ self.surface.linear[:4]
+        self._inert = over_tributary(scene, lattice, assembly.inertia, assembly.cells)
         self._rest = lattice.positions[self.nodes]
-        constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(self.area.shape)
-        self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
+        constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(
+            (len(self.nodes), len(r))
+        )
+        self.thickness, self._full = constants.thickness, constants.stretching / constants.thickness**2
         self.offset = (0.5 + TOUCH) * self.thickness
+        corners = self._parts[:, [0, 2, 6, 8]].ravel()
+        self.area = np.outer(
+            lattice.cell_areas[lattice.cell_areas > 0.0], np.bincount(corners, minlength=len(r))
+        )
+        self.area /= len(corners)
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots, self._eps = assembly.pattern.among(self.nodes), assembly.rounding
+        self.straighten(isinstance(obstacle, Plane) and not (scene.natural_by or scene.actuators), True)
 
-    def _law(self, depth: np.ndarray, of: Any = ...) -> Pressed:
-        """Return A ψ [J], A p [N] and A p' [N/m] of patches `of` at depths (m, p) [m]."""
-        d, stiffness = np.maximum(depth, 0.0), self.share * self.full[of] * self.area[of]
-        over = max(self.rounded, 1e-100) * self.thickness[of]
+    def straighten(self, at_corners: bool, bent: bool = False) -> None:
+        """Take cells as straight between masses, from then on at corners alone where that is enough."""
+        self.at_corners, self.bent = at_corners, bent and not at_corners
+        self.groups, self.full = self._parts, STIFFER * self._full
+        if at_corners:
+            on = np.flatnonzero(self.area.any(axis=0))
+            self.basis, self.weights, self.area = self.basis[on], self.weights[on], self.area[:, on]
+            self.thickness, self.offset = self.thickness[:, on], self.offset[:, on]
+            self._full = self.full = self._full[:, on]
+            self.groups = np.arange(len(on))[:, None]
+        self.shares = self.basis if self.bent else self.weights
+
+    def _surface(self, at: Placed, of: Any) -> tuple[np.ndarray, Near]:
+        vectors, sides = self._rest[of] + at[0][self.nodes[of]], np.empty((3, 0))
+        if self.bent:
+            vectors, sides = self.surface.vectors(vectors)
+        return sides, near(self.obstacle, self.shares @ vectors, self.offset[of], at[1])
+
+    def near(self, at: Placed) -> Near:
+        """Return where points (m, p) of cells are."""
+        return self._surface(at, ...)[1]
+
+    def _law(self, depth: np.ndarray, of: Any, tangent: bool = False) -> tuple[np.ndarray, ...]:
+        """Return energies, loads, slopes and deepest places at depths (m, t, n) (`Pressed`)."""
+        k, over = (
+            (self.share * self.full[of])[:, self.groups],
+            self.rounded * self.thickness[of][:, self.groups[:, 0]],
+        )
+        if not self.at_corners:
+            k *= (0.25 / len(self.groups) * self.area[of].sum(axis=1))[:, None, None]
+            found = integrate(depth.reshape(-1, 9), k.reshape(-1, 9), over.ravel(), tangent)
+            return tuple(each.reshape(*depth.shape[:2], *each.shape[1:]) for each in found)
+        k, over = k * self.area[of][:, self.groups], np.maximum(over, 1e-100)[..., None]
+        d = np.maximum(depth, 0.0)
         curved, sure = np.minimum(d, over), np.maximum(d - over, 0.0)
-        energy = curved**3 / (6.0 * over) + 0.5 * sure * (sure + over)
-        return stiffness * energy, stiffness * (0.5 * curved**2 / over + sure), stiffness * curved / over
+        energy = k * (curved**3 / (6.0 * over) + 0.5 * sure * (sure + over))
+        load, slope = k * (0.5 * curved**2 / over + sure), k * curved / over
+        return energy[..., 0], load, slope[..., None], depth[..., 0]
 
-    def near(self, at: Placed, of: Any = ...) -> Near:
-        """Return where points (m, p) of patches are."""
-        places = self.weights @ (self._rest[of] + at[0][self.nodes[of]])
-        return near(self.obstacle, places, self.offset[of], at[1])
+    def _pressed(self, at: Placed, since: Since = None, tangent: bool = False) -> Pressed:
+        """Return how cells that may touch are pressed; since: what a step from there has in the mean."""
+        if since is None:
+            places = self._rest + at[0][self.nodes]
+            middle = places.mean(axis=1, keepdims=True)
+            farthest = 1.3 * np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1))  # with the bubbles
+            reach = farthest + 1.01 * self.offset.max(axis=1)
+            of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
+            sides, found = self._surface(at, of)
+            return Pressed(of, sides, found, *self._law(found.sunk[:, self.groups], of, tangent))
+        before, (sides, after) = self.near(since), self._surface(at, ...)
+        start, end = before.sunk[:, self.groups], after.sunk[:, self.groups]
+        (had, *_), (has, last, *_) = self._law(start, ...), self._law(end, ...)
+        _, load, slope, deepest = self._law(0.5 * (start + end), ..., True)
+        sunk, half = end - start, 0.5 * slope
+        square = (sunk * sunk).sum(axis=2)[..., None]
+        far = square > (SAME_DEPTH * self.thickness[:, :1, None]) ** 2
+        sunk, square = sunk * far, np.where(far, square, 1.0)
+        more = far * ((has - had)[..., None] - (load * sunk).sum(axis=2)[..., None]) / square
+        by = last - load - (half @ sunk[..., None])[..., 0] - 2.0 * more * sunk
+        rank = sunk[..., :, None] * (by / square)[..., None, :]
+        slope = half + more[..., None] * np.eye(half.shape[-1]) + 0.5 * (rank + rank.swapaxes(-1, -2))
+        return Pressed(..., sides, after.mean(before), has, load + more * sunk, slope, deepest)
 
-    def _pressed(self, at: Placed, since: Since = None) -> tuple[Any, Near, Pressed]:
-        """Return which patches may touch, where their points are and how they are pressed; since: what a step
-        from there has in the mean."""
-        if since is not None:
-            before, after = self.near(since), self.near(at)
-            (had, _, _), (has, last, _) = self._law(before.depth), self._law(after.depth)
-            far = np.abs(after.depth - before.depth) > SAME_DEPTH * self.thickness
-            sunk = np.where(far, after.depth - before.depth, 1.0)
-            _, load, slope = self._law(0.5 * (before.depth + after.depth))
-            load = np.where(far, (has - had) / sunk, load)
-            return ..., after.mean(before), (has, load, np.where(far, (last - load) / sunk, 0.5 * slope))
-        places = self._rest + at[0][self.nodes]
-        middle = places.mean(axis=1, keepdims=True)  # no point is farther from it than a mass
-        reach = np.sqrt(((places - middle) ** 2).sum(axis=2).max(axis=1)) + 1.01 * self.offset.max(axis=1)
-        of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
-        found = self.near(at, of)
-        return of, found, self._law(found.depth, of)
-
-    def _spread(self, values: np.ndarray, out: np.ndarray, of: Any = ...) -> np.ndarray:
-        """Add what points (m, p, …) of patches share to the masses' (n, …), and return that."""
-        np.add.at(out, self.nodes[of], np.einsum("pq,mp...->mq...", self.weights, values))
+    def _at_points(self, load: np.ndarray) -> np.ndarray:
+        """Return sums at points (m, p) of loads of groups (m, t, n)."""
+        out = np.zeros((len(load), len(self.basis)))
+        np.add.at(out, (np.arange(len(load))[:, None, None], self.groups), load)
         return out
 
-    def _spread_blocks(self, points: np.ndarray, blocks: np.ndarray, of: Any) -> None:
-        """Add derivatives at points (m, p, 3, 3) of patches to the pattern's blocks."""
-        touched = points.any(axis=(1, 2, 3))
-        of_masses = np.einsum("pa,pb,mpij->mabij", self.weights, self.weights, points[touched], optimize=True)
-        np.add.at(blocks, self.slots[of][touched], of_masses)
+    def _positive(self, load: np.ndarray) -> np.ndarray:
+        """Return loads of groups shared among the corners of parts: none pulls there."""
+        return self._at_points(load if self.at_corners else load @ TO_CORNERS)
 
     def add_force(self, at: Placed, force: np.ndarray, since: Since = None) -> float:
-        of, found, (energy, load, _) = self._pressed(at, since)
-        self._spread(-load[..., None] * found.normal, force, of)
-        return float(energy.sum())
+        pressed = self._pressed(at, since)
+        pull = self.shares.T @ (self._at_points(pressed.load)[..., None] * pressed.found.slope)
+        if self.bent:
+            linear = np.einsum("mqi,mqirj->mrj", pull, self.surface.slopes(pressed.sides), optimize=True)
+            pull = self.surface.linear.T @ linear
+        np.add.at(force, self.nodes[pressed.of], -pull)
+        return float(pressed.energy.sum())
 
     def add_tangent(
         self, at: Placed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
-        of, found, (_, load, slope) = self._pressed(at, since)
-        points = (scale * slope)[..., None, None] * dyad(found.normal)
+        of, sides, found, _, load, slope, _ = self._pressed(at, since, True)
+        cell, group = np.nonzero(load.any(axis=2))
+        on, back = np.unique(cell, return_inverse=True)
+        if not len(on):
+            return
+        points, (size, shares) = self.groups[group], (self.groups.shape[1], self.shares)
+        change = shares[points][..., None] * found.slope[cell[:, None], points][:, :, None]
+        change = change.reshape(len(cell), size, -1)
+        by = np.zeros((len(on), *2 * change.shape[2:]))
+        np.add.at(by, back, change.swapaxes(1, 2) @ slope[cell, group] @ change)
+        loads = self._at_points(load[on])
         if not definite:
-            points -= (scale * load)[..., None, None] * found.curvature
-        self._spread_blocks(points, blocks, of)
+            both = np.einsum("mp,pa,pb->mab", loads / found.touch[on], shares, shares, optimize=True)
+            by -= np.einsum("mab,ij->maibj", both, projector(self.obstacle)).reshape(by.shape)
+        if self.bent:
+            sides, linear = sides[:, on], self.surface.linear
+            first = self.surface.slopes(sides).reshape(-1, 24, 48)
+            by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, 16, 3, 16, 3)
+            if not definite:
+                pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], found.slope[on])
+                by -= self.surface.second(sides, pull)
+            by = np.einsum("ra,mrisj,sb->maibj", linear, by, linear, optimize=True)
+        size = self.nodes.shape[1]
+        of_masses = by.reshape(-1, size, 3, size, 3).transpose(0, 1, 3, 2, 4)
+        np.add.at(blocks, self.slots[of][on], scale * of_masses)
 
     def _resisted(self, at: Placed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
-        """Return patches that may touch, how points move past the obstacle (m, p, 3) [m/s], and forces (m, p,
+        """Return cells that may touch, how points move past the obstacle (m, p, 3) [m/s], and forces (m, p,
         3) [N] of dashpot and friction with their derivatives by that (m, p, 3, 3)."""
-        of, found, (_, load, _) = self._pressed(at)
-        speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(at[1].time))
-        return of, speed, found.resistance(load, speed)
+        pressed = self._pressed(at)
+        speed = self.weights @ (v[self.nodes[pressed.of]] - self.obstacle.velocity(at[1].time))
+        return pressed.of, speed, pressed.found.resistance(self._positive(pressed.load), speed)
 
     def add_resistance(self, at: Placed, v: np.ndarray, force: np.ndarray) -> float:
         if not self.resists:
             return 0.0
         of, speed, (pull, _) = self._resisted(at, v)
-        self._spread(-pull, force, of)
+        np.add.at(force, self.nodes[of], -np.einsum("pq,mpi->mqi", self.weights, pull))
         return -float((pull * speed).sum())
 
     def add_resistance_tangent(self, at: Placed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         if self.resists:
             of, _, (_, by_speed) = self._resisted(at, v)
-            self._spread_blocks(-scale * by_speed, blocks, of)
+            touched = by_speed.any(axis=(1, 2, 3))
+            of_masses = np.einsum(
+                "pa,pb,mpij->mabij", self.weights, self.weights, by_speed[touched], optimize=True
+            )
+            np.add.at(blocks, self.slots[of][touched], -scale * of_masses)
+
+    def _of_masses(self, points: np.ndarray) -> np.ndarray:
+        """Return sums (n,) at masses of values at points (m, p), shared as the straight surface has them."""
+        return np.bincount(self.nodes.ravel(), (points @ self.weights).ravel(), minlength=self._masses)
 
     def stiffest(self, mass: np.ndarray) -> float:
-        return float((self._spread(self.area * self.share * self.full, np.zeros(self._masses)) / mass).max())
+        return float((self._of_masses(self.area * self.share * self.full) / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
-        self.rounded, self.area = ROUNDED, self.area * self._inert
+        self._full = self._full * np.einsum("pq,mq->mp", self.weights, self._inert[self.nodes])
+        self.rounded = ROUNDED
+        self.straighten(isinstance(self.obstacle, Plane))
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
     def rounding(self) -> float:
@@ -168,17 +265,23 @@ class Contact(LatticeItem):
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it at an equilibrium, and its pressure (n,) [Pa] at the masses."""
-        depth = self.near(at).depth
-        area, load = (self._spread(one, np.zeros(self._masses)) for one in (self.area, self._law(depth)[1]))
-        pressure = np.divide(load, area, out=np.zeros_like(load), where=area > 0.0)
-        return ContactState.of(depth / self.thickness, self.area), pressure
+        found = self.near(at)
+        _, load, slope, deepest = self._law(found.sunk[:, self.groups], ..., True)
+        first, area = self.groups[:, 0], self._of_masses(self.area)
+        touched = slope.sum(axis=(2, 3)) / (self.share * self.full[:, first])
+        pressed = self._of_masses(self._positive(load))
+        pressure = np.divide(pressed, area, out=np.zeros_like(area), where=area > 0.0)
+        return ContactState.of(deepest / self.thickness[:, first], touched), pressure
 
     def table(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return masses (t, q) around its points and their weights (t, q); and (t, 10) the obstacle's place,
-        direction and radius, 0 of a plane [m], a point's area [m²], offset [m] and stiffness [N/m³]: with φ
-        its distance a point has the energy ½ stiffness area ⟨offset − φ⟩²."""
-        body, (cells, points) = self.obstacle, self.area.shape
+        direction and radius, 0 of a plane [m], a point's area [m²], offset [m] and stiffness [N/m³]: with the
+        depth δ of the module's text a point has the energy ½ stiffness area ⟨δ⟩², once straight at
+        corners."""
+        body, cells = self.obstacle, len(self.nodes)
+        at = self.groups[:, 0]
         place = np.nan_to_num([*body.place(), *body.direction, body.radius], posinf=0.0)
-        values = [*np.broadcast_to(place, (cells, points, 7)).T, self.area.T, self.offset.T, self.full.T]
-        masses, weights = np.repeat(self.nodes, points, axis=0), np.tile(self.weights, (cells, 1))
+        of_points = [each[:, at].T for each in (self.area, self.offset, self.full)]
+        values = [*np.broadcast_to(place, (cells, len(at), 7)).T, *of_points]
+        masses, weights = np.repeat(self.nodes, len(at), axis=0), np.tile(self.weights[at], (cells, 1))
         return masses, weights, np.stack(values).T.reshape(-1, 10)

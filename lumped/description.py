@@ -19,10 +19,10 @@ from lumped.springs.all_families import table_dampers
 from lumped.springs.families import Links, SpringCells
 from lumped.springs.law_table import AREA_AND_STRAINS, ENERGIES
 from lumped.statics.problem import Problem
-from lumped.statics.solver import build_problem, solve
+from lumped.statics.solver import build_problem, solve_from_best_start
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene, free_rigid_motions, require_no_branches
+from sheetbench.scenes import Scene, free_rigid_motions, require_no_branches, require_static
 from sheetbench.scenes.objects.supports import named
 
 STRETCH, WARP, TURN = 0.02, -0.05, 2.0  # of the imposed states: strain, height over length, rad in all
@@ -127,6 +127,8 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     if scene.air is not None:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)
+    for contact in problem.contacts:
+        contact.straighten(at_corners=True)
     assembly, lattice, loads = problem.assembly, problem.assembly.lattice, problem.loads
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
@@ -140,7 +142,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     states, why = _check_states(scene, calibration, problem)
     none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
     points = zip(none, *(one.table() for one in problem.contacts), strict=True)
-    touching, *contact = map(np.concatenate, points)
+    touching, *touched = map(np.concatenate, points)
     return Description(
         index=np.indices((ny, nx, layers)).reshape(3, -1)[[1, 0, 2]].T[there],
         positions=lattice.positions[there],
@@ -156,7 +158,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
             Couple(own[-1], own[0], tuple(before), tuple(after), moment)
             for (own, before, after), moment in zip(number[columns].tolist(), moments.tolist(), strict=True)
         ),
-        contact=(number[touching], *contact),
+        contact=(number[touching], *touched),
         states=tuple(
             replace(one, displacement=one.displacement[there], force=one.force[there]) for one in states
         ),
@@ -260,12 +262,12 @@ def _check_states(
     if free := free_rigid_motions(scene):
         why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)
     else:
-        solution = solve(scene, calibration)
-        if solution.status is Status.CONVERGED:
-            found = solution.mesh.point_data["displacement"]
-            shapes.append(("equilibrium", "under supports and loads", found))
+        require_static(scene)
+        path = solve_from_best_start(problem, calibration)
+        if path.status is Status.CONVERGED:
+            shapes.append(("equilibrium", "under supports and loads", path.state.u))
         else:
-            why = (f"no equilibrium to check by: {solution.status}: {solution.message}",)
+            why = (f"no equilibrium to check by: {path.status}: {'; '.join(path.notes)}",)
     states = []
     for name, meaning, displacement in shapes:
         energy, force = problem.internal(displacement, 1.0)

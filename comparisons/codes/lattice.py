@@ -43,11 +43,12 @@ CONTACT = """
 - `obstacles.csv`: rigid bodies where they are at last, in `a` a plane's unit normal, towards the sheet, or a
   cylinder's axis.
 - `contacts.csv`: points X = Σ weight × mass in cells of the mid-surface, each with an obstacle that it may
-  touch, of radius 0 a plane, of axis 0 a sphere. With y = X − position, φ = y·n on a plane, n its normal;
-  |y| − radius and n = y/|y| on a sphere; the same on a cylinder with y less its part along the axis. Depth
-  d = offset − φ; where d > 0, E = ½ k d² area, k the stiffness [N/m³], and the gradient by X is −k d area n,
+  touch, of radius 0 a plane, of axis 0 a sphere. With y = X − position, on a cylinder less its part along the
+  axis, and ρ = offset + radius, the depth d = offset − y·n on a plane, n its normal, else d = (ρ² − |y|²)/2ρ
+  and n = y/ρ. Where d > 0, E = ½ k d² area, k the stiffness [N/m³], and the gradient by X is −k d area n,
   weight times that on each mass. The offset is half the thickness and 1e-9 of it. The energy of `states.csv`
-  is that of springs and contact.
+  is that of springs and contact. sheetbench itself has integrals over the patch that touches a ball or a
+  cylinder, or a sheet that curls by itself; points are no closer than half a radius.
 """
 PAGE = """\
 # {title}

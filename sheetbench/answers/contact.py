@@ -16,8 +16,8 @@ UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: points as near as 
 
 @dataclass(frozen=True)
 class ContactState:
-    """area: of the points that touch [m²]; penetration: the deepest, over the thickness; points: how many
-    touch; undecided: how many are so near to touching that the tangent may be that of either."""
+    """area: that touches [m²]; penetration: the deepest, over the thickness; points: how many, or parts of
+    cells, touch; undecided: how many are so near to touching that the tangent may be that of either."""
 
     area: float
     penetration: Annotated[float, NUMBER(".2g", "penetration/h")]
@@ -26,8 +26,8 @@ class ContactState:
 
     @classmethod
     def of(cls, depth: np.ndarray, area: np.ndarray) -> ContactState:
-        """Return that of points with these depths over the thickness, δ₀ included, < 0 of one that is clear,
-        and areas."""
+        """Return that of points or parts of cells: depths over the thickness, δ₀ included, < 0 of one that is
+        clear, and areas that touch."""
         over, touching = depth - TOUCH, depth > 0.0
         deepest = float(over.max(initial=0.0))
         near = np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)
@@ -36,6 +36,6 @@ class ContactState:
     @property
     def notes(self) -> list[str]:
         """What is doubtful, a clause each."""
-        deep = f"the sheet is pressed in by {self.penetration:.2g} of its thickness, where a point's force is"
+        deep = f"the sheet is pressed in by {self.penetration:.2g} of its thickness"
         near = f"{self.undecided} points are about to touch or to leave: stability undecided"
-        return [f"{deep} spread by the grid"] * (self.penetration > DEEP) + [near] * (self.undecided > 0)
+        return [deep] * (self.penetration > DEEP) + [near] * (self.undecided > 0)

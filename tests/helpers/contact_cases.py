@@ -8,7 +8,19 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 from scipy.special import beta
 
-from sheetbench.scenes import Clamped, Cylinder, EdgeLoad, Plane, Scene, Sphere, Symmetric
+from sheetbench.scenes import (
+    Clamped,
+    Cylinder,
+    EdgeLoad,
+    Hinged,
+    Motion,
+    Plane,
+    Point,
+    Scene,
+    Sphere,
+    Symmetric,
+)
+from sheetbench.scenes.objects.natural import Natural
 
 GRAVITY, DENSITY, THICKNESS = 9.81, 1e3, 0.005
 WEIGHT = DENSITY * THICKNESS * 0.1 * GRAVITY  # N, of the strip
@@ -84,6 +96,23 @@ def draped_quarter() -> Scene:
     """A quarter of a square sheet over a ball."""
     ball = Sphere(position=(0.0, 0.0, -0.0505), radius=0.05)
     return sheet(0.1, 0.1, 0.001, 8e6, weight=GRAVITY, supports=QUARTER, obstacles=(ball,))
+
+
+def pressed_ball(at: tuple[float, float], rise: float, radius: float = 0.01) -> Scene:
+    """A hinged sheet into which a ball rises from below."""
+    lift = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, rise + 1e-5)))
+    ball = Sphere(position=(*at, -radius - 0.001 - 1e-5), radius=radius, motion=lift)
+    held = tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
+    return sheet(0.16, 0.16, 0.002, 2e6, supports=held, obstacles=(ball,))
+
+
+def curled_sheet() -> Scene:
+    """A film that curls up by its natural curvature, 5 1/m, on a table: a cradle."""
+    held = Point(at=(0.0, 0.0), components=("x", "y")), Point(at=(0.1, 0.0), components=("y",))
+    table = Plane(position=(0.0, 0.0, -0.00025))
+    curl = Natural(curvature=(5.0, 0.0, 0.0))
+    more = {"supports": held, "obstacles": (table,), "natural": curl}
+    return sheet(0.1, 0.02, 5e-4, 3e9, 0.35, 1780.0, weight=9.81, **more)
 
 
 def heavy_elastica(drop: float, per: float = 0.01) -> tuple[float, float, float]:

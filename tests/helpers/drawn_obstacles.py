@@ -11,6 +11,7 @@ import numpy as np
 from cases import sheet
 
 import lumped
+from lumped.cell_surface import CellSurface, shapes
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Clamped, Cylinder, Hinged, Motion, Plane, PointLoad, Scene, SceneError, Sphere
@@ -58,17 +59,23 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
 
 
 def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.ndarray:
-    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface, straight between
-    masses."""
-    axes = [np.linspace(0.0, length, n) for length, n in zip(scene.sheet.lengths, grid, strict=False)]
-    x, y = np.meshgrid(*axes, indexing="ij")
-    plan = np.column_stack([x.ravel(), y.ravel()])
-    masses = np.column_stack([plan, np.zeros(len(plan))]) + solution.displacement(plan)
-    within = [np.linspace(0.0, n - 1.0, INSIDE * (n - 1) + 1) for n in grid[:2]]
-    along_x, along_y = (
-        np.maximum(0.0, 1.0 - np.abs(at[:, None] - np.arange(n))) for at, n in zip(within, grid, strict=False)
-    )
-    return np.einsum("ai,bj,ijk->abk", along_x, along_y, masses.reshape(*x.shape, 3))
+    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface: curved as contact has it,
+    on a plane straight between masses."""
+    mesh, (nx, ny, layers) = solution.mesh, grid
+    masses = (mesh.points + mesh.point_data["displacement"]).reshape(ny, nx, layers, 3)
+    corners = np.stack([masses[:-1, :-1], masses[:-1, 1:], masses[1:, 1:], masses[1:, :-1]], axis=2)
+    cells = CellSurface(grid, solution.settings["layer_distance"])
+    vectors = cells.vectors(corners.reshape(-1, 4 * layers, 3))[0].reshape(ny - 1, nx - 1, 8, 3)
+    if isinstance(scene.obstacles[0], Plane):
+        vectors[:, :, 4:] = 0.0
+    out = np.empty((INSIDE * (nx - 1) + 1, INSIDE * (ny - 1) + 1, 3))
+    line = np.linspace(0.0, 1.0, INSIDE + 1)
+    s, r = np.meshgrid(line, line)
+    basis = shapes(r.ravel(), s.ravel())
+    for (j, i), _ in np.ndenumerate(vectors[..., 0, 0]):
+        places = (basis @ vectors[j, i]).reshape(INSIDE + 1, INSIDE + 1, 3)
+        out[INSIDE * i : INSIDE * (i + 1) + 1, INSIDE * j : INSIDE * (j + 1) + 1] = places
+    return out
 
 
 def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
@@ -87,10 +94,9 @@ def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
     return found
 
 
-def sunk(scene: Scene, grid: tuple[int, int, int], places: np.ndarray) -> tuple[float, float]:
-    """Return how deep the surface is in the obstacle [m], and how deep it may be: between points that lie on
-    a ball of radius R, two of them √2 d apart, a straight line is d²/4R deep at most, twice that with what
-    the points themselves give; and a tenth of the thickness."""
+def sunk(scene: Scene, places: np.ndarray) -> tuple[float, float]:
+    """Return how deep the surface is in the obstacle [m], and how deep it may be: a tenth of the thickness,
+    and what a depth that is biquadratic over half a radius misses of a sheet on a ball, below R/500."""
     (obstacle,) = scene.obstacles
     centre = obstacle.place()
     half = 0.5 * scene.sheet.thickness
@@ -98,9 +104,7 @@ def sunk(scene: Scene, grid: tuple[int, int, int], places: np.ndarray) -> tuple[
         return half - float(((places - centre) @ obstacle.direction).min()), 0.2 * half
     across = np.eye(3) - np.outer(obstacle.direction, obstacle.direction)
     reach = np.linalg.norm((places - centre) @ across, axis=2).min()
-    cells = [length / (n - 1) for length, n in zip(scene.sheet.lengths, grid, strict=False)]
-    apart = min(0.5 * obstacle.radius, 0.5 * max(cells))
-    return obstacle.radius + half - float(reach), apart**2 / (2.0 * obstacle.radius) + 0.2 * half
+    return obstacle.radius + half - float(reach), 2e-3 * obstacle.radius + 0.2 * half
 
 
 def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
@@ -109,7 +113,7 @@ def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
         return ""
     places, (obstacle,) = surface(solution, grid, scene), scene.obstacles
     rim = INSIDE // 4  # beyond the last points of a free edge, a quarter of a cell, a mass may sink
-    deep, allowed = sunk(scene, grid, places[rim:-rim, rim:-rim])
+    deep, allowed = sunk(scene, places[rim:-rim, rim:-rim] if isinstance(obstacle, Plane) else places)
     if deep > allowed:
         return f"the surface is {deep:.3g} m deep in it, and may be {allowed:.3g} m"
     if isinstance(obstacle, Plane):

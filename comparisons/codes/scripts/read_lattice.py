@@ -57,9 +57,9 @@ def contact(lattice, along, x, g):
     place, normal, radius, area, offset, k = np.hsplit(lattice["contact_values"], [3, 6, 7, 8, 9])
     y, curved = along["contact"] @ x - place, radius > 0
     y = y - curved * dot(y, normal) * normal
-    length = np.where(curved, np.sqrt(dot(y, y)), dot(y, normal))
-    depth = np.maximum(offset - length + radius, 0)
-    g -= along["contact"].T @ (k * area * depth * np.where(curved, y / length, normal))
+    touch = offset + radius
+    depth = np.maximum(np.where(curved, 0.5 * (touch - dot(y, y) / touch), offset - dot(y, normal)), 0)
+    g -= along["contact"].T @ (k * area * depth * np.where(curved, y / touch, normal))
     return 0.5 * np.sum(k * area * depth**2)
 
 

@@ -26,7 +26,7 @@ from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import Fault, LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
-LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
+LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to stage
 LOOSE = 0.05  # residual at which soft load steps end, and stages but the last
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
@@ -36,6 +36,14 @@ def soften(penalties: Sequence[Any], share: float) -> None:
     """Give penalties a share of their stiffness, 1 for all of it."""
     for one in penalties:
         one.share = share
+
+
+def require_way(path: Path[State, Forces], state: State, load_factor: float) -> None:
+    """Raise LoadStepFailed where the way from a path's last equilibrium leads through an obstacle."""
+    structure = path.structure
+    before, after = structure.placed(path.state, path.load_factor), structure.placed(state, load_factor)
+    if any(one.near(after).share_of_way(one.near(before)) < 1.0 for one in structure.contacts):
+        raise LoadStepFailed(Status.STEP_LIMIT, "a step led through an obstacle", path.limits.first_reach)
 
 
 def softest(structure: Structure[State, Forces]) -> float:
@@ -57,24 +65,12 @@ def stiffened(
 ) -> Fault | None:
     """Lead a path from rest to the equilibrium at full load with stiff penalties: what has ended it before,
     if anything. trace: the usual way there."""
-    structure, limits, inspect = path.structure, path.limits, path.inspect
-    contacts, last = structure.contacts, (structure.rest(), 0.0)
-
-    def kept_out(path: Path[State, Forces]) -> Fault | None:
-        nonlocal last
-        start = last if last[1] <= path.load_factor else (structure.rest(), 0.0)
-        last = path.state, path.load_factor
-        before, after = structure.placed(*start), structure.placed(*last)
-        if any(one.near(after).share_of_way(one.near(before)) < 1.0 for one in contacts):
-            return Fault(Status.STEP_LIMIT, "a step led through an obstacle")
-        return inspect(path)
-
-    path.inspect, down = kept_out, path.settle if structure.symmetric else None
+    structure, limits, contacts = path.structure, path.limits, path.structure.contacts
+    down = path.settle if structure.symmetric else None
     share = softest(structure)
     while True:  # what leads nowhere is too soft, where nothing else is left
         soften(contacts, share)
         path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE))
-        last = path.state, 0.0
         ended = trace(path)
         path.limits = limits
         if ended is None:
@@ -87,16 +83,17 @@ def stiffened(
     if ended is None or down is None:
         return ended
     path.begin(limits)
-    last = path.state, 0.0
     gap, bodies = structure.size * structure.gap(path.state, 1.0), [one.obstacle for one in contacts]
     ways = ((gap + np.linalg.norm(body.place() - body.position)) / (WAY * body.radius) for body in bodies)
     for load_factor in np.linspace(0.0, 1.0, max(1, *map(math.ceil, ways)) + 1)[1:].tolist():
         path.limit = path.factorisations + limits.factorisations
         try:
-            path.put(down(path, load_factor), load_factor)
+            state = down(path, load_factor)
+            require_way(path, state, load_factor)
+            path.put(state, load_factor)
         except LoadStepFailed as failure:
             return Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
-        if (fault := kept_out(path)) is not None:
+        if (fault := path.inspect(path)) is not None:
             return fault
     return None
 
@@ -112,7 +109,9 @@ def _raised(path: Path[State, Forces], share: float) -> Fault | None:
         close = LOOSE if target < 1.0 else 0.0
         try:
             state, size = structure.restarted(path.state)
-            path.state, path.factor = newton(path, Start(state, 1.0, 1.0, size), close)
+            found = newton(path, Start(state, 1.0, 1.0, size), close)
+            require_way(path, found[0], 1.0)
+            path.state, path.factor = found
         except LoadStepFailed as failure:
             factor = (target / share) ** 0.5
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:

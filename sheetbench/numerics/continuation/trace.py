@@ -29,7 +29,7 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton, predicted
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Progress, Settle
 from sheetbench.numerics.continuation.stability import stability
-from sheetbench.numerics.continuation.stiffening import stiffened
+from sheetbench.numerics.continuation.stiffening import require_way, stiffened
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
@@ -147,7 +147,10 @@ def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
         beyond = min(1.0, left_at + limits.snap_step)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
         try:
-            path.put(path.settle(path, beyond), beyond)
+            state = path.settle(path, beyond)
+            if path.structure.contacts:
+                require_way(path, state, beyond)
+            path.put(state, beyond)
         except LoadStepFailed as failure:
             tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
             return _give_up(path, reason, tried)
@@ -173,6 +176,8 @@ def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed 
             factor = first.factor if path.structure.symmetric else None
             close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, found = newton(path, first, close)
+            if path.structure.contacts:
+                require_way(path, state, first.target)
             if careful:
                 found, longest = _continuous(path, first, state, found)
         except LoadStepFailed as failure:

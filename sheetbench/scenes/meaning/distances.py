@@ -4,7 +4,14 @@ sheet's refuses or describes a scene.
 With y the position of a point less the obstacle's, across its axis if it has one, and P the projector there,
 
     plane               φ = y·n,      n = ∇φ,     ∇n = 0
-    sphere, cylinder    φ = |y| − R,  n = y/|y|,  ∇n = (P − n nᵀ)/|y|
+    sphere, cylinder    φ = |y| − R,  n = y/|y|
+
+Where a point touches, at φ = o, a ball's |y| is ρ = R + o. What a penalty takes for the depth o − φ is there
+
+    δ = (ρ² − |y|²)/2ρ,   ∂δ/∂x = −y/ρ,   ∂²δ/∂x² = −P/ρ;     on a plane  δ = o − φ,   ∂δ/∂x = −n
+
+which is o − φ but for (o − φ)²/2ρ, and quadratic over a sheet that is flat between the points that it is
+known at.
 """
 
 from __future__ import annotations
@@ -24,27 +31,25 @@ GRID = 65  # points a side of the outline, or along an edge, that a distance is 
 
 
 class Near(NamedTuple):
-    """Points beside an obstacle: y (…, 3) [m], |y| (…) [m], infinite by a plane, n (…, 3), and the depth (…)
-    [m], how much less φ is than where they touch it, < 0 of one that is clear."""
+    """Points beside an obstacle: y (…, 3) [m], the distance ρ (…) [m] of one that touches it from its place,
+    infinite of a plane, the depth (…) [m], how much less φ is than where they touch it, < 0 of one that is
+    clear, and what of it a penalty takes: δ (…) [m], with −∂δ/∂x = n (…, 3)."""
 
     obstacle: AnyObstacle
     across: np.ndarray
-    length: np.ndarray
-    normal: np.ndarray
+    touch: np.ndarray
     depth: np.ndarray
+    sunk: np.ndarray
+    slope: np.ndarray
 
     @property
-    def curvature(self) -> np.ndarray:
-        """∇n (…, 3, 3) [1/m]."""
-        return np.asarray((projector(self.obstacle) - dyad(self.normal)) / self.length[..., None, None])
+    def normal(self) -> np.ndarray:
+        """∇φ (…, 3)."""
+        return np.asarray(self.slope / np.linalg.norm(self.slope, axis=-1, keepdims=True))
 
     def mean(self, start: Near) -> Near:
-        """Return points y₀ + y₁, whose n̄ = (y₀ + y₁)/(|y₀| + |y₁|) has n̄·Δy = Δφ exactly since a start, as
-        Δ|y|² = (y₀ + y₁)·Δy, and whose ∇n is half as large."""
-        if isinstance(self.obstacle, Plane):
-            return self
-        across, length = start.across + self.across, start.length + self.length
-        return Near(self.obstacle, across, length, across / length[..., None], self.depth)
+        """Return points whose n̄ = (y₀ + y₁)/2ρ has n̄·Δy = −Δδ exactly since a start, and ∂n̄/∂y₁ = P/2ρ."""
+        return self._replace(slope=0.5 * (start.slope + self.slope), touch=2.0 * self.touch)
 
     def resistance(self, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return forces (…, 3) [N] of dashpot and friction on points that a load p (…) [N] presses and that
@@ -65,7 +70,7 @@ class Near(NamedTuple):
         if isinstance(self.obstacle, Plane):
             return 1.0
         x, v = start.across, self.across - start.across
-        core = self.depth + self.length - 0.5 * self.obstacle.radius
+        core = self.touch - 0.5 * self.obstacle.radius
         a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
         hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)
         first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
@@ -87,11 +92,12 @@ def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[flo
     in its `place`."""
     y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
-        normal, distance = np.broadcast_to(obstacle.direction, y.shape), y @ obstacle.direction
-        return Near(obstacle, y, distance + np.inf, normal, offset - distance)
+        normal, depth = np.broadcast_to(obstacle.direction, y.shape), offset - y @ obstacle.direction
+        return Near(obstacle, y, depth + np.inf, depth, depth, normal)
     y = y @ projector(obstacle)
-    length = np.maximum(np.sqrt((y * y).sum(axis=-1)), 1e-300)
-    return Near(obstacle, y, length, y / length[..., None], offset - (length - obstacle.radius))
+    touch, squared = offset + obstacle.radius, (y * y).sum(axis=-1)
+    sunk = 0.5 * (touch - squared / touch)
+    return Near(obstacle, y, touch + 0.0 * squared, touch - np.sqrt(squared), sunk, y / touch[..., None])
 
 
 def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:

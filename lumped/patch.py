@@ -1,0 +1,205 @@
+"""Quadrature over the part of a cell where a depth is positive, as a compiled loop.
+
+A depth q is biquadratic on [−1, 1]², with nine values at −1, 0, 1 along x and y (x fastest). Along x, at each
+y, it is a parabola whose roots end the patch {q > 0}; what is integrated there is a polynomial, exact by
+Gauss points between the roots. The integral over y is smooth between those y where a root passes a side of
+the cell or two roots meet: there it has the square root of the distance, which y(t) = ½ (3t − t³) makes
+regular. As depth vanishes at the patch's border, ∫ ⟨q⟩² has the derivatives 2 ∫ q φ and 2 ∫ φ φᵀ over the
+patch, by the same points.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sheetbench.numerics.options import inner, njit
+
+ALONG, ALONG_WEIGHTS = np.polynomial.legendre.leggauss(4)
+_T, _W = np.polynomial.legendre.leggauss(16)
+ACROSS, ACROSS_WEIGHTS = 0.5 * (3.0 * _T - _T**3), 1.5 * (1.0 - _T**2) * _W
+MOST = 2 * 16 * 4 * 9  # points of a patch
+
+
+@inner()
+def value(c: np.ndarray, n: int, t: float) -> float:
+    """Return a polynomial of degree n with coefficients c (n + 1,) at t."""
+    found = 0.0
+    for k in range(n, -1, -1):
+        found = found * t + c[k]
+    return found
+
+
+@inner()
+def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
+    """Put where a polynomial of degree n <= 4 changes its sign in (−1, 1) after the first `count` of
+    `out`."""
+    ends, derivative = np.empty(7), np.empty(5)
+    ends[0], ends[1] = -1.0, 1.0
+    inside = 0  # roots of the derivative one degree lower
+    for degree in range(1, n + 1):
+        for k in range(degree + 1):  # the (n − degree)-th derivative
+            factor = 1.0
+            for j in range(n - degree):
+                factor *= k + n - degree - j
+            derivative[k] = factor * c[k + n - degree]
+        found, new = 0, np.empty(7)
+        for j in range(inside + 1):
+            a, b = ends[j], ends[j + 1]
+            at_a, at_b = value(derivative, degree, a), value(derivative, degree, b)
+            if at_a * at_b >= 0.0:
+                continue
+            x = 0.5 * (a + b)
+            for turn in range(80):  # false position between bisections
+                f = value(derivative, degree, x)
+                if f * at_a > 0.0:
+                    a, at_a = x, f
+                else:
+                    b, at_b = x, f
+                if f == 0.0 or b - a < 1e-15:
+                    break
+                secant = a - at_a * (b - a) / (at_b - at_a)
+                x = 0.5 * (a + b) if turn % 3 == 2 else secant
+            found += 1
+            new[found] = x
+        new[0], new[found + 1] = -1.0, 1.0
+        ends[:], inside = new, found
+    for j in range(inside):
+        out[count + j] = ends[j + 1]
+    return count + inside
+
+
+@inner()
+def coefficients(q: np.ndarray, c: np.ndarray) -> None:
+    """Set c (3, 3), of y^i x^j, from values (9,)."""
+    row = np.empty((3, 3))
+    for i in range(3):
+        a, b, d = q[3 * i], q[3 * i + 1], q[3 * i + 2]
+        row[i, 0], row[i, 1], row[i, 2] = b, 0.5 * (d - a), 0.5 * (d + a) - b
+    for j in range(3):
+        a, b, d = row[0, j], row[1, j], row[2, j]
+        c[0, j], c[1, j], c[2, j] = b, 0.5 * (d - a), 0.5 * (d + a) - b
+
+
+@inner()
+def sign(q: np.ndarray) -> int:
+    """Return 1 of nine values whose biquadratic is positive on all of a cell, −1 of one that is nowhere, by
+    its Bernstein coefficients, else 0."""
+    least, most = np.inf, -np.inf
+    side = np.empty((3, 3))
+    for i in range(3):
+        a, b, d = q[3 * i], q[3 * i + 1], q[3 * i + 2]
+        side[i, 0], side[i, 1], side[i, 2] = a, 2.0 * b - 0.5 * (a + d), d
+    for j in range(3):
+        a, b, d = side[0, j], 2.0 * side[1, j] - 0.5 * (side[0, j] + side[2, j]), side[2, j]
+        least, most = min(least, a, b, d), max(most, a, b, d)
+    return 1 if least > 0.0 else -1 if most <= 0.0 else 0
+
+
+@inner()
+def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, count: int) -> int:
+    """Put Gauss points between lo and hi at a y after the first `count` of `points` (…, 3): x, y, weight."""
+    lo, hi = max(lo, -1.0), min(hi, 1.0)
+    if hi > lo:
+        for g in range(len(ALONG)):
+            points[count, 0] = 0.5 * (lo + hi) + 0.5 * (hi - lo) * ALONG[g]
+            points[count, 1] = y
+            points[count, 2] = weight * 0.5 * (hi - lo) * ALONG_WEIGHTS[g]
+            count += 1
+    return count
+
+
+@inner()
+def patch(q: np.ndarray, points: np.ndarray) -> int:
+    """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive: how
+    many."""
+    inside = sign(q)
+    if inside < 0:
+        return 0
+    count = 0
+    if inside > 0:
+        for g in range(len(ALONG)):
+            count = add_line(ALONG[g], ALONG_WEIGHTS[g], -1.0, 1.0, points, count)
+        return count
+    c, ends, p = np.empty((3, 3)), np.empty(12), np.zeros(5)
+    coefficients(q, c)
+    ends[0] = -1.0
+    stops = 1
+    for s in (-1.0, 1.0):  # at the sides
+        for i in range(3):
+            p[i] = c[i, 0] + s * c[i, 1] + c[i, 2]
+        stops = add_roots(p, 2, ends, stops)
+    p[:] = 0.0
+    for i in range(3):  # where two roots meet
+        for j in range(3):
+            p[i + j] += c[i, 1] * c[j, 1] - 4.0 * c[i, 2] * c[j, 0]
+    stops = add_roots(p, 4, ends, stops)
+    ends[stops] = 1.0
+    ends[1:stops].sort()
+    for k in range(stops):
+        half, middle = 0.5 * (ends[k + 1] - ends[k]), 0.5 * (ends[k + 1] + ends[k])
+        if half <= 0.0:
+            continue
+        for g in range(len(ACROSS)):
+            y, w = middle + half * ACROSS[g], half * ACROSS_WEIGHTS[g]
+            at = c[0] + y * (c[1] + y * c[2])
+            disc = at[1] * at[1] - 4.0 * at[2] * at[0]
+            if disc <= 0.0:
+                if at[0] > 0.0:
+                    count = add_line(y, w, -1.0, 1.0, points, count)
+                continue
+            t = -0.5 * (at[1] + np.copysign(np.sqrt(disc), at[1]))
+            a, b = t / at[2], at[0] / t
+            lo, hi = min(a, b), max(a, b)
+            if at[2] < 0.0:
+                count = add_line(y, w, lo, hi, points, count)
+            else:
+                count = add_line(y, w, -1.0, lo, points, count)
+                count = add_line(y, w, hi, 1.0, points, count)
+    return count
+
+
+@inner()
+def shape(x: float, y: float, f: np.ndarray) -> None:
+    """Set the nine shape functions f (9,)."""
+    a, b, d = 0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)
+    for i in range(3):
+        u = 0.5 * y * (y - 1.0) if i == 0 else 1.0 - y * y if i == 1 else 0.5 * y * (y + 1.0)
+        f[3 * i], f[3 * i + 1], f[3 * i + 2] = u * a, u * b, u * d
+
+
+@njit
+def integrate(
+    depth: np.ndarray, stiffness: np.ndarray, over: np.ndarray, tangent: bool
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return energies ∫ ψ (m,) [J], loads ∫ ψ' φ (m, 9) [N] and ∫ ψ'' φ φᵀ (m, 9, 9) [N/m] of depths (m, 9)
+    [m], and the deepest (m,); stiffness: k (m, 9) [N/m]; over: δ (m,) [m], 0 for ψ = ½ k d². tangent: whether
+    it is wanted."""
+    m = len(depth)
+    energy, load, by = np.zeros(m), np.zeros((m, 9)), np.zeros((m, 9, 9))
+    deepest = np.empty(m)
+    points, f, q = np.empty((MOST, 3)), np.empty(9), np.empty(9)
+    for e in range(m):
+        deepest[e] = depth[e].max()
+        for turn in range(2 if over[e] > 0.0 else 1):  # ψ = k (⟨d⟩³ − ⟨d − δ⟩³)/6δ, or k ⟨d⟩²/2
+            for a in range(9):
+                q[a] = depth[e, a] - turn * over[e]
+            for g in range(patch(q, points)):
+                shape(points[g, 0], points[g, 1], f)
+                d = k = 0.0
+                for a in range(9):
+                    d += f[a] * q[a]
+                    k += f[a] * stiffness[e, a]
+                deepest[e] = max(deepest[e], d + turn * over[e])
+                k *= points[g, 2]
+                if over[e] > 0.0:
+                    k *= (1.0 - 2.0 * turn) / over[e]
+                    psi, p, slope = k * d * d * d / 6.0, 0.5 * k * d * d, k * d
+                else:
+                    psi, p, slope = 0.5 * k * d * d, k * d, k
+                energy[e] += psi
+                for a in range(9):
+                    load[e, a] += p * f[a]
+                    if tangent:
+                        for b in range(9):
+                            by[e, a, b] += slope * f[a] * f[b]
+    return energy, load, by, deepest

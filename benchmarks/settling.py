@@ -1,6 +1,6 @@
 """Two seconds of the settling sheet by our integrators and by SciPy's BDF: time, steps and error, in one run.
 
-    python benchmarks/settling.py [--all] [--json FILE] [--keep]
+    python benchmarks/settling.py [--all] [--duration S] [--json FILE] [--keep]
 
 BDF has the lattice's own sparse Jacobian and compiled right-hand side; it only returns displacements, where
 ours also keep energies and reactions and watch every sample, and set up within their time. Error: of P4 over
@@ -32,8 +32,7 @@ import lumped  # noqa: E402
 from sheetbench import scenes  # noqa: E402
 
 SCENE, GRID, DURATION, EVERY, REPEATS = "two-edges-settling", (9, 9), 2.0, 0.01, 3
-TIMES = np.linspace(0.0, DURATION, round(DURATION / EVERY) + 1)
-Answer = tuple[np.ndarray, int]  # P4 (n, 3) [m] at TIMES, and steps
+Answer = tuple[np.ndarray, int]  # P4 (n, 3) [m] at samples, and steps
 
 
 def equations() -> tuple[Any, Callable[..., np.ndarray], Callable[..., sp.csc_array]]:
@@ -60,14 +59,15 @@ def equations() -> tuple[Any, Callable[..., np.ndarray], Callable[..., sp.csc_ar
     return system, rate, jacobian
 
 
-def bdf(rtol: float) -> Callable[[], Answer]:
+def bdf(rtol: float, duration: float) -> Callable[[], Answer]:
     """SciPy's BDF on the lattice's equations as a system of first order."""
     system, rate, jacobian = equations()
+    times = np.linspace(0.0, duration, round(duration / EVERY) + 1)
     n, corner = system.reduced_mass.shape[0], system.assembly.lattice.columns()[-1, -1]
 
     def run() -> Answer:
         found = solve_ivp(
-            rate, (0.0, DURATION), np.zeros(2 * n), "BDF", TIMES, rtol=rtol, atol=1e-3 * rtol, jac=jacobian
+            rate, (0.0, duration), np.zeros(2 * n), "BDF", times, rtol=rtol, atol=1e-3 * rtol, jac=jacobian
         )
         u = np.array([system.expand(y[:n])[corner].mean(axis=0) for y in found.y.T])
         return u, found.nfev
@@ -75,7 +75,7 @@ def bdf(rtol: float) -> Callable[[], Answer]:
     return run
 
 
-def ours(integrator: str, duration: float = DURATION, **options: Any) -> Callable[[], Answer]:
+def ours(integrator: str, duration: float, **options: Any) -> Callable[[], Answer]:
     """A run of ours, set-up and samples included."""
     scene = scenes.load(SCENE)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
@@ -98,22 +98,24 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--all", action="store_true", help="verlet and midpoint too")
+    parser.add_argument("--duration", type=float, default=DURATION, help="of the runs [s]")
     parser.add_argument("--json", type=Path, help="a file for the rows")
     parser.add_argument("--keep", action="store_true", help="keep the rows in benchmarks/history")
     arguments = parser.parse_args()
-    rivals = {"SciPy BDF, rtol 1e-3": bdf(1e-3), "SciPy BDF, rtol 1e-4": bdf(1e-4)}
+    duration = arguments.duration
+    rivals = {f"SciPy BDF, rtol {rtol}": bdf(float(rtol), duration) for rtol in ("1e-3", "1e-4")}
     methods: dict[str, tuple[str, dict[str, Any]]] = {
         "generalised-alpha": ("generalised-alpha", {}),
         "esdirk": ("esdirk", {}),
     }
     if arguments.all:
         methods |= {name: (name, {}) for name in ("midpoint", "verlet")}
-    truth, _ = ours("esdirk", step=1e-3)()
-    near, _ = ours("esdirk", step=2e-3)()
+    truth, _ = ours("esdirk", duration, step=1e-3)()
+    near, _ = ours("esdirk", duration, step=2e-3)()
     largest = np.abs(truth).max()
     doubt = np.abs(near - truth).max() / largest
-    print(f"{SCENE}, 9×9×2, {DURATION:g} s; error of the reference at most {doubt:.1e}")
-    runs = rivals | {label: ours(name, **options) for label, (name, options) in methods.items()}
+    print(f"{SCENE}, 9×9×2, {duration:g} s; error of the reference at most {doubt:.1e}")
+    runs = rivals | {label: ours(name, duration, **options) for label, (name, options) in methods.items()}
     beginnings = {label: ours(name, EVERY, **options) for label, (name, options) in methods.items()}
     spent: dict[str, list[float]] = {label: [] for label in runs}
     started: dict[str, list[float]] = {label: [] for label in runs}

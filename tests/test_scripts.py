@@ -85,6 +85,7 @@ SMALLER = {
         "--model mujoco:grid=5 --model mujoco:grid=9 --model mujoco:grid=17": "",
     },
     "bench": {
+        "settling.py": "settling.py --duration 0.02",
         "statics.py": "statics.py --lattices 3 --shells 2 --batch 2",
         "shell.py": "shell.py --elements 2",
         "explicit_steps.py": "explicit_steps.py 3",
@@ -93,11 +94,11 @@ SMALLER = {
     "animations": {"--duration 1 ": "--duration 0.02 ", "--duration 1.5": "--duration 0.02"},
     "pictures": {"docs/pictures.py": "docs/pictures.py one-edge-clamped"},
     "crosscheck": {
-        "all docs/crosscheck/*.toml": "two-edges-clamped --lumped 3 --plate 2 --shell 2 --solid 2"
+        "all docs/crosscheck/*.toml": "two-edges-clamped --lumped 3,5 --plate 2,3 --shell 2,3 --solid 2,3"
     },
-    "coarse": {"auto,consistent,consistent-membrane": "consistent", "9,17": "3", "elements 16": "elements 2"},
+    "coarse": {"auto,consistent,consistent-membrane": "consistent", "9,17": "5", "elements 16": "elements 2"},
     "transfer": {
-        "transfer --out": "transfer --part modal --methods consistent --grids 3 --elements 2 --out",
+        "transfer --out": "transfer --part modal --methods consistent --grids 5 --elements 2 --out",
         "-m slow tests/studies/test_transfer.py": "--version",
     },
     "promises": {"promises --out": "promises --part bars --scenes 1 --model plate --out"},

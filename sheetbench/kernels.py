@@ -100,8 +100,9 @@ class Announcement(event.Listener):  # type: ignore[misc]
 
     def on_start(self, event: Any) -> None:
         """Log before the first kernel."""
-        module = event.data["dispatcher"].py_func.__module__
-        if not self.announced and module.partition(".")[0] in ("lumped", "fem_reference", "sheetbench"):
+        function = getattr(event.data["dispatcher"], "py_func", None)
+        package = str(getattr(function, "__module__", None)).partition(".")[0]  # some of numba's have none
+        if not self.announced and package in ("lumped", "fem_reference", "sheetbench"):
             self.announced = True
             logging.getLogger("sheetbench").info(NOTICE)
 

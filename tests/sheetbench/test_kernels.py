@@ -136,6 +136,16 @@ def unwrapped(x):
 def assigned(a, b):
     a[:] = b
 
+@nb.experimental.jitclass([("x", nb.f8)])
+class Boxed:
+    def __init__(self, x):
+        self.x = x
+
+@nb.vectorize(["f8(f8, f8)"])
+def added(x, y):
+    return x + y
+
+show("class", lambda: Boxed(3.0).x), show("ufunc", added, 1.0, 2.0)
 show("overload", nb.njit(lambda x: overloaded(x)), 1.0)
 show("overload that raises", nb.njit(lambda x: overloaded(x)), 2.0)
 show("jitable", nb.njit(lambda x: in_python(x)), 2.0)

@@ -86,7 +86,7 @@ def test_pretension_is_by_linear_law_the_strain_that_pulls_so_much():
     of = scene(natural=Natural(pretension=(2.0, 1.0)))
     strain, _ = (part[0] for part in natural_at(of, np.zeros((1, 2))).at())
     said = dict(natural_in_words(of))["natural"]
-    assert said == "a tension of 2 N/m along x and 1 N/m along y, held flat, stresses from 500 to 1e+03 Pa"
+    assert said == "a tension of 2 N/m along x and 1 N/m along y, held flat, stresses from 500 Pa to 1 kPa"
     stiffness = 1e6 * 0.002 / 0.91 * np.array([[1.0, 0.3], [0.3, 1.0]])
     np.testing.assert_allclose(-stiffness @ np.diag(strain), [2.0, 1.0])
 

@@ -199,7 +199,7 @@ def described(name):
 def test_numpy_alone_finds_our_forces(name):
     lattice, along = described(name)
     assert (lattice["mass"] > 0.0).all()
-    assert lattice["coupling_stiffness"].any() == (name in ("woven", "skew"))
+    assert lattice["coupling_stiffness"].any() == (name in ("woven", "skew", "bimetal"))
     without, touched = {**lattice, "contact_values": lattice["contact_values"] * ([1] * 9 + [0])}, False
     parts = (lattice[f"state_{part}"] for part in ("displacement", "force", "energy"))
     for u, force, energy in zip(*parts, strict=True):

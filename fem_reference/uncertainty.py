@@ -173,7 +173,7 @@ def estimate(
     ratio = sizes[1] / sizes[0]
     spread = np.max(answers, axis=0) - np.min(answers, axis=0)
     rounding = spread <= ROUNDING * np.max(np.abs(fine), initial=0.0)
-    largest = family.order - BY_LAYER * layers[0].share
+    largest = min(family.order, IN_ROWS.order - BY_LAYER * layers[0].share)
     if len(answers) == 2:
         order, trusted, converging = np.full(fine.shape, np.nan), rounding, bool(rounding.all())
         of_field, own, neighbours = min(ASSUMED_ORDER, largest), CAUTION, 0.0

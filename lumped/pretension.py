@@ -12,7 +12,6 @@ from collections.abc import Callable
 from copy import copy
 
 import numpy as np
-from scipy.optimize import newton
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
@@ -25,6 +24,8 @@ from sheetbench.scenes.objects.natural import Natural
 
 def stretched(scene: Scene, assembly: Assembly) -> Scene:
     """Return the scene with the natural strain that gives its pretension in this lattice, not grown yet."""
+    from scipy.optimize import newton
+
     lattice, areas = assembly.lattice, assembly.lattice.cell_areas
     if assembly.cells is not None:
         areas = areas * assembly.cells.bending[..., 0, 0] / CellSection.of(of_sheet(scene)).bending[..., 0, 0]

@@ -105,7 +105,7 @@ SMALLER = {
     "reproduce": {"reproduction --out": "reproduction --elements 4 --out"},
 }
 TESTED = "install test check nightly kernels slow lint fuzz kills notebooks"
-FETCHING = "docs mutants viewer wheel wheel-check extras-check release-check codes trials"
+FETCHING = "docs mutants viewer wheel-check extras-check release-check codes trials"
 OF_ONE_SIZE = "central master-curves rubber stability standing suite"  # of some minutes
 ELSEWHERE = set(f"{TESTED} {FETCHING} {OF_ONE_SIZE}".split())
 

@@ -156,7 +156,7 @@ def resolve(
         found = Resolved(scene, spec)
     if not context().large:
         if use != "springs" or found.fitted:
-            require_room(scene, found.spec, option)
+            require_room(scene, found.spec, option, modes=use == "modes")
         if found.fitted:
             from comparisons.models.training import ELEMENTS
 

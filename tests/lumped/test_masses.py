@@ -98,7 +98,7 @@ def test_edges_that_hold_the_director_share_nothing():
 @pytest.mark.parametrize("grid", [(2, 2), (2, 5), (3, 3), (4, 3), (9, 3)])
 def test_few_masses_keep_a_positive_inertia(grid):
     for at in ((), (0.07,), (0.02, 0.09), (0.1, 0.12)):  # narrow cells beside wide ones, at ends too
-        lattice = build(SHEET, (*grid, 2), 0.002, twisting=EVERY, grading=through((at, ())))
+        lattice = build(SHEET, (*grid, 2), 0.002, twisting=EVERY, grading=through((at, ()), SHEET.lengths))
         assert np.linalg.eigvalsh(mass_matrix(SCENE, lattice, "higher-order").toarray())[0] > 0.0
 
 

@@ -24,8 +24,6 @@ from sheetbench.scenes.objects.natural import Natural
 
 def stretched(scene: Scene, assembly: Assembly) -> Scene:
     """Return the scene with the natural strain that gives its pretension in this lattice, not grown yet."""
-    from scipy.optimize import newton
-
     lattice, areas = assembly.lattice, assembly.lattice.cell_areas
     if assembly.cells is not None:
         areas = areas * assembly.cells.bending[..., 0, 0] / CellSection.of(of_sheet(scene)).bending[..., 0, 0]
@@ -35,6 +33,8 @@ def stretched(scene: Scene, assembly: Assembly) -> Scene:
     shape = tuple(len(line.widths) for line in reversed(lattice.lines))
 
     def tension(strain: np.ndarray) -> np.ndarray:
+        from scipy.optimize import newton
+
         source, grown = Source("natural", Natural(), strain, np.zeros(3)), copy(assembly)
         grown.grow(NaturalState([source], shape, lambda _: np.ones(shape)))
 

@@ -113,15 +113,13 @@ def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 def own_patches(scene: SceneFields) -> tuple[Patch, ...]:
     """Return the patches that change what the sheet is made of: none of the sheet's own constants, unless it
     covers part of another."""
-    import shapely
-
     even = not (scene.sheet.taper_x or scene.sheet.taper_y)
     usual = {**vars(scene.material), "thickness": scene.sheet.thickness if even else None}
     found: list[Patch] = []
     for patch in scene.patches:
         differs = any(value != usual.get(name) for name, value in patch.own.items())
-        areas = np.array([each.shape.area for each in found], dtype=object)
-        if differs or (patch.own and shapely.intersects(patch.shape.area, areas).any()):
+        covers = any(patch.shape.area.intersects(each.shape.area) for each in found)
+        if differs or (patch.own and covers):
             found.append(patch)
     return tuple(found)
 

@@ -139,11 +139,11 @@ def held_at_drawn_size(scene: AnyFields, tension: Callable[[np.ndarray], np.ndar
 
     tension: natural strain [xx, yy, xy] → [Nx, Ny, Nxy] [N/m] of the flat sheet so held. Raises Impossible
     where no strain gives it. Newton's method with the linear law's tangent, by Broyden's updates."""
-    from scipy.optimize import root
-
     natural = scene.natural
     if natural is None or natural.pretension is None:
         return scene
+    from scipy.optimize import root
+
     factor = natural.last_factor or 1.0
     compliance = -np.linalg.inv(resultants(plies_of(scene))[0] * scene.sheet.thickness) * TENSOR[:, None]
     begin = factor * compliance @ [*natural.pretension, 0.0]

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.springs.laws import Branches, Vector, dot, elongation, times
-from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import inner, njit
 
 
@@ -77,6 +77,24 @@ def add_forces(
             stress = own * stress + constant[m, 0]
         pull(links.nodes, m, stress + stress, r, force)
     return energy
+
+
+@njit
+def energies(
+    u: np.ndarray, links: LinkArrays, kind: np.ndarray, kinds: int, layers: int
+) -> tuple[np.ndarray, float]:
+    """Return the energies [J] of the links by kind, (kinds,), and what of that the layers' mean stretch
+    stores; links between the same columns follow each other, layer by layer."""
+    out, stretch, summed, firm, met = zeros(kinds), 0.0, 0.0, 0.0, 0
+    for m in range(len(links.nodes)):
+        change, square, length, _ = measure(u, links, m)
+        half, e = 0.5 * links.constants[m], change / (np.sqrt(square) + length)
+        out[kind[m]] += half * (e * e)
+        if links.offset[m, 2] == 0.0:
+            summed, firm, met = summed + e, firm + half, met + 1
+            if met % layers == 0:
+                stretch, summed, firm = stretch + firm * (summed / layers) ** 2, 0.0, 0.0
+    return out, stretch
 
 
 @njit

@@ -2,13 +2,13 @@
 (`sheetbench.numerics.continuation`).
 
 With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0, and a step is Tᵀ K T δq = Tᵀ (λ f − f_int −
-K δg), δg what supports and actuators have yet to move, K at the load that the state is at. One compiled call
-goes a step and finds the internal forces and the stresses that it extrapolates, so a state has its residual
-with it. Displacements and forces are (n, 3) [m], [N].
+K δg), δg what supports and actuators have yet to move, K at the load that the state is at. A state has its
+residual and the stresses that the step to it predicts with it. Displacements and forces are (n, 3) [m], [N].
 """
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from typing import NamedTuple
 
@@ -20,8 +20,8 @@ from lumped.assembly import Assembly
 from lumped.contact import Contact
 from lumped.items import LatticeItem, Placed
 from lumped.loads import Loads
-from lumped.springs.all_families import NO_STRESSES, Stresses, Survey
-from lumped.statics.correction import Equations, advance, correct, unbalanced_force
+from lumped.springs.all_families import Stresses, Survey
+from lumped.statics.correction import advance, unbalanced_force
 from lumped.statics.faults import inspect
 from lumped.supports import Constraints
 from sheetbench.numerics import banded
@@ -30,7 +30,6 @@ from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
 from sheetbench.numerics.continuation.structure import Correction, Structure
 from sheetbench.numerics.direct import Count, Factor, iterated
-from sheetbench.numerics.options import typed
 from sheetbench.numerics.reduced_system import ReducedSystem, banded_factor
 from sheetbench.numerics.sparse_products import product, transposed_product
 from sheetbench.scenes import Scene, outside_model
@@ -101,9 +100,9 @@ class Problem(Structure[LatticeState, Residual]):
         self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
         self.contacts = [item for item in items if isinstance(item, Contact)]
         self.symmetric = self.conservative = assembly.conservative and loads.conservative
-        self.prestrained, driving = assembly.natural is not None, 0.0
+        self.prestrained, self._driving = assembly.natural is not None, 0.0
         if self.prestrained:  # often the only load
-            driving = float(np.linalg.norm(assembly.force(np.zeros_like(loads.dead))[1]))
+            self._driving = float(np.linalg.norm(assembly.force(np.zeros_like(loads.dead))[1]))
         coupling, transform = assembly.coupling, constraints.transform
         self.multipliers = 0 if coupling is None else coupling.multipliers
         self.descends = self.symmetric and self.multipliers == 0
@@ -114,8 +113,6 @@ class Problem(Structure[LatticeState, Residual]):
         else:
             multipliers = abs(transform).T @ coupling.algebraic.ravel() > 0.0
             self.system = ReducedSystem(assembly.pattern, transform, self.symmetric, multipliers)
-        band = self.system.band or banded.NO_BAND
-        self._equations = typed(Equations(constraints.held, self._free, band, loads.last_dead, driving))
         self._moves = bool(self.prescribed(1.0).any())
         self._iterates = self.descends and self.system.unknowns > ITERATED
         self.factor = self.system.factor
@@ -198,7 +195,8 @@ class Problem(Structure[LatticeState, Residual]):
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
         load, n = self.loads.force(u), self.system.unknowns
-        return Residual(*unbalanced_force(internal, load, load_factor, self._equations, n))
+        of = self.constraints.held, self._free, self._driving
+        return Residual(*unbalanced_force(internal, load, load_factor, *of, n))
 
     def rest(self) -> LatticeState:
         return LatticeState(np.zeros(self.loads.dead.shape), 0.0)
@@ -257,9 +255,9 @@ class Problem(Structure[LatticeState, Residual]):
     ) -> LatticeState:
         springs, moved = self.assembly.at(load_factor).all_families, forces and forces.moved
         moved = NOTHING if moved is None else moved
-        after, length, internal, stresses = advance(state.u, step, moved, self._free, springs.springs)
-        if self._others or not springs.conservative:
-            internal = springs.beside(after, internal)
+        after, move, length = advance(state.u, step, moved, self._free)
+        (_, internal), stresses = springs.force(after), springs.extrapolated(state.u, move)
+        if self._others:
             self._add_others(after, Drive(load_factor), internal)
         residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, residual, stresses, state.u, length)
@@ -273,9 +271,10 @@ class Problem(Structure[LatticeState, Residual]):
         if others or band is None or self._iterates:
             return None
         count()
-        stresses = state.stresses or NO_STRESSES
-        blocks, factors, definite, step = correct(state.u, stresses, rows, band, springs.springs)
-        if definite:
+        blocks = springs.tangent(state.u, state.stresses, extrapolated=state.stresses is not None)
+        factors, definite = banded.factored(blocks, band)
+        step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else rows
+        if definite and math.isfinite(step.sum()):
             factor = banded_factor(band, factors, partial(self.system.matrix, blocks))
             return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
         return self.solved(state, forces, load_factor, self.system.factor(blocks, count), rows)

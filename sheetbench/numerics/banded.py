@@ -38,9 +38,6 @@ class Band(NamedTuple):
     weight: np.ndarray
 
 
-NO_BAND = Band(np.empty(0, np.intp), 0, np.empty(0, np.int32), np.empty(0, np.int32), np.empty(0))
-
-
 def ordered(rows: np.ndarray, columns: np.ndarray, n: int) -> tuple[np.ndarray, int]:
     """The order (n,) of an n × n matrix with entries (row, column), both triangles, and its bandwidth: as the
     unknowns are numbered, along the rows of the grid, or reverse Cuthill–McKee where that is narrower."""
@@ -151,7 +148,6 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
     return True
 
 
-@njit
 def factored(blocks: np.ndarray, band: Band) -> tuple[np.ndarray, bool]:
     """Cholesky factors of the matrix of blocks (b, 3, 3), and whether there are such."""
     factors = stored(blocks, band)

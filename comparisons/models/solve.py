@@ -161,7 +161,8 @@ def warm(model: str) -> None:
 
 def warm_both(one: str, other: str) -> None:
     """Compile what two models need side by side, the other's in a process of its own."""
-    code = f"from comparisons.models.solve import warm; warm({other!r})"
+    seldom = "import gc; gc.set_threshold(10_000)"  # compiling leaves little garbage
+    code = f"{seldom}; from comparisons.models.solve import warm; warm({other!r})"
     command = [sys.executable, "-c", code]
     with stopped(), Popen(command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as beside:
         try:

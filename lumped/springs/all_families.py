@@ -1,6 +1,10 @@
-"""The springs of a lattice: made of a spring set, and summed over their families, each of which has compiled
-loops of its own. Springs with an energy are links, cells of the layers and of the mid-surface, and upright
-faces; links of a per-direction law have none."""
+"""The springs of a lattice: made of a spring set, and called all at once.
+
+A call from Python costs microseconds, as much as a small lattice's springs do; so those with an energy have
+one compiled call, not one a family. Its arrays always are of the same kinds, empty where a lattice has no
+such springs: links, the layers' cells, the mid-surface's cells, upright faces. The loops themselves are each
+family's own; here they release the interpreter's lock. Springs without an energy are added to what it gives.
+"""
 
 from __future__ import annotations
 
@@ -16,13 +20,29 @@ from lumped.pattern import SHARED_UP_TO, MassPattern
 from lumped.spring_constants import FACES, of_edge_cells, of_rubber
 from lumped.spring_constants import Springs as Constants
 from lumped.springs import cells, links
-from lumped.springs.cell_blocks import mirror_blocks
-from lumped.springs.families import DirectionalLinks, Family, Links, SpringCells
-from lumped.springs.law_table import FACE, RUBBER
+from lumped.springs.cells import CellArrays
+from lumped.springs.families import NO_CELLS, DirectionalLinks, Family, Links, SpringCells
+from lumped.springs.law_table import FACE, RUBBER, measures
+from lumped.springs.links import LinkArrays
 from sheetbench.errors import BadInput
+from sheetbench.numerics.aliasing import zeros
 from sheetbench.numerics.cache import cached
+from sheetbench.numerics.options import njit, typed
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
+
+
+class SpringArrays(NamedTuple):
+    """The springs of a lattice that have an energy, and where their tangent's blocks are: their number;
+    `MassPattern.mirror`; each mass's block with itself (n,)."""
+
+    links: LinkArrays
+    layers: CellArrays
+    middle: CellArrays
+    faces: CellArrays
+    blocks: int
+    mirror: np.ndarray
+    diagonal: np.ndarray
 
 
 class Survey(NamedTuple):
@@ -34,23 +54,28 @@ class Survey(NamedTuple):
     stretch: float
 
 
-Stresses = tuple[np.ndarray, ...]  # of the families with an energy, each (m,) of links, (m, 4) of cells
+Stresses = tuple[np.ndarray, ...]  # four, of the springs of `SpringArrays`
+NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 4)),))
+NO_INERTIA = np.empty(0)
 NAMES = tuple(dict.fromkeys(name for name, *_ in STEPS))  # of the links' families
 NUMBERS = np.array([NAMES.index(name) for name, *_ in STEPS])
 
 
 class AllFamilies:
-    """Families of springs together, links first. Displacements and forces are (n, 3) [m], [N]; stresses one
-    array a family with an energy, in turn."""
+    """Families of springs together: links, cells of the layers and of the mid-surface, upright faces, empty
+    where there are none, then those without an energy. Displacements and forces are (n, 3) [m], [N]; stresses
+    as `SpringArrays`."""
 
     def __init__(self, families: Sequence[Family], pattern: MassPattern):
-        self.families, self._pattern = tuple(families), pattern
-        self.all_links = [family for family in families if isinstance(family, Links)]
-        self._others = [family for family in families if isinstance(family, DirectionalLinks)]
-        self._cells = [family for family in families if isinstance(family, SpringCells)]
-        self.links, self.conservative = self.all_links[0], not self._others
-        self.any_strain = any(family.law is RUBBER for family in self._cells)
-        self._own: Stresses = (np.empty(0), *len(self._cells) * (np.empty((0, 4)),))
+        self.families = (*families, *[NO_CELLS] * (4 - len(families)))
+        self._central: tuple[Any, ...] = self.families[:4]
+        self._others = [family for family in self.families if isinstance(family, DirectionalLinks)]
+        arrays = [family.arrays for family in self._central]
+        where = pattern.blocks, pattern.mirror, pattern.diagonal
+        self.springs = typed(SpringArrays._make([*arrays, *where]))
+        self.all_links = [family for family in self.families if isinstance(family, Links)]
+        self.links, self._pattern, self.conservative = self.all_links[0], pattern, not self._others
+        self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
 
     @cached_property
     def link_stiffness(self) -> np.ndarray:
@@ -64,12 +89,12 @@ class AllFamilies:
 
     def damped(self, time: float) -> list[Family]:
         """Return the dampers of the families, with `time` [s], of all links together."""
-        links: Family = self.links.damped(time)
+        links, *cells = [family.damped(time) for family in self._central]
         for more in (family.damped(time) for family in self._others):
             names = ("nodes", "stiffness", "slots", "offset", "rest_length", "kind")
             each = {name: np.append(getattr(links, name), getattr(more, name), axis=0) for name in names}
             links = replace(links, **each)
-        return [links, *(family.damped(time) for family in self._cells)]
+        return [links, *cells]
 
     def survey(self, u: np.ndarray, layers: int) -> Survey:
         """Return what the springs of a lattice of so many layers store at u, and how far they are
@@ -77,41 +102,34 @@ class AllFamilies:
         along, kind, names = self.links.arrays, self.links.kind, self.links.names
         of_links, stretch = links.energies(u, along, kind, len(names), layers)
         energies = dict(zip(names, of_links.tolist(), strict=True))
-        for family in self._cells:
-            energies[family.name] = float(cells.energies(u, family.arrays).sum())
+        for family in self._central[1:]:
+            if len(family):
+                energies[family.name] = float(cells.energies(u, family.arrays).sum())
         return Survey(energies, self.links.largest_strain(u), stretch)
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
-        """Return the energy [J] and the internal force, its gradient; and of springs without an energy the
-        force."""
-        u, force = np.ascontiguousarray(u), np.zeros(u.shape)
-        energy = links.add_forces(u, self.links.arrays, force)
-        for family in self._cells:
-            energy += cells.add_forces(u, family.arrays, force)
-        for other in self._others:
-            other.add_force(u, force)
-        return energy, force
+        """Return the energy [J] and the internal force, its gradient."""
+        energy, internal = force(np.ascontiguousarray(u), self.springs)
+        return energy, self.beside(u, internal)
+
+    def beside(self, u: np.ndarray, internal: np.ndarray) -> np.ndarray:
+        """Return the internal force at u of which `internal` is what compiled calls have found, added to."""
+        for family in self._others:
+            family.add_force(u, internal)
+        return internal
 
     def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Return the internal force whose work from `start` to `end` is the elastic energy stored; of springs
         without one the force in the middle."""
         force = np.zeros_like(start)
-        for family in (self.links, *self._cells):
+        for family in self._central:
             family.loops.add_average_forces(start, end, family.arrays, force)
-        for other in self._others:
-            other.add_force(0.5 * (start + end), force)
-        return force
-
-    def extrapolated(self, u: np.ndarray, step: np.ndarray) -> Stresses:
-        """Return the stresses that the linearisation at u predicts after a step (n, 3) [m]."""
-        first = links.extrapolated(u, step, self.links.arrays, not self.any_strain)
-        return (first, *[cells.extrapolated(u, step, family.arrays) for family in self._cells])
+        return self.beside(0.5 * (start + end), force)
 
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite: a sum of
         squares, with negative area springs (ν < 1/3) only while strains are small."""
-        stress = tuple(family.nonnegative_part(u) for family in (self.links, *self._cells))
-        return self.tangent(u, stress, 0.0)
+        return self.tangent(u, tuple(family.nonnegative_part(u) for family in self._central), 0.0)
 
     def tangent(
         self,
@@ -119,26 +137,82 @@ class AllFamilies:
         stress: Stresses | None = None,
         share: float = 1.0,
         scale: float = 1.0,
-        inertia: np.ndarray | None = None,
+        inertia: np.ndarray = NO_INERTIA,
         extrapolated: bool = False,
     ) -> np.ndarray:
         """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
         springs' own where there are none, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
         extrapolated: whether the stresses are those that `extrapolated` predicts."""
-        u, pattern = np.ascontiguousarray(u), self._pattern
-        blocks, (first, *of_cells) = np.zeros((pattern.blocks, 3, 3)), stress or self._own
-        by_strain = extrapolated and not self.any_strain
-        links.add_tangent(u, self.links.arrays, first, by_strain, share, blocks)
-        for family, own in zip(self._cells, of_cells, strict=True):
-            cells.add_tangent(u, family.arrays, own, extrapolated, share, blocks)
-        mirror_blocks(blocks, pattern.mirror)
-        for other in self._others:
-            other.add_tangent(u, blocks)
-        if scale != 1.0:
-            blocks *= scale
-        if inertia is not None:
-            blocks[pattern.diagonal[: len(inertia)]] += inertia[:, None, None] * np.eye(3)
+        blocks: np.ndarray = tangent(
+            np.ascontiguousarray(u),
+            stress or NO_STRESSES,
+            extrapolated,
+            share,
+            scale,
+            inertia,
+            self.springs,
+        )
+        for family in self._others:
+            apart = np.zeros_like(blocks)
+            family.add_tangent(u, apart)
+            blocks += scale * apart
         return blocks
+
+
+@njit
+def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
+    """Return the energy [J] and the internal force (n, 3) [N]."""
+    out = zeros(u.shape)
+    energy = links.add_forces(u, springs.links, out)
+    energy += cells.add_forces(u, springs.layers, out)
+    energy += cells.add_forces(u, springs.middle, out)
+    energy += cells.add_forces(u, springs.faces, out)
+    return energy, out
+
+
+@njit(inline="always")
+def extrapolated(u: np.ndarray, step: np.ndarray, springs: SpringArrays) -> Stresses:
+    """Return the stresses that the linearisation at u predicts after a step (n, 3) [m]."""
+    return (
+        links.extrapolated(u, step, springs.links, measures(springs.layers.law) == 3),
+        cells.extrapolated(u, step, springs.layers),
+        cells.extrapolated(u, step, springs.middle),
+        cells.extrapolated(u, step, springs.faces),
+    )
+
+
+@njit
+def tangent(
+    u: np.ndarray,
+    stress: Stresses,
+    extrapolated: bool,
+    share: float,
+    scale: float,
+    inertia: np.ndarray,
+    springs: SpringArrays,
+) -> np.ndarray:
+    """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
+    springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
+    It is symmetric: what is above the diagonal is copied."""
+    blocks = zeros((springs.blocks, 3, 3))
+    strain = extrapolated and measures(springs.layers.law) == 3
+    links.add_tangent(u, springs.links, stress[0], strain, share, blocks)
+    cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, blocks)
+    cells.add_tangent(u, springs.middle, stress[2], extrapolated, share, blocks)
+    cells.add_tangent(u, springs.faces, stress[3], extrapolated, share, blocks)
+    if scale != 1.0:
+        entries = blocks.ravel()
+        for e in range(len(entries)):
+            entries[e] *= scale
+    for i in range(len(inertia)):
+        for q in range(3):
+            blocks[springs.diagonal[i], q, q] += inertia[i]
+    for k in range(len(springs.mirror)):
+        below, above = blocks[np.uint64(springs.mirror[k, 0])], blocks[np.uint64(springs.mirror[k, 1])]
+        for q in range(3):
+            for r in range(3):
+                above[q, r] = below[r, q]
+    return blocks
 
 
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:
@@ -204,14 +278,13 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
         if of_cells == "area" and springs.upward.of:
             more = [kept_cells(springs.upward.along("area", 0)), kept_cells(springs.upward.strains("area"))]
             stiffness += np.kron(_levels(layers)[:, None], np.column_stack(more))
-        if stiffness.any():
-            yield _cells(at_rest, pattern, stiffness, name)
+        yield _cells(at_rest, pattern, stiffness, name) if stiffness.any() else NO_CELLS
 
 
-def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
+def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> SpringCells:
     """On the upright faces between the layers, against their shear."""
     if not springs.of.keys() & FACES:
-        return
+        return NO_CELLS
     faces, area = lattice.faces, lattice.faces.at_rest.area
     along = [springs.along("face_shear", axis) for axis in (0, 1)]
     over, one = (springs.along(name, 0) for name in FACES[1:])
@@ -220,7 +293,7 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     stiffness = np.zeros((len(area), 4))
     stiffness[:, 3] = (faces.shares * stored).sum(axis=0) / area
     others = stiffness[:, 3:] / area[:, None]
-    yield _cells(faces.at_rest, pattern, stiffness, "face_shear", FACE, others)
+    return _cells(faces.at_rest, pattern, stiffness, "face_shear", FACE, others)
 
 
 @cached(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
@@ -228,7 +301,7 @@ def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet) -> Al
     """The springs of a spring set on a lattice; of a small one the same every time."""
     of = lattice, pattern, Constants.read(springs)
     central, *others = link_springs(*of)
-    return AllFamilies([central, *cell_springs(*of), *face_springs(*of), *others], pattern)
+    return AllFamilies([central, *cell_springs(*of), face_springs(*of), *others], pattern)
 
 
 def table_dampers(lattice: Lattice, pattern: MassPattern, table: DamperSet) -> Links:

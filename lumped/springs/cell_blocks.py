@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from lumped.springs.laws import Four, Three, Vector, less, plus, times
-from sheetbench.numerics.options import inner, njit
+from sheetbench.numerics.options import inner
 
 Pair = tuple[Vector, Vector]
 Rows = tuple[Pair, Pair, Pair]
@@ -83,13 +83,3 @@ def add_blocks(
                                 + side * turn2 * of_warp[corner % 2, 3 * (e % 3) + e // 3]
                                 + turn * turn2 * of_warp[2, e]
                             )
-
-
-@njit
-def mirror_blocks(blocks: np.ndarray, mirror: np.ndarray) -> None:
-    """Write the blocks above the diagonal, transposed copies of those below (`MassPattern.mirror`)."""
-    for k in range(len(mirror)):
-        below, above = blocks[np.uint64(mirror[k, 0])], blocks[np.uint64(mirror[k, 1])]
-        for q in range(3):
-            for r in range(3):
-                above[q, r] = below[r, q]

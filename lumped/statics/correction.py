@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from lumped.springs import all_families
+from lumped.springs.all_families import SpringArrays, Stresses
 from sheetbench.numerics.aliasing import empty
 from sheetbench.numerics.options import njit
 from sheetbench.numerics.sparse_products import Rows, product, transposed_product
@@ -16,9 +18,11 @@ def advance(
     step: np.ndarray,
     moved: np.ndarray,
     free: Rows,
-) -> tuple[np.ndarray, np.ndarray, float]:
+    springs: SpringArrays,
+) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
     """Return the displacement (n, 3) [m] after a step (m,) [m] of the unknowns and the motion `moved` (n, 3)
-    [m] of the supports, empty without one; the change; and its largest component [m]."""
+    [m] of the supports, empty without one; the largest component of the change [m]; the internal force (n, 3)
+    [N] there; and the stresses that the linearisation at u predicts there."""
     move = product(free, step).reshape(u.shape)
     after, length = empty(u.shape), 0.0
     for i in range(len(u)):
@@ -27,7 +31,8 @@ def advance(
                 move[i, q] += moved[i, q]
             after[i, q] = u[i, q] + move[i, q]
             length = max(length, abs(move[i, q]))
-    return after, move, length
+    stresses = all_families.extrapolated(u, move, springs)
+    return after, length, all_families.force(after, springs)[1], stresses
 
 
 @njit

@@ -2,8 +2,9 @@
 (`sheetbench.numerics.continuation`).
 
 With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0, and a step is Tᵀ K T δq = Tᵀ (λ f − f_int −
-K δg), δg what supports and actuators have yet to move, K at the load that the state is at. A state has its
-residual and the stresses that the step to it predicts with it. Displacements and forces are (n, 3) [m], [N].
+K δg), δg what supports and actuators have yet to move, K at the load that the state is at. One compiled call
+goes a step and finds the internal forces and the stresses that it extrapolates, so a state has its residual
+with it. Displacements and forces are (n, 3) [m], [N].
 """
 
 from __future__ import annotations
@@ -255,9 +256,9 @@ class Problem(Structure[LatticeState, Residual]):
     ) -> LatticeState:
         springs, moved = self.assembly.at(load_factor).all_families, forces and forces.moved
         moved = NOTHING if moved is None else moved
-        after, move, length = advance(state.u, step, moved, self._free)
-        (_, internal), stresses = springs.force(after), springs.extrapolated(state.u, move)
-        if self._others:
+        after, length, internal, stresses = advance(state.u, step, moved, self._free, springs.springs)
+        if self._others or not springs.conservative:
+            internal = springs.beside(after, internal)
             self._add_others(after, Drive(load_factor), internal)
         residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, residual, stresses, state.u, length)

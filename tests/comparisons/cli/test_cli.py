@@ -182,11 +182,15 @@ def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
         assert (one.returncode, one.stdout, one.stderr) == (0, usual.stdout, "")
 
 
-def test_collections_are_as_usual_once_a_verb_works():
+def test_collections_are_fewest_while_a_verb_imports():
     startup.begin()
-    assert gc.get_threshold()[0] == startup.ALLOCATIONS > startup.USUAL[0]
-    assert run("check", "two-edges-clamped") == 0
-    assert gc.get_threshold() == startup.USUAL
+    try:
+        assert gc.get_threshold()[0] == startup.IMPORTING
+        assert run("check", "two-edges-clamped") == 0
+        assert startup.USUAL[0] < gc.get_threshold()[0] == startup.WORKING < startup.IMPORTING
+    finally:
+        gc.unfreeze()
+        gc.set_threshold(*startup.USUAL)
 
 
 # ---- studies: refused without a checkout

@@ -44,7 +44,7 @@ from sheetbench.scenes.meaning.distances import Near, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 32 parts
-STIFFER = 30.0  # of E/h, where the patch may be small
+STIFFER = 100.0  # of E/h, where the patch may be small
 MOVING = 0.065  # of ω_max², that contact in motion adds at most
 ROUNDED = 0.3  # δ₁ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
@@ -65,10 +65,10 @@ class Pressed(NamedTuple):
     deepest: np.ndarray
 
 
-def parts_of_cells(sides: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def parts_of_cells(sides: np.ndarray, radius: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return r, s (p,) of the points of a cell, and numbers (t, 9) of those of each of its parts, as many
-    along its sides (2,) [m] as no part is longer than half a radius."""
-    n, m = np.maximum(1, np.ceil(2.0 * sides / radius)).astype(int)
+    along its sides (2,) [m] as no part is longer than half a radius, and a multiple `of` 1 or 2."""
+    n, m = of * np.maximum(1, np.ceil(2.0 * sides / radius / of)).astype(int)
     lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
     s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
     number = np.arange(len(r)).reshape(2 * m + 1, 2 * n + 1)
@@ -77,7 +77,7 @@ def parts_of_cells(sides: np.ndarray, radius: float) -> tuple[np.ndarray, np.nda
 
 
 class Contact(LatticeItem):
-    """Contact of a lattice with an obstacle: nodes (m, q) of cells, basis (p, 8) and weights (p, q), in the
+    """Contact of a lattice with an obstacle: nodes (m, q) of cells, basis (p, 12) and weights (p, q), in the
     straight surface, of their points; groups (t, n) of points: the nine of each part, or corners one by one.
     Raises BadInput for an obstacle too thin."""
 
@@ -92,36 +92,33 @@ class Contact(LatticeItem):
         if obstacle.radius < THINNEST * sides.max():
             thin = f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm"
             raise BadInput(f"{thin}, which would step over it; {THINNEST:g} of that or more, or a finer grid")
-        r, s, self._parts = parts_of_cells(sides, obstacle.radius)
-        self.surface, self.basis = CellSurface(lattice.grid, lattice.layer_distance), shapes(r, s)
+        self._scene, self._lattice, self._sides = scene, lattice, sides
+        self.surface = CellSurface(lattice.grid, lattice.layer_distance)
         self.nodes = lattice.mid_cells.reshape(-1, 4 * lattice.grid[2])
-        self.weights = self.basis[:, :4] @ self.surface.linear[:4]
         self._inert = over_tributary(scene, lattice, assembly.inertia, assembly.cells)
         self._rest = lattice.positions[self.nodes]
-        constants = constants_at(scene, (self.weights @ self._rest)[..., :2]).arrays(
-            (len(self.nodes), len(r))
-        )
-        self.thickness, self._full = constants.thickness, constants.stretching / constants.thickness**2
-        self.offset = (0.5 + TOUCH) * self.thickness
-        corners = self._parts[:, [0, 2, 6, 8]].ravel()
-        self.area = np.outer(
-            lattice.cell_areas[lattice.cell_areas > 0.0], np.bincount(corners, minlength=len(r))
-        )
-        self.area /= len(corners)
         self.share, self.rounded, self._masses = 1.0, 0.0, lattice.mass_count
         self.slots, self._eps = assembly.pattern.among(self.nodes), assembly.rounding
-        self.straighten(isinstance(obstacle, Plane) and not (scene.natural_by or scene.actuators), True)
+        flat = not (scene.natural_by or scene.actuators)
+        self.divide(at_corners=isinstance(obstacle, Plane) and flat, bent=True)
 
-    def straighten(self, at_corners: bool, bent: bool = False) -> None:
-        """Take cells as straight between masses, from then on at corners alone where that is enough."""
+    def divide(self, at_corners: bool, bent: bool = False) -> None:
+        """Take cells as straight between masses unless they are `bent`, and divide them into parts, of which
+        corners alone may be enough."""
         self.at_corners, self.bent = at_corners, bent and not at_corners
-        self.groups, self.full = self._parts, STIFFER * self._full
+        r, s, self.groups = parts_of_cells(self._sides, self.obstacle.radius, 2 if self.bent else 1)
+        corners = self.groups[:, [0, 2, 6, 8]].ravel()
         if at_corners:
-            on = np.flatnonzero(self.area.any(axis=0))
-            self.basis, self.weights, self.area = self.basis[on], self.weights[on], self.area[:, on]
-            self.thickness, self.offset = self.thickness[:, on], self.offset[:, on]
-            self._full = self.full = self._full[:, on]
-            self.groups = np.arange(len(on))[:, None]
+            on, corners = np.unique(corners, return_inverse=True)
+            r, s, self.groups = r[on], s[on], np.arange(len(on))[:, None]
+        self.basis = shapes(r, s)
+        self.weights = self.basis[:, :4] @ self.surface.linear[:4]
+        plan, shape = (self.weights @ self._rest)[..., :2], (len(self.nodes), len(r))
+        constants = constants_at(self._scene, plan).arrays(shape)
+        self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
+        self.full = self.full * (1.0 if at_corners else STIFFER)
+        self.offset, areas = (0.5 + TOUCH) * self.thickness, self._lattice.cell_areas
+        self.area = np.outer(areas[areas > 0.0], np.bincount(corners, minlength=len(r))) / len(corners)
         self.shares = self.basis if self.bent else self.weights
 
     def _surface(self, at: Placed, of: Any) -> tuple[np.ndarray, Near]:
@@ -213,7 +210,7 @@ class Contact(LatticeItem):
             by -= np.einsum("mab,ij->maibj", both, projector(self.obstacle)).reshape(by.shape)
         if self.bent:
             sides, linear = sides[:, on], self.surface.linear
-            first = self.surface.slopes(sides).reshape(-1, 24, 48)
+            first = self.surface.slopes(sides).reshape(-1, 36, 48)
             by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, 16, 3, 16, 3)
             if not definite:
                 pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], found.slope[on])
@@ -254,9 +251,9 @@ class Contact(LatticeItem):
         return float((self._of_masses(self.area * self.share * self.full) / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
-        self._full = self._full * np.einsum("pq,mq->mp", self.weights, self._inert[self.nodes])
+        self.divide(at_corners=isinstance(self.obstacle, Plane))
+        self.full = self.full * np.einsum("pq,mq->mp", self.weights, self._inert[self.nodes])
         self.rounded = ROUNDED
-        self.straighten(isinstance(self.obstacle, Plane))
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
     def rounding(self) -> float:

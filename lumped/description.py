@@ -128,7 +128,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)
     for contact in problem.contacts:
-        contact.straighten(at_corners=True)
+        contact.divide(at_corners=True)
     assembly, lattice, loads = problem.assembly, problem.assembly.lattice, problem.loads
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")

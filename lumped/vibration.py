@@ -82,7 +82,7 @@ def modes(
             )
         at = stable_equilibrium(problem).u
     transform = problem.constraints.transform
-    rigid = len(free_rigid_motions(scene))
+    rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # obstacles stop those of an equilibrium
     unknowns = problem.system.unknowns
     if not 1 <= count <= unknowns - rigid:
         raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")

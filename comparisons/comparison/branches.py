@@ -32,12 +32,14 @@ def joined(
     lattice: Resolved[Lattice], against: Resolved[Elements], first: Solution, reference: Solution
 ) -> tuple[Solution, Solution, str] | None:
     """Both answers on one branch, and a sentence; None where they are near each other, where one is not a
-    stable equilibrium, or where neither model has the other's."""
+    stable equilibrium or alone touches an obstacle, or where neither model has the other's."""
     scene = lattice.scene
     plain = not (lattice.spec.linear or scene.actuators)
     points = scene.probe_points()
     own, right = first.displacement(points), reference.displacement(points)
     if not far(own, right) or not plain or not first.status is reference.status is Status.CONVERGED:
+        return None
+    if first.touched != reference.touched:
         return None
     import fem_reference
     import lumped

@@ -50,6 +50,8 @@ def far_apart_note(
         both = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart"
         return f"{both}: {cause}{after}.", apart
 
+    if other := ", ".join(sorted(first.touched ^ reference.touched)):
+        return reason(f"{other}: one of them alone touches it, as too coarse a grid or mesh may")
     finer = None
     if lattice.spec.calibration is not None:
         nx, ny, layers = lattice.grid

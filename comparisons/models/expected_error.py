@@ -147,6 +147,8 @@ def expected_error(
     if len(fine.snaps) != len(solution.snaps):
         snaps = f"the sheet snaps {len(fine.snaps)} times, here {len(solution.snaps)}"
         return NoEstimate(f"on {masses} masses {snaps}")
+    if other := ", ".join(sorted(fine.touched ^ solution.touched)):
+        return NoEstimate(f"{other}: touched here or on {masses} masses alone")
     points = scene.probe_points()
     stretch = largest_stretch(scene, fine, finer)
     value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)

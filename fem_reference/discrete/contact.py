@@ -31,7 +31,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.distances import Near, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
-SOFTER, ROUNDED, STIFFER = 0.01, 0.3, 30.0  # in motion: of E/h, over which part of h rounded; of patches
+SOFTER, ROUNDED, STIFFER = 0.01, 0.3, 100.0  # in motion: of E/h, over which part of h rounded; of patches
 SPREAD = np.kron(*2 * [np.array([[1.0, 0.0, 0.0], [0.5, 0.0, 0.5], [0.0, 0.0, 1.0]])])  # to a part's corners
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # energy, loads and slopes of groups (faces, m, t, …)
 

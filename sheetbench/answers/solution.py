@@ -199,6 +199,11 @@ class Solution(Answer):
         }
 
     @property
+    def touched(self) -> frozenset[str]:
+        """The names of the obstacles that it touches."""
+        return frozenset(name for name, contact in self.contacts.items() if contact.points)
+
+    @property
     def comparable(self) -> bool:
         """Whether it may be compared with others, as `comparable` has it."""
         return comparable(self.status, self.load_factor)

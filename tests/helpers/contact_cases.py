@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from cases import sheet
-from scipy.integrate import solve_ivp
+from scipy.integrate import cumulative_trapezoid, solve_ivp, trapezoid
 from scipy.optimize import fsolve
 from scipy.special import beta
 
@@ -113,6 +113,21 @@ def curled_sheet() -> Scene:
     curl = Natural(curvature=(5.0, 0.0, 0.0))
     more = {"supports": held, "obstacles": (table,), "natural": curl}
     return sheet(0.1, 0.02, 5e-4, 3e9, 0.35, 1780.0, weight=9.81, **more)
+
+
+def rocking_frequency() -> float:
+    """That of this cradle [Hz], which a table holds in its middle: ω² = g (R − z)/(i² + (e − z)²), R the
+    radius where it touches, z the height of its centre of mass, e of its ends, of which one stays above its
+    place, i its radius of gyration; its arms are bent by their weight, κ = 5 1/m − M/EI."""
+    half, s = 0.05, np.linspace(0.0, 0.05, 4001)
+    per = 1780.0 * 5e-4 * 9.81 * 12.0 / (3e9 * 5e-4**3)  # weight over EI, 1/m³
+    bend = 5.0 - 0.5 * per * (half - s) ** 2
+    turned = cumulative_trapezoid(bend, s, initial=0.0)
+    x, z = (cumulative_trapezoid(f(turned), s, initial=0.0) for f in (np.cos, np.sin))
+    centre = trapezoid(z, s) / half
+    gyration = trapezoid(x**2 + (z - centre) ** 2, s) / half
+    arm = gyration + (z[-1] - centre) ** 2
+    return float(np.sqrt(9.81 * (1.0 / bend[0] - centre) / arm) / (2.0 * np.pi))
 
 
 def heavy_elastica(drop: float, per: float = 0.01) -> tuple[float, float, float]:

@@ -65,7 +65,7 @@ def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.
     masses = (mesh.points + mesh.point_data["displacement"]).reshape(ny, nx, layers, 3)
     corners = np.stack([masses[:-1, :-1], masses[:-1, 1:], masses[1:, 1:], masses[1:, :-1]], axis=2)
     cells = CellSurface(grid, solution.settings["layer_distance"])
-    vectors = cells.vectors(corners.reshape(-1, 4 * layers, 3))[0].reshape(ny - 1, nx - 1, 8, 3)
+    vectors = cells.vectors(corners.reshape(-1, 4 * layers, 3))[0].reshape(ny - 1, nx - 1, 12, 3)
     if isinstance(scene.obstacles[0], Plane):
         vectors[:, :, 4:] = 0.0
     out = np.empty((INSIDE * (nx - 1) + 1, INSIDE * (ny - 1) + 1, 3))

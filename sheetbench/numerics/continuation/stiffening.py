@@ -3,7 +3,8 @@
 Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
 method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. So soft
 ones are raised at the full load in stages of equal factors, each Newton's method from the last shape with the
-stresses that it extrapolated; all but the last end at a small residual. One that fails takes the square root
+stresses that it extrapolated; all but the last end at a small residual, small enough for what rolls to have
+found its place while its patch is wide. One that fails takes the square root
 of its factor. What is said of the end is that of the last stage. Where soft penalties lead nowhere or through
 an obstacle, `settle` begins again from rest with stiff ones, in so many load steps that no obstacle moves by
 more than a quarter of its radius in one.
@@ -26,8 +27,9 @@ from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import Fault, LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
-LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to stage
-LOOSE = 0.05  # residual at which soft load steps end, and stages but the last
+LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
+LOOSE, CLOSE = 0.05, 1e-3  # residuals at which soft load steps end, and stages but the last
+PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
@@ -102,11 +104,12 @@ def _raised(path: Path[State, Forces], share: float) -> Fault | None:
     """Raise the penalties from a share to all of them: what has ended it before, if anything."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
+    path.limits = replace(path.limits, corrections=PATIENT, back=PATIENT)
 
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
         soften(structure.contacts, target)
-        close = LOOSE if target < 1.0 else 0.0
+        close = CLOSE if target < 1.0 else 0.0
         try:
             state, size = structure.restarted(path.state)
             found = newton(path, Start(state, 1.0, 1.0, size), close)

@@ -5,10 +5,12 @@ import pytest
 from cases import sheet
 from fake_solutions import solution
 
+from comparisons.comparison import branches
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.far_apart import far_apart_note
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
+from sheetbench.answers.contact import ContactState
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Clamped, Curved, EdgeLoad, Pressure
 
@@ -92,6 +94,15 @@ def fine(size, **changes):
 def test_what_is_near_or_no_equilibrium_says_nothing():
     assert said(-0.0119, fine(-0.01)) == ""
     assert said(0.01, fine(0.01), shell={"status": Status.UNSTABLE}) == ""
+
+
+def test_an_obstacle_that_one_model_alone_touches_is_no_other_branch(monkeypatch):
+    monkeypatch.setattr("lumped.solve", None)  # nor is one looked for
+    felt = {"contacts": {"obstacle 1": ContactState(1e-6, 1e-5, 3, 0)}}
+    found = said(0.01, fine(0.0101), bar=0.01, shell=felt)
+    assert "200 % apart: obstacle 1: one of them alone touches it" in found and "branch" not in found
+    both = solution(SCENE, size=0.01), solution(SCENE, "shell", **felt)
+    assert branches.joined(resolve(SCENE, LATTICE), None, *both) is None
 
 
 def test_another_branch_stays_where_it_is():

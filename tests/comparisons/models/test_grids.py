@@ -27,6 +27,7 @@ from comparisons.models.layers import layers
 from comparisons.models.spec import Lattice
 from fem_reference.surface.mesh import divisions
 from fem_reference.verification import strips
+from sheetbench.answers.contact import ContactState
 from sheetbench.answers.solution import Status
 from sheetbench.face import solve
 from sheetbench.scenes import BadInput, Clamped, Pressure, Scene, Sheet, load
@@ -189,6 +190,7 @@ def answered(**changes):
         ({"status": Status.UNSTABLE}, {}, {}),
         ({}, {}, {"status": Status.UNSTABLE}),
         ({"snaps": (0.7,)}, {}, {}),
+        ({}, {}, {"contacts": {"obstacle 1": ContactState(1e-6, 1e-5, 3, 0)}}),  # that the grid missed
         ({}, {"calibration": "uniform"}, {}),
         ({}, {"grid": (9, 9, 3)}, {}),
         ({}, {"grid": (65, 65, 2)}, {}),

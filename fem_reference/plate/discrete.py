@@ -62,9 +62,12 @@ class DiscretePlate(DiscreteShell):
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:
         nodes = self.plan.corners
-        state = natural_at(self.scene, AT_GAUSS[0] @ nodes)
         made = PlateElements.build(nodes, section or section_at(self.scene, nodes))
-        return made, state and state.made(_own)
+        return made, self.natural_of(self.scene)
+
+    def natural_of(self, scene: Scene) -> NaturalState | None:
+        state = natural_at(scene, AT_GAUSS[0] @ self.plan.corners)
+        return state and state.made(_own)
 
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright

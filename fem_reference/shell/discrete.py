@@ -16,13 +16,15 @@ is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², of unlike layers with ∫ρz dz u̇·�
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, eye_array
 from skfem import MeshQuad
 
+from fem_reference.discrete.course import commands_of
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import UP
@@ -69,6 +71,7 @@ class DiscreteShell(DiscreteElements):
         moving: bool = False,
     ):
         super().__init__(scene, moving)
+        self.section, self.law = section, law
         self.plan = plan = plan_of(mesh)
         self.sites = self.both
         self.element, self.natural = self.elements_of(section, law)
@@ -100,11 +103,27 @@ class DiscreteShell(DiscreteElements):
         require_law(law, LAWS, scene)
         if law == STRAIN_LAW:
             own = grown(section or section_at(scene, nodes), scene, nodes)
-            return Element.build(nodes, own), natural_strains(scene, nodes)
+            return Element.build(nodes, own), self.natural_of(scene)
         require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
         if section is not None:
             raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
         return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
+
+    def natural_of(self, scene: Scene) -> NaturalState | None:
+        """The strains that a scene's sheet has without stress."""
+        return natural_strains(scene, self.plan.corners)
+
+    def with_scene(self, scene: Scene) -> Self:
+        """The sheet at rest with the supports, loads, chains and natural state of another scene of the same
+        plan, and with its own elements."""
+        other = copy(self)
+        other.scene, other.items, other.weights = scene, [], []
+        other.commanded, other._commands = commands_of(scene, moving=False)
+        other.natural = self.natural_of(scene) if self.natural is not None else None
+        bound = other.bound_rods()
+        other.supports = rod.hold_bases(other.supports_of(), bound.rods)
+        other.bind(bound)
+        return other
 
     def supports_of(self) -> Supports:
         """What supports and motions hold."""

@@ -6,7 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference.shell.element import AT_SITES, BENDING, MEMBRANE, STRAINS, TABLES
-from fem_reference.surface.biquadratic import AT_GAUSS, IN_PLANE, pulled_back
+from fem_reference.surface import materials
+from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, green, stretched
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
@@ -38,10 +39,4 @@ def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
     state = natural_at(stretched(scene), AT_GAUSS[0] @ corners)
     if state is None or not (strain := state.at()[0]).any():
         return section
-    stretch = np.eye(2) + strain
-    inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]
-    turn = pulled_back(inverse, IN_PLANE)
-    back = area * turn.swapaxes(-1, -2)
-    shear = area * inverse @ section.shear @ inverse
-    membrane, bending, mixed = (back @ k @ turn for k in (section.membrane, section.bending, section.mixed))
-    return Section(membrane, bending, shear, mixed)
+    return materials.grown(section, strain)

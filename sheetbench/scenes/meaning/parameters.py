@@ -87,7 +87,7 @@ def parameter(scene: SceneFields, name: str) -> Parameter:
     if key == "poisson_12":
         high = 0.999 * ((scene.material.young_1 or 1.0) / (scene.material.young_2 or 1.0)) ** 0.5
         low = -high
-    return Parameter(name, UNITS.get(key, ""), float(_value(scene, path) or 0.0), low, high)
+    return Parameter(name, UNITS.get(key, ""), float(value_at(scene, path) or 0.0), low, high)
 
 
 def put(scene: AScene, name: str, value: float) -> AScene:
@@ -97,7 +97,7 @@ def put(scene: AScene, name: str, value: float) -> AScene:
     try:
         if name == "thickness":
             return _with_thickness(scene, value / scene.sheet.thickness)
-        return reduce(lambda changed, path: _replaced(changed, path, value), paths, scene)
+        return reduce(lambda changed, path: replaced(changed, path, value), paths, scene)
     except SceneError as error:
         raise SceneError(f"{name} = {value:g}: {error}") from None
 
@@ -134,7 +134,7 @@ def _places(scene: SceneFields, name: str) -> list[Path]:
         for i, one in enumerate(getattr(scene, of))
         if isinstance(one, holders[key]) and one.edge == edge
     ]
-    values = [_value(scene, path) for path in paths]
+    values = [value_at(scene, path) for path in paths]
     if key == "tilt" and not paths:
         raise BadInput(f"'{name}': edge '{edge}' has no clamp")
     if key == "curvature" and not (
@@ -144,21 +144,22 @@ def _places(scene: SceneFields, name: str) -> list[Path]:
     return paths
 
 
-def _value(scene: SceneFields, path: Path) -> Any:
+def value_at(scene: SceneFields, path: Path) -> Any:
+    """Return what is at a place in a scene."""
     of: Any = scene
     for part in path:
         of = of[part] if isinstance(part, int) else getattr(of, part)
     return of
 
 
-def _replaced(of: Any, path: Path, value: Any) -> Any:
+def replaced(of: Any, path: Path, value: Any) -> Any:
     """Return a scene object, or a list of some, with another value at a place within."""
     if not path:
         return value
     part, inner = path[0], path[1:]
     if isinstance(part, int):
-        return (*of[:part], _replaced(of[part], inner, value), *of[part + 1 :])
-    return of.replace(**{part: _replaced(getattr(of, part), inner, value)})
+        return (*of[:part], replaced(of[part], inner, value), *of[part + 1 :])
+    return of.replace(**{part: replaced(getattr(of, part), inner, value)})
 
 
 def _with_thickness(scene: AScene, factor: float) -> AScene:

@@ -17,7 +17,8 @@ anew on both sides, most of them linear. What touches an obstacle goes on touchi
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -29,16 +30,17 @@ from fem_reference.shell.element import weighed
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.constants import Values, by_values, constants_with, values_of
 from fem_reference.surface.location import shares
-from sheetbench.errors import Impossible, NoEquilibrium
+from sheetbench.errors import BadInput, Impossible, NoEquilibrium
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.numbers import numbers, with_number
+from sheetbench.scenes.meaning.parameters import names_of, parameter, put
+from sheetbench.scenes.objects.fields import SceneFields
 
-STEP = 1e-4  # of a number, or of the largest of a list
-USUAL = {"strain": 1e-2, "displacement": 1e-2}  # what such numbers are beside, where they are zero; else 1
-MATERIAL = ("material", "sheet", "layer", "patch")
-Numbers = Mapping[str, np.ndarray]  # by the keys of a scene
+STEP = 1e-4  # of a parameter, or of 1 where it is zero
+FIELD = "elements."
+PLACED = re.compile(r"(tilt|curvature)_|(gravity|natural|temperature|load|mass|support|actuator|obstacle)")
+OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 
 
 class Sensitivity:
@@ -77,44 +79,40 @@ class Sensitivity:
     @cached_property
     def values(self) -> Values:
         """The sheet's constants at the Gauss points."""
-        return self._values_of(self.scene)
+        return self.values_of(self.scene)
 
-    def _values_of(self, scene: Scene) -> Values:
+    def values_of(self, scene: Scene) -> Values:
+        """Return those of a scene's sheet."""
         return values_of(scene, self.sheet.plan.corners, not self.sheet.linear)
 
-    def nodal(self, points: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """Return ∂J/∂u (n, 3) of the nodes for one (p, 3) at plan points (p, 2) [m]."""
+    def names(self) -> list[str]:
+        """Return the names of all derivatives: of `scenes.parameters`, and fields'."""
+        fields = [FIELD + name for name in self.values if name != "law"]
+        return [*fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
+
+    def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
+        """Return the derivatives of a J that has these by the displacement at plan points, (p, 2), (p, 3)."""
         element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
         out = np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
-        return out
+        return self.pullback(out)
 
-    def pullback(self, by_displacement: np.ndarray) -> dict[str, np.ndarray]:
-        """Return dJ/dθ of every number of the scene, by its key, and by "elements.KEY" of every constant of
-        one value an element, (m,); by_displacement: ∂J/∂u (n, 3) of the nodes. Raises NoEquilibrium."""
-        sheet = self.sheet
-        given = np.zeros(sheet.size)
+    def pullback(self, by_displacement: np.ndarray) -> Gradient:
+        """Return the derivatives of a J that has these by the nodes' displacement, (n, 3)."""
+        sheet, given = self.sheet, np.zeros(self.sheet.size)
         sheet.displacement(given)[:] = by_displacement
         with one_blas_thread():
             solved = self._transposed.solve(sheet.reduce(self.shape, given))
-            moved = -sheet.expand(self.shape, solved)
-            points = self.power(moved)
-            found = by_elements(points)
-            for key, value in numbers(self.scene).items():
-                found[key] = np.zeros_like(value)
-                for place in np.ndindex(value.shape):
-                    step = np.zeros_like(value)
-                    step[place] = 1.0
-                    found[key][place] = self._along({key: step}, points, moved, given)
-        return found
+            return Gradient(self, given, -sheet.expand(self.shape, solved))
 
-    def pushforward(self, change: Numbers) -> np.ndarray:
-        """Return du (n, 3) of the nodes for changes of the scene's numbers. Raises NoEquilibrium."""
-        sheet, shape = self.sheet, self.shape
+    def pushforward(self, changes: Mapping[str, float]) -> np.ndarray:
+        """Return du (n, 3) of the nodes for changes of parameters."""
+        sheet, shape, rate, placed = self.sheet, self.shape, *np.zeros((2, self.sheet.size))
         with one_blas_thread():
-            ends, over = self._ends(change)
-            rate, placed = self._rates(ends, over, whole=True)
-            rate += self._product(placed)
+            for name, change in changes.items():
+                both = self.rates(*self.ends(name), whole=True)
+                rate, placed = rate + change * both[0], placed + change * both[1]
+            rate += self.product(placed)
             step = sheet.expand(shape, self.factor.solve(-sheet.reduce(shape, rate)))
         return sheet.displacement(step + placed)
 
@@ -134,36 +132,16 @@ class Sensitivity:
 
         return by_values(of, self.values)
 
-    def _along(
-        self, change: Numbers, points: Numbers, moved: np.ndarray, given: np.ndarray
-    ) -> float:
-        """Return dJ along a change of one number, of λ (N,), its powers at the Gauss points, ∂J/∂q (N,)."""
-        (key,) = change
-        root, sheet, found = key.split(".")[0].rstrip("0123456789"), self.sheet, 0.0
-        ends, over = self._ends(change)
-        natural, material = root in ("natural", "temperature") or ".natural." in key, root in MATERIAL
-        if material or natural:
-            low, high = (self._values_of(end) for end in ends)
-            sums = (np.sum(of * ((high[name] - low[name]) / over)) for name, of in points.items())
-            found += float(sum(sums))
-        if not material or sheet.natural is not None or sheet.bodies or sheet.contacts:
-            rate, placed = self._rates(ends, over, weight=not material)
-            found += float(moved @ rate)
-            if placed.any():
-                found += float((given + self._product(moved, transposed=True)) @ placed)
-        return found
+    def ends(self, name: str) -> tuple[tuple[Scene, Scene], float]:
+        """Return the scene on both sides of a parameter, and how far apart these are. Raises BadInput."""
+        found = parameter(self.scene, name)
+        step = STEP * (abs(found.value) or 1.0)
+        at = (max(found.value - step, found.low), min(found.value + step, found.high))
+        fields = SceneFields.model_construct(**dict(self.scene))  # unchecked: nothing touches anew so near by
+        low, high = (self.scene.model_copy(update=dict(put(fields, name, value))) for value in at)
+        return (low, high), at[1] - at[0]
 
-    def _ends(self, change: Numbers) -> tuple[tuple[Scene, Scene], float]:
-        """Return the scene on both sides, and how many times the change lies between."""
-        now = numbers(self.scene)
-        sizes = {key: np.abs(now[key]).max() or USUAL.get(key.split(".")[-1], 1.0) for key in change}
-        share = STEP / max(np.abs(by).max() / sizes[key] for key, by in change.items())
-        low = high = self.scene
-        for key, by in change.items():
-            low, high = with_number(low, key, now[key] - share * by), with_number(high, key, now[key] + share * by)
-        return (low, high), 2.0 * share
-
-    def _rates(
+    def rates(
         self, ends: tuple[Scene, Scene], over: float, weight: bool = True, whole: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (N,) without what the constants of the elements do, unless it is the whole, and
@@ -191,7 +169,7 @@ class Sensitivity:
         """Return less the natural strains of a sheet."""
         return np.zeros_like(self.shape.strain) if side.natural is None else -side.natural.at()
 
-    def _product(self, move: np.ndarray, transposed: bool = False) -> np.ndarray:
+    def product(self, move: np.ndarray, transposed: bool = False) -> np.ndarray:
         """Return K δq (N,), or of the transpose, of δq (N,)."""
         sheet, shape, element = self.sheet, self.shape, self.sheet.element
         step, form = sheet.gather(move), "eicjd,eic->ejd" if transposed else "eicjd,ejd->eic"
@@ -207,10 +185,39 @@ class Sensitivity:
         return out
 
 
-def by_elements(points: Numbers) -> dict[str, np.ndarray]:
-    """Return sums over elements (m,) of what is not zero everywhere, under the keys of fields."""
-    return {f"elements.{key}": of.sum(axis=1) for key, of in points.items() if of.any()}
+class Gradient(Mapping[str, Any]):
+    """The derivatives of a J by name, found when they are asked for, from ∂J/∂q and λ (N,)."""
 
+    def __init__(self, of: Sensitivity, given: np.ndarray, moved: np.ndarray):
+        self._of, self._given, self._moved = of, given, moved
+        self.points = of.power(moved)
 
-def at_answer(kind: type[DiscreteShell], mesh: Any, scene: Scene, law: str, section: Any, q: np.ndarray) -> Sensitivity:
-    """x"""
+    @cached_property
+    def _by_prescribed(self) -> np.ndarray:
+        return self._given + self._of.product(self._moved, transposed=True)
+
+    def __getitem__(self, name: str) -> Any:
+        if name.startswith(FIELD):
+            by_points = self.points.get(field := name.removeprefix(FIELD))
+            if by_points is None:
+                raise BadInput(f"{name}: choose from {', '.join(FIELD + one for one in self.points)}")
+            return np.broadcast_to(by_points, self._of.sheet.element.areas.shape).sum(axis=1)
+        of, sheet = self._of, self._of.sheet
+        with one_blas_thread():
+            ends, over = of.ends(name)
+            low, high = map(of.values_of, ends)
+            changes = ((by, (high[one] - low[one]) / over) for one, by in self.points.items())
+            found = sum(float(np.sum(by * change)) for by, change in changes)
+            material = PLACED.match(name) is None
+            if not material or sheet.natural is not None or sheet.bodies or sheet.contacts:
+                rate, placed = of.rates(ends, over, weight=not material)
+                found += float(self._moved @ rate)
+                if placed.any():
+                    found += float(self._by_prescribed @ placed)
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._of.names())
+
+    def __len__(self) -> int:
+        return len(self._of.names())

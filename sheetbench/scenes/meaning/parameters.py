@@ -55,6 +55,7 @@ PLACES = {  # by patterns of names, but for those of an edge; a number counts fr
     r"obstacle(\d+)\.(radius|friction)": r"obstacles.\1.\2",
     r"natural\.e(xx|yy|xy)": r"natural.strain.\1",
     r"natural\.k(xx|yy|xy)": r"natural.curvature.\1",
+    r"natural\.pretension\.([xy])": r"natural.pretension.\1",
     r"patch(\d+)\.natural\.e(xx|yy|xy)": r"patches.\1.natural.strain.\2",
     r"patch(\d+)\.natural\.k(xx|yy|xy)": r"patches.\1.natural.curvature.\2",
     r"temperature\.(change|gradient)": r"temperature.\1",
@@ -84,7 +85,7 @@ BOUNDS = {  # others are above 0
     **dict.fromkeys(("c2", "c3", "change", "gradient"), (-inf, inf)),
     "strain": (-LARGEST_STRAIN, LARGEST_STRAIN),
     **dict.fromkeys(("acceleration", "force", "force_per_length", "force_per_area", "at"), (-inf, inf)),
-    **dict.fromkeys(("value", "moment_per_length", "displacement"), (-inf, inf)),
+    **dict.fromkeys(("value", "pretension", "moment_per_length", "displacement"), (-inf, inf)),
 }
 Path = tuple[str | int, ...]  # keys, and numbers in lists
 
@@ -157,9 +158,11 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
         for n, part in enumerate(path):
             if isinstance(part, int) and not -len(of) <= part < len(of):
                 raise BadInput(f"'{name}': the scene has {len(of)} {path[n - 1]}")
+            pulled = part == "strain" and of.pretension is not None
             of = of[part] if isinstance(part, int) else getattr(of, part, None)
             fibres = scene.material.kind == "orthotropic"  # of which the angle is 0 unless given
-            if (of is None and not (part == "angle" and fibres)) or (name == "poisson" and fibres):
+            derived = pulled or (name == "poisson" and fibres)
+            if derived or (of is None and not (part == "angle" and fibres)):
                 where = in_keys(path[: n + 1])
                 raise BadInput(f"'{name}': the scene has no {where}; give a first guess there")
     return paths

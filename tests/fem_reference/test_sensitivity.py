@@ -1,0 +1,136 @@
+"""Derivatives of plate and shell beside central differences of equilibria of their own, for every kind of
+scene; by elements beside patches; where there are none."""
+
+import numpy as np
+import pytest
+from cases import CLAMP, GRAVITY, OBLONG, RUBBER, SILICONE, sheet
+from rod_cases import chain
+from rubbers import rubber
+
+from fem_reference import sheets
+from fem_reference.discrete.answer import traced
+from fem_reference.discrete.static import Static, StaticState
+from fem_reference.sensitivity import FIELD, Sensitivity
+from sheetbench.scenes import (
+    Clamped,
+    Curved,
+    EdgeLoad,
+    EdgeMotion,
+    Hinged,
+    Layer,
+    Mass,
+    Material,
+    Patch,
+    Plane,
+    PointLoad,
+    Pressure,
+    Scene,
+    Sphere,
+    Symmetric,
+    load,
+)
+from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.natural import Natural
+from sheetbench.scenes.objects.shapes import Rectangle, Shape
+from sheetbench.scenes.objects.supports import Motion
+
+LEFT = Shape(rectangle=Rectangle(x=(0.0, 0.1), y=(0.0, 0.1)))
+FIBRES = {"young_1": 4e7, "young_2": 8e6, "poisson_12": 0.25, "shear_12": 5e6, "density": 1200.0}
+WOVEN = Material(kind="orthotropic", angle=0.4, shear_23=3e6, **FIBRES)
+PLIES = Layer(thickness=0.002, angle=0.3), Layer(thickness=0.003, young=3e7, poisson=0.3, density=900.0)
+TURN = EdgeMotion(kind="motion", edge="x1", time=(0.0,), displacement=((0, 0, 0.02),), rotation=((0.1, 0.3, 0),))
+PULL = Motion(time=(0.0, 1.0), displacement=((0, 0, 0), (0.1, 0, 0.01)))
+
+
+def oblong(material=SILICONE, gravity=GRAVITY, supports=(CLAMP,), **more):
+    return Scene(name="s", sheet=OBLONG, material=material, gravity=gravity, supports=supports, **more)
+
+
+def pulled(material):
+    """To a stretch of 1.5."""
+    ends = Clamped(edge="x0"), Hinged(edge="x1", motion=PULL)
+    return oblong(material, supports=ends, loads=(Pressure(value=300.0),))
+
+
+BALL = Sphere(position=(0.1, 0.04, -0.033), radius=0.03)
+SCENES = {
+    "plain": oblong(loads=(PointLoad(at=(0.17, 0.03), force=(0.02, 0.1, -0.1)),)),
+    "fibres": oblong(WOVEN),
+    "laminate": oblong(WOVEN, layers=PLIES),
+    "holes": load("kirigami-strip"),
+    "chain": oblong(actuators=(chain(curvature=tuple(range(-3, 8)), segments=12, plane="spatial", face="top"),)),
+    "natural": oblong(
+        natural=Natural(strain=(0.02, 0.0, 0.01), curvature=(2.0, -1.0, 0.5)),
+        patches=(Patch(shape=LEFT, thickness=0.004, natural=Natural(curvature=(1.0, 2.0, 0.0))),),
+    ),
+    "pretension": oblong(
+        supports=tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0")), natural=Natural(pretension=(20.0, 10.0))
+    ),
+    "heat": load("bimetal-strip"),
+    "mooney-rivlin": pulled(rubber("mooney-rivlin")),
+    "yeoh": pulled(rubber("yeoh")),
+    "gent": pulled(rubber("gent")),
+    "neo-hookean": pulled(rubber("neo-hookean")),
+    "ball": oblong(RUBBER.replace(young=2e6), obstacles=(BALL,)),
+    "plane": oblong(RUBBER.replace(young=2e6), obstacles=(Plane(position=(0, 0, -0.03), normal=(0.1, 0, 1)),)),
+    "pressure": oblong(
+        gravity=None, loads=(Pressure(value=100.0), EdgeLoad(edge="x1", moment_per_length=0.2, force_per_length=(0, 1, 0)))
+    ),
+    "moved": oblong(actuators=(TURN,)),
+    "payload": oblong(masses=(Mass(mass=0.02, at=(0.15, 0.08)), Mass(mass=0.05, where=LEFT))),
+    "tilted": oblong(supports=(Clamped(edge="x0", tilt=0.3), Symmetric(edge="y0"))),
+    "bent": oblong(supports=(Curved(edge="x0", curvature=3.0),)),
+}  # fmt: skip
+LINEAR = ("plain", "laminate", "natural", "pressure", "moved", "bent", "payload")
+ROWS = [*((name, "shell") for name in SCENES), *((name, "plate") for name in LINEAR)]
+TOUCHING = ("ball", "plane")
+
+
+def at_rest(sheet, q, corrections=8):
+    """An equilibrium to rounding, from one near by."""
+    static, state = Static(sheet), StaticState(q)
+    for _ in range(1 if sheet.linear else corrections):
+        forces = static.forces(state, 1.0)
+        matrix, rows = static.linearised(state, forces, 1.0, mixed=False)
+        state = StaticState(static.advance(state, forces, 1.0, sheet.solver().factor(matrix).solve(rows)).q)
+    return state.q
+
+
+def sensitivity(scene, model="shell", elements=3):
+    division = sheets.division_of(scene, model, elements)
+    run = traced(division.sheet)
+    assert run.path.load_factor == 1.0
+    return Sensitivity(run.sheet, at_rest(run.sheet, run.path.state.q))
+
+
+@pytest.mark.parametrize("name, model", ROWS)
+def test_derivatives_are_those_of_equilibria_found_anew(name, model):
+    scene = SCENES[name]
+    found = sensitivity(scene, model)
+    sheet, points = found.sheet, scene.probe_points()
+    weights = np.random.default_rng(1).normal(size=(len(points), 3))
+    gradient = found.at_points(points, weights)
+    own = () if sheet.linear else (sheet.law,)
+
+    def j(scene):
+        other = type(sheet)(sheet.plan.mesh, scene, None, *own)
+        return np.sum(weights * other.sample(other.displacement(at_rest(other, found.shape.q)), points))
+
+    names = [name for name in gradient if not name.startswith(FIELD)]
+    assert len(names) >= 4
+    by, differences, scales = [], [], []
+    for one in names:
+        value = parameter(scene, one).value
+        scales.append(abs(value) or 0.1)
+        step = (1e-6 if name in TOUCHING else 1e-4) * scales[-1]
+        near, far = (j(put(scene, one, value + k * step)) - j(put(scene, one, value - k * step)) for k in (1, 2))
+        differences.append((8.0 * near - far) / (12.0 * step))
+        by.append(gradient[one])
+    print(name, model)
+    for row in zip(names, np.array(by) * scales, np.array(differences) * scales): print("  %-28s % .8e % .8e"%row)
+    off = np.abs(np.subtract(by, differences)) * scales
+    print("  off", off.max()/(np.abs(by) * scales).max())
+    assert off.max() <= 1e-6 * (np.abs(by) * scales).max()
+    changes = dict(zip(names, np.random.default_rng(2).normal(size=len(names)) * scales, strict=True))
+    moved = sheet.sample(found.pushforward(changes), points)
+    assert np.sum(weights * moved) == pytest.approx(np.dot(by, [*changes.values()]), rel=1e-6)

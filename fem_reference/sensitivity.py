@@ -30,7 +30,7 @@ from fem_reference.shell.element import weighed
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.constants import Values, by_values, constants_with, values_of
 from fem_reference.surface.location import shares
-from sheetbench.errors import BadInput, Impossible, NoEquilibrium
+from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
@@ -44,13 +44,11 @@ OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", 
 
 
 class Sensitivity:
-    """The derivatives of a sheet's stable equilibrium q (N,) under the full load. centres: of the elements,
+    """The derivatives of a sheet's stable equilibrium q (N,) at a load factor. centres: of the elements,
     (m, 2) [m], in the order of fields."""
 
-    def __init__(self, sheet: DiscreteShell, q: np.ndarray):
-        if sheet.section is not None:
-            raise Impossible("derivatives: not with a section of the caller's own, which has no constants")
-        self.sheet, self.shape, self.scene = sheet, sheet.shape(q, 1.0), sheet.scene
+    def __init__(self, sheet: DiscreteShell, q: np.ndarray, at: float = 1.0):
+        self.sheet, self.shape, self.scene = sheet, sheet.shape(q, at), sheet.scene
         self.centres = sheet.plan.nodes[sheet.plan.elements[:, 8]]
 
     @cached_property
@@ -103,7 +101,8 @@ class Sensitivity:
         sheet.displacement(given)[:] = by_displacement
         with one_blas_thread():
             solved = self._transposed.solve(sheet.reduce(self.shape, given))
-            return Gradient(self, given, -sheet.expand(self.shape, solved))
+            moved = -sheet.expand(self.shape, solved)
+            return Gradient(self.power(moved), (self, moved, given + self.product(moved, transposed=True)))
 
     def pushforward(self, changes: Mapping[str, float]) -> np.ndarray:
         """Return du (n, 3) of the nodes for changes of parameters."""
@@ -122,7 +121,7 @@ class Sensitivity:
         rate = element.at_points(element.step(shape.operator, sheet.gather(moved)))
         pull, turn = np.zeros((2, *element.areas.shape))  # of the weight on λ, per mass
         if self.scene.gravity is not None:
-            along = sheet.surface_change(moved) @ self.scene.gravity.last_acceleration
+            along = shape.at * sheet.surface_change(moved) @ self.scene.gravity.last_acceleration
             pull, turn = (element.areas * (of @ AT_GAUSS[0].T) for of in (along[:, :9], along[:, 9:]))
 
         def of(values: Values) -> np.ndarray:
@@ -151,7 +150,7 @@ class Sensitivity:
         forces = []
         for side in sides:
             element = side.elements_of(None, side.law)[0] if whole else sheet.element
-            strain = side.strain(shape.change, 1.0) if whole else self._unstrained(side)
+            strain = side.strain(shape.change, shape.at) if whole else self._unstrained(side)
             force = sheet.scatter(element.forces(shape.operator, element.stress(strain)))
             for body in side.bodies:
                 force += body.scatter(body.pull(shape.q, body.stress(shape)))
@@ -162,12 +161,13 @@ class Sensitivity:
         rate = (forces[1] - forces[0]) / over
         for one, *both in zip(sheet.contacts, low.contacts, high.contacts, strict=True):
             rate -= one.rate(shape, *both, over)
-        placed[: 6 * sheet.nodes] = ((high.change(1.0) - low.change(1.0)) / over).ravel()
+        placed[: 6 * sheet.nodes] = ((high.change(shape.at) - low.change(shape.at)) / over).ravel()
         return rate, placed
 
     def _unstrained(self, side: DiscreteShell) -> np.ndarray:
         """Return less the natural strains of a sheet."""
-        return np.zeros_like(self.shape.strain) if side.natural is None else -side.natural.at()
+        none = np.zeros_like(self.shape.strain)
+        return none if side.natural is None else none - side.natural.at(self.shape.at)
 
     def product(self, move: np.ndarray, transposed: bool = False) -> np.ndarray:
         """Return K δq (N,), or of the transpose, of δq (N,)."""
@@ -185,39 +185,39 @@ class Sensitivity:
         return out
 
 
+Term = tuple[Sensitivity, np.ndarray, np.ndarray]
+
+
 class Gradient(Mapping[str, Any]):
-    """The derivatives of a J by name, found when they are asked for, from ∂J/∂q and λ (N,)."""
+    """The derivatives of a J by name, found when they are asked for: of its powers at the Gauss points, and
+    of states with vectors λ and ∂J/∂δ (N,)."""
 
-    def __init__(self, of: Sensitivity, given: np.ndarray, moved: np.ndarray):
-        self._of, self._given, self._moved = of, given, moved
-        self.points = of.power(moved)
-
-    @cached_property
-    def _by_prescribed(self) -> np.ndarray:
-        return self._given + self._of.product(self._moved, transposed=True)
+    def __init__(self, points: Mapping[str, np.ndarray], *terms: Term):
+        self._points, self._terms = points, terms
+        self.of = terms[0][0]
 
     def __getitem__(self, name: str) -> Any:
+        of, sheet = self.of, self.of.sheet
         if name.startswith(FIELD):
-            by_points = self.points.get(field := name.removeprefix(FIELD))
+            by_points = self._points.get(name.removeprefix(FIELD))
             if by_points is None:
-                raise BadInput(f"{name}: choose from {', '.join(FIELD + one for one in self.points)}")
-            return np.broadcast_to(by_points, self._of.sheet.element.areas.shape).sum(axis=1)
-        of, sheet = self._of, self._of.sheet
+                raise BadInput(f"{name}: choose from {', '.join(FIELD + one for one in self._points)}")
+            return np.broadcast_to(by_points, sheet.element.areas.shape).sum(axis=1)
         with one_blas_thread():
             ends, over = of.ends(name)
             low, high = map(of.values_of, ends)
-            changes = ((by, (high[one] - low[one]) / over) for one, by in self.points.items())
+            changes = ((by, (high[one] - low[one]) / over) for one, by in self._points.items())
             found = sum(float(np.sum(by * change)) for by, change in changes)
             material = PLACED.match(name) is None
-            if not material or sheet.natural is not None or sheet.bodies or sheet.contacts:
-                rate, placed = of.rates(ends, over, weight=not material)
-                found += float(self._moved @ rate)
-                if placed.any():
-                    found += float(self._by_prescribed @ placed)
+            if material and sheet.natural is None and not (sheet.bodies or sheet.contacts):
+                return found
+            for state, moved, by_prescribed in self._terms:
+                rate, placed = state.rates(ends, over, weight=not material)
+                found += float(moved @ rate + by_prescribed @ placed)
         return found
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._of.names())
+        return iter(self.of.names())
 
     def __len__(self) -> int:
-        return len(self._of.names())
+        return len(self.of.names())

@@ -17,6 +17,7 @@ ones those of `items`.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
@@ -88,6 +89,10 @@ class Discrete(ABC):
         own = {name: value for name, value in settings.items() if value is not None}
         self.settings = {"elements": list(counts), **own}
         return self
+
+    def again(self) -> Callable[[], Self] | None:
+        """What makes the sheet anew, None of one without derivatives."""
+        return None
 
     def bound_rods(self) -> BoundRods:
         """The rods on the sheet."""

@@ -16,8 +16,9 @@ is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², of unlike layers with ∫ρz dz u̇·�
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import copy
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -109,6 +110,10 @@ class DiscreteShell(DiscreteElements):
             raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
         return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
 
+    def again(self) -> Callable[[], Self] | None:
+        law = () if self.linear else (self.law,)
+        return None if self.section else partial(type(self), self.plan.mesh, self.scene, None, *law)
+
     def natural_of(self, scene: Scene) -> NaturalState | None:
         """The strains that a scene's sheet has without stress."""
         return natural_strains(scene, self.plan.corners)
@@ -117,6 +122,8 @@ class DiscreteShell(DiscreteElements):
         """The sheet at rest with the supports, loads, chains and natural state of another scene of the same
         plan, and with its own elements."""
         other = copy(self)
+        for name in ("_inertia", "sheet_mass", "mass"):
+            vars(other).pop(name, None)
         other.scene, other.items, other.weights = scene, [], []
         other.commanded, other._commands = commands_of(scene, moving=False)
         other.natural = self.natural_of(scene) if self.natural is not None else None

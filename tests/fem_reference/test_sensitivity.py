@@ -1,16 +1,21 @@
 """Derivatives of plate and shell beside central differences of equilibria of their own, for every kind of
 scene; by elements beside patches; where there are none."""
 
+from time import process_time
+
 import numpy as np
 import pytest
 from cases import CLAMP, GRAVITY, OBLONG, RUBBER, SILICONE, sheet
 from rod_cases import chain
 from rubbers import rubber
 
+import fem_reference
 from fem_reference import sheets
 from fem_reference.discrete.answer import traced
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.sensitivity import FIELD, Sensitivity
+from sheetbench.answers.solution import Status
+from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import (
     Clamped,
     Curved,
@@ -134,3 +139,38 @@ def test_derivatives_are_those_of_equilibria_found_anew(name, model):
     changes = dict(zip(names, np.random.default_rng(2).normal(size=len(names)) * scales, strict=True))
     moved = sheet.sample(found.pushforward(changes), points)
     assert np.sum(weights * moved) == pytest.approx(np.dot(by, [*changes.values()]), rel=1e-6)
+
+
+def test_value_and_derivatives_cost_less_than_two_solves_and_a_third():
+    """The shell of 8: all numbers and fields of an answer, in the same process."""
+    scene, costs = load("one-edge-clamped"), []
+    for _ in range(5):
+        begin = process_time()
+        answer = fem_reference.solve(scene, "shell", elements=8)
+        solved = process_time()
+        gradient = dict(answer.sensitivity().at_points(scene.probe_points()[-1:], np.eye(3)[2:]))
+        costs.append((solved - begin, process_time() - begin))
+    assert len(gradient) >= 10 and gradient["elements.young"].shape == (64,)
+    cold, both = np.min(costs, axis=0)
+    assert both <= 2.3 * cold
+
+
+def test_field_over_a_patch_is_the_patch():
+    found = sensitivity(SCENES["natural"])
+    gradient = found.at_points([(0.2, 0.1)], [(0.0, 0.0, 1.0)])
+    inside = found.centres[:, 0] < 0.1
+    over = gradient["elements.thickness"][inside].sum()
+    # of a natural strain that is the same at every thickness
+    assert gradient["patch1.thickness"] == pytest.approx(over, rel=1e-7)
+    every = gradient["elements.young"].sum()
+    assert gradient["young"] == pytest.approx(every, rel=1e-7)
+
+
+def test_unstable_equilibria_have_no_derivatives_and_solids_none():
+    push = EdgeLoad(edge="x1", force_per_length=(-0.6, 0.0, 0.0))  # three times Euler's π²EI/4L²
+    column = sheet(1.0, 0.1, 0.01, loads=(push,))
+    answer = fem_reference.solve(column, "shell", elements=2)
+    assert answer.status is Status.UNSTABLE
+    with pytest.raises(NoEquilibrium, match="unstable"):
+        answer.sensitivity()
+    assert fem_reference.solve(SCENES["plain"], "solid", elements=2).sensitivity is None

@@ -42,7 +42,7 @@ class FrequencyGradient(Gradient):
                 terms.append(_of_shape(of, mode, squared, scale, third))
             points = by_values(lambda values: -squared * scale * _inertia(of, mode, values), of.values)
             for state, moved, _ in terms:
-                points = {name: by + points[name] for name, by in state.power(moved).items()}
+                points = {name: by + points[name] for name, by in state.power(moved, of.values).items()}
         super().__init__(points, *terms)
         self._mode, self._by_mass = mode, -squared * scale
 
@@ -60,7 +60,9 @@ def _of_shape(of: Sensitivity, mode: np.ndarray, squared: float, scale: float, t
     sheet, first = of.sheet, of.sheet.first_director
     directors, turned = sheet.directors(of.shape.q), mode[first:].reshape(-1, 3)
     along = multiplier(directors, sheet.forces(of.shape)[first:].reshape(-1, 3))
-    pulled = (of.product(mode) - squared * (sheet.mass @ mode))[first:].reshape(-1, 3) + along[:, None] * turned
+    pulled = (of.product(mode) - squared * (sheet.mass @ mode))[first:].reshape(-1, 3) + along[
+        :, None
+    ] * turned
     held, stiffer = -np.sum(directors * pulled, axis=1), np.zeros_like(mode)
     given = third.copy()
     given[first:] += (2.0 * scale * held[:, None] * turned).ravel()

@@ -18,7 +18,7 @@ anew on both sides, most of them linear. What touches an obstacle goes on touchi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -27,18 +27,22 @@ import numpy as np
 from fem_reference.discrete.contact import Touching
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import weighed
+from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.surface.biquadratic import AT_GAUSS
-from fem_reference.surface.constants import Values, by_values, constants_with, values_of
+from fem_reference.surface.constants import LAW, STRAIN, Values, by_values, constants_with, values_of
 from fem_reference.surface.location import shares
+from fem_reference.surface.materials import stretched
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import names_of, parameter, put
+from sheetbench.scenes.meaning.natural_state import natural_at
 from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-4  # of a parameter, or of 1 where it is zero
-FIELD = "elements."
+FIELD, STATE = "elements.", ("strain", "curvature")
+UNITS = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
 PLACED = re.compile(r"(tilt|curvature)_|(gravity|natural|temperature|load|mass|support|actuator|obstacle)")
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 
@@ -83,10 +87,17 @@ class Sensitivity:
         """Return those of a scene's sheet."""
         return values_of(scene, self.sheet.plan.corners, not self.sheet.linear)
 
+    @cached_property
+    def fields(self) -> list[str]:
+        """The names of derivatives that have a value an element."""
+        own = [name for name in self.values if name not in (LAW, *STRAIN)]
+        own = [name for name in own if not name.endswith((".low", ".high"))]
+        natural = () if isinstance(self.sheet.element, HyperelasticElement) else STATE
+        return [FIELD + name for name in (*own, *natural)]
+
     def names(self) -> list[str]:
-        """Return the names of all derivatives: of `scenes.parameters`, and fields'."""
-        fields = [FIELD + name for name in self.values if name != "law"]
-        return [*fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
+        """Return the names of all derivatives: of fields, and of `scenes.parameters`."""
+        return [*self.fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
         """Return the derivatives of a J that has these by the displacement at plan points, (p, 2), (p, 3)."""
@@ -102,7 +113,9 @@ class Sensitivity:
         with one_blas_thread():
             solved = self._transposed.solve(sheet.reduce(self.shape, given))
             moved = -sheet.expand(self.shape, solved)
-            return Gradient(self.power(moved), (self, moved, given + self.product(moved, transposed=True)))
+            return Gradient(
+                self.power(moved, self.values), (self, moved, given + self.product(moved, transposed=True))
+            )
 
     def pushforward(self, changes: Mapping[str, float]) -> np.ndarray:
         """Return du (n, 3) of the nodes for changes of parameters."""
@@ -115,8 +128,26 @@ class Sensitivity:
             step = sheet.expand(shape, self.factor.solve(-sheet.reduce(shape, rate)))
         return sheet.displacement(step + placed)
 
-    def power(self, moved: np.ndarray) -> dict[str, np.ndarray]:
-        """Return λ·∂R/∂c (m, 9) of λ (N,) by the constants at the Gauss points."""
+    def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:
+        """Return λ·∂R/∂e0 or λ·∂R/∂k0 (m, 3) of λ (N,), xx, yy and xy, of one value an element."""
+        sheet, shape, element = self.sheet, self.shape, self.sheet.element
+        sites, make = sheet.natural_form()
+        state = natural_at(self.scene if sheet.linear else stretched(self.scene), sites)
+        now = np.zeros((2, *sites.shape, 2)) if state is None else np.array(state.at(shape.at))
+        pull = weighed(shape.moduli, element.step(shape.operator, sheet.gather(moved)))
+        out = np.zeros((len(sites), 3))
+        for place, unit in enumerate(UNITS):
+            change = np.zeros_like(now)
+            change[STATE.index(name)] = shape.at * unit
+            rise = 0.5 * (make(*(now + change)) - make(*(now - change)))  # quadratic
+            out[:, place] = -np.sum((pull * rise).reshape(len(sites), -1), axis=1)
+        if name == STATE[0] and not sheet.linear:  # of which the section is a function too
+            points = self.power(moved, {**dict.fromkeys(STRAIN, 0.0), **self.values}, STRAIN)
+            out += np.stack([points[one].sum(axis=1) for one in STRAIN], axis=1)
+        return out
+
+    def power(self, moved: np.ndarray, values: Values, names: Iterable[str] = ()) -> dict[str, np.ndarray]:
+        """Return λ·∂R/∂c (m, 9) of λ (N,) by these constants at the Gauss points, by all unless given."""
         sheet, shape, element = self.sheet, self.shape, self.sheet.element
         rate = element.at_points(element.step(shape.operator, sheet.gather(moved)))
         pull, turn = np.zeros((2, *element.areas.shape))  # of the weight on λ, per mass
@@ -129,10 +160,11 @@ class Sensitivity:
             power = sum((a * b).sum(axis=-1) for a, b in zip(stresses, rate, strict=True))
             return power - constants.per_area * pull - constants.moment_per_area * turn
 
-        return by_values(of, self.values)
+        return by_values(of, values, names)
 
     def ends(self, name: str) -> tuple[tuple[Scene, Scene], float]:
         """Return the scene on both sides of a parameter, and how far apart these are. Raises BadInput."""
+        name = name.removeprefix("material.").removeprefix("sheet.")
         found = parameter(self.scene, name)
         step = STEP * (abs(found.value) or 1.0)
         at = (max(found.value - step, found.low), min(found.value + step, found.high))
@@ -199,9 +231,11 @@ class Gradient(Mapping[str, Any]):
     def __getitem__(self, name: str) -> Any:
         of, sheet = self.of, self.of.sheet
         if name.startswith(FIELD):
-            by_points = self._points.get(name.removeprefix(FIELD))
-            if by_points is None:
-                raise BadInput(f"{name}: choose from {', '.join(FIELD + one for one in self._points)}")
+            if name not in of.fields:
+                raise BadInput(f"{name}: choose from {', '.join(of.fields)}")
+            if (field := name.removeprefix(FIELD)) in STATE:
+                return sum(state.by_natural(moved, field) for state, moved, _ in self._terms)
+            by_points = self._points[field]
             return np.broadcast_to(by_points, sheet.element.areas.shape).sum(axis=1)
         with one_blas_thread():
             ends, over = of.ends(name)

@@ -61,13 +61,17 @@ class ReferenceModes(NaturalModes):
         """Return df/dθ [Hz per unit] by name of the mode of a number, the first being 1 (`mode_sensitivity`).
         Raises Impossible for the solid, where two frequencies coincide, and for the last mode found."""
         if self.gradient_of is None:
-            raise Impossible(f"derivatives of frequencies: of plate and shell, without a section; not of {self.label}")
+            raise Impossible(
+                f"derivatives of frequencies: of plate and shell, without a section; not of {self.label}"
+            )
         if not 1 <= number < len(self.frequencies):
             raise Impossible(f"mode {number}: its neighbours must be known: 1 to {len(self.frequencies) - 1}")
         near = np.abs(self.frequencies - self.frequencies[number - 1]) <= ALIKE * self.frequencies[number - 1]
         if near.sum() > 1:
             which = " and ".join(str(n + 1) for n in np.flatnonzero(near))
-            raise Impossible(f"modes {which} coincide: each of their frequencies has no derivative of its own")
+            raise Impossible(
+                f"modes {which} coincide: each of their frequencies has no derivative of its own"
+            )
         return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
@@ -133,6 +137,7 @@ def modes(
         material, longer = scene.material, max(scene.sheet.lengths)
         slow = scene.sheet.thickness / longer**2 * np.sqrt(material.young / (12.0 * material.density))
         values, vectors = lowest_modes(stiffness, mass, count + rigid, -(slow**2), dense=0)
+
     def gradient_of(number: int) -> Any:
         from fem_reference.mode_sensitivity import FrequencyGradient  # for those who ask
 

@@ -18,6 +18,7 @@ Source: Hughes, The Finite Element Method (2000), ch. 5.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import ClassVar
 
@@ -36,7 +37,7 @@ from fem_reference.surface.materials import Section, section_at
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.scenes import Scene, outside_model
-from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
 class DiscretePlate(DiscreteShell):
@@ -65,9 +66,8 @@ class DiscretePlate(DiscreteShell):
         made = PlateElements.build(nodes, section or section_at(self.scene, nodes))
         return made, self.natural_of(self.scene)
 
-    def natural_of(self, scene: Scene) -> NaturalState | None:
-        state = natural_at(scene, AT_GAUSS[0] @ self.plan.corners)
-        return state and state.made(_own)
+    def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
+        return AT_GAUSS[0] @ self.plan.corners, _own
 
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright

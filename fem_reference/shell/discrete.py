@@ -30,7 +30,7 @@ from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
-from fem_reference.shell.element import OF_POSITIONS, TABLES, Element
+from fem_reference.shell.element import AT_SITES, OF_POSITIONS, TABLES, Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
 from fem_reference.shell.natural import grown, natural_strains
@@ -41,7 +41,7 @@ from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.carried import add_carried
-from fem_reference.surface.materials import Section, constants_of, section_at
+from fem_reference.surface.materials import Section, constants_of, section_at, stretched
 from fem_reference.surface.mesh import plan_of, quarters
 from fem_reference.surface.rod import block_diagonal
 from fem_reference.surface.rubber import require_law
@@ -51,7 +51,7 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import BadInput
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 from sheetbench.scenes import Scene, require_uniform
-from sheetbench.scenes.meaning.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
 class DiscreteShell(DiscreteElements):
@@ -116,7 +116,13 @@ class DiscreteShell(DiscreteElements):
 
     def natural_of(self, scene: Scene) -> NaturalState | None:
         """The strains that a scene's sheet has without stress."""
-        return natural_strains(scene, self.plan.corners)
+        sites, make = self.natural_form()
+        state = natural_at(scene if self.linear else stretched(scene), sites)
+        return state and state.made(make)
+
+    def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
+        """Where (m, p, 2) [m] e0 and k0 (m, p, 2, 2) count, and what makes strains of them."""
+        return AT_SITES @ self.plan.corners, partial(natural_strains, self.plan.corners)
 
     def with_scene(self, scene: Scene) -> Self:
         """The sheet at rest with the supports, loads, chains and natural state of another scene of the same
@@ -128,7 +134,8 @@ class DiscreteShell(DiscreteElements):
         other.commanded, other._commands = commands_of(scene, moving=False)
         other.natural = self.natural_of(scene) if self.natural is not None else None
         bound = other.bound_rods()
-        other.supports = rod.hold_bases(other.supports_of(), bound.rods)
+        if (scene.supports, scene.actuators) != (self.scene.supports, self.scene.actuators):
+            other.supports = rod.hold_bases(other.supports_of(), bound.rods)
         other.bind(bound)
         return other
 

@@ -7,7 +7,7 @@ with its stress. Source: Squire and Trapp, SIAM Review 40 (1998) 110.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,7 +21,7 @@ from sheetbench.scenes.objects.material import WORDS
 from sheetbench.scenes.objects.orthotropy import Ply
 
 Values = dict[str, Any]  # numbers, or (m, 9)
-STRAIN = ("exx", "eyy", "exy")
+STRAIN, LAW = ("exx", "eyy", "exy"), "law"
 TINY = 1e-30
 
 
@@ -36,7 +36,7 @@ def values_of(scene: Scene, corners: np.ndarray, natural: bool) -> Values:
     for number, ply in enumerate(constants.plies):
         values |= {f"{number}.{name}": value for name, value in ply._asdict().items()}
     if law := WORDS.get(scene.material.law or ""):
-        values |= {"law": scene.material.law} | scene.material.given(law.keys)
+        values |= {LAW: scene.material.law} | scene.material.given(law.keys)
     state = natural_at(stretched(scene), AT_GAUSS[0] @ corners) if natural else None
     if state is not None and (strain := state.at()[0]).any():
         values |= dict(zip(STRAIN, (strain[..., 0, 0], strain[..., 1, 1], strain[..., 0, 1]), strict=True))
@@ -64,13 +64,18 @@ def section_with(values: Values) -> Section:
 def material_with(values: Values) -> Any:
     """Return young, poisson and energy of these values, as laws take them."""
     found = SimpleNamespace(young=values["young"], poisson=values["poisson"])
-    if "law" in values:
-        keys, energy = WORDS[values["law"]]
+    if LAW in values:
+        keys, energy = WORDS[values[LAW]]
         found.energy = energy(*(values[key] for key in keys))
     return found
 
 
-def by_values(function: Callable[[Values], np.ndarray], values: Values) -> dict[str, np.ndarray]:
-    """Return the derivatives of a function of constants by each of them."""
-    numbers = {name: value for name, value in values.items() if name != "law"}
-    return {name: function({**values, name: value + 1j * TINY}).imag / TINY for name, value in numbers.items()}
+def by_values(
+    function: Callable[[Values], np.ndarray], values: Values, names: Iterable[str] = ()
+) -> dict[str, np.ndarray]:
+    """Return the derivatives of a function of constants by these, by all unless given."""
+
+    def by(name: str) -> np.ndarray:
+        return np.asarray(function({**values, name: values[name] + 1j * TINY}).imag / TINY)
+
+    return {name: by(name) for name in names or values if name != LAW}

@@ -5,18 +5,21 @@ from time import process_time
 
 import numpy as np
 import pytest
-from cases import CLAMP, GRAVITY, OBLONG, RUBBER, SILICONE, sheet
+from cases import CLAMP, GRAVITY, OBLONG, RUBBER, SILICONE, calibrated, sheet
+from numpy.testing import assert_allclose
 from rod_cases import chain
 from rubbers import rubber
 
 import fem_reference
+import lumped
 from fem_reference import sheets
 from fem_reference.discrete.answer import traced
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.sensitivity import FIELD, Sensitivity
 from sheetbench.answers.solution import Status
-from sheetbench.errors import NoEquilibrium
+from sheetbench.errors import Impossible, NoEquilibrium
 from sheetbench.scenes import (
+    EDGES,
     Clamped,
     Curved,
     EdgeLoad,
@@ -43,7 +46,9 @@ LEFT = Shape(rectangle=Rectangle(x=(0.0, 0.1), y=(0.0, 0.1)))
 FIBRES = {"young_1": 4e7, "young_2": 8e6, "poisson_12": 0.25, "shear_12": 5e6, "density": 1200.0}
 WOVEN = Material(kind="orthotropic", angle=0.4, shear_23=3e6, **FIBRES)
 PLIES = Layer(thickness=0.002, angle=0.3), Layer(thickness=0.003, young=3e7, poisson=0.3, density=900.0)
-TURN = EdgeMotion(kind="motion", edge="x1", time=(0.0,), displacement=((0, 0, 0.02),), rotation=((0.1, 0.3, 0),))
+TURN = EdgeMotion(
+    kind="motion", edge="x1", time=(0.0,), displacement=((0, 0, 0.02),), rotation=((0.1, 0.3, 0),)
+)
 PULL = Motion(time=(0.0, 1.0), displacement=((0, 0, 0), (0.1, 0, 0.01)))
 
 
@@ -128,17 +133,16 @@ def test_derivatives_are_those_of_equilibria_found_anew(name, model):
         value = parameter(scene, one).value
         scales.append(abs(value) or 0.1)
         step = (1e-6 if name in TOUCHING else 1e-4) * scales[-1]
-        near, far = (j(put(scene, one, value + k * step)) - j(put(scene, one, value - k * step)) for k in (1, 2))
+        near, far = (
+            j(put(scene, one, value + k * step)) - j(put(scene, one, value - k * step)) for k in (1, 2)
+        )
         differences.append((8.0 * near - far) / (12.0 * step))
         by.append(gradient[one])
-    print(name, model)
-    for row in zip(names, np.array(by) * scales, np.array(differences) * scales): print("  %-28s % .8e % .8e"%row)
-    off = np.abs(np.subtract(by, differences)) * scales
-    print("  off", off.max()/(np.abs(by) * scales).max())
-    assert off.max() <= 1e-6 * (np.abs(by) * scales).max()
-    changes = dict(zip(names, np.random.default_rng(2).normal(size=len(names)) * scales, strict=True))
-    moved = sheet.sample(found.pushforward(changes), points)
-    assert np.sum(weights * moved) == pytest.approx(np.dot(by, [*changes.values()]), rel=1e-6)
+    by, differences = scales * np.array(by), scales * np.array(differences)
+    assert_allclose(by, differences, rtol=0.0, atol=1e-6 * np.abs(by).max())
+    shares = np.random.default_rng(2).normal(size=len(names))
+    moved = found.pushforward(dict(zip(names, shares * scales, strict=True)))
+    assert np.sum(weights * sheet.sample(moved, points)) == pytest.approx(shares @ by, rel=1e-6)
 
 
 def test_value_and_derivatives_cost_less_than_two_solves_and_a_third():
@@ -164,6 +168,66 @@ def test_field_over_a_patch_is_the_patch():
     assert gradient["patch1.thickness"] == pytest.approx(over, rel=1e-7)
     every = gradient["elements.young"].sum()
     assert gradient["young"] == pytest.approx(every, rel=1e-7)
+    for name, parts in (("strain", "exx eyy exy"), ("curvature", "kxx kyy kxy")):
+        natural = gradient[f"elements.{name}"]
+        by_patch = [gradient[f"patch1.natural.{part}"] for part in parts.split()]
+        outside = [gradient[f"natural.{part}"] for part in parts.split()]
+        assert_allclose(by_patch, natural[inside].sum(axis=0), rtol=1e-6)
+        assert_allclose(outside, natural[~inside].sum(axis=0), rtol=1e-6)
+
+
+FREQUENCIES = [("plain", "plate", "flat"), ("laminate", "shell", "flat"), ("payload", "shell", "flat")]
+FREQUENCIES += [(name, "shell", "deformed") for name in ("natural", "payload", "tilted")]
+
+
+@pytest.mark.parametrize("name, model, about", FREQUENCIES)
+def test_derivatives_of_a_frequency_are_differences(name, model, about):
+    scene, number = SCENES[name], 3
+
+    def modes(scene):
+        return fem_reference.modes(scene, model, elements=3, count=4, about=about)
+
+    gradient, by, differences = modes(scene).sensitivity(number), [], []
+    for one in (one for one in gradient if not one.startswith(FIELD)):
+        value = parameter(scene, one).value
+        scale = abs(value) or 0.1
+        near, far = (
+            modes(put(scene, one, value + k * 1e-3 * scale)).frequencies[number - 1]
+            - modes(put(scene, one, value - k * 1e-3 * scale)).frequencies[number - 1]
+            for k in (1, 2)
+        )
+        differences.append((8.0 * near - far) / 12e-3)
+        by.append(scale * gradient[one])
+    assert_allclose(by, differences, rtol=0.0, atol=2e-6 * np.abs(by).max())
+    # all moduli and the density twice as large leave the frequency what it is, but for a weight's deflection
+    assert gradient["elements.density" if scene.layers == () else "elements.1.density"].sum() < 0.0
+
+
+def test_frequencies_that_coincide_have_no_derivatives():
+    edges = tuple(Hinged(edge=edge) for edge in EDGES)
+    square = sheet(0.1, 0.1, 0.001, supports=edges)
+    found = fem_reference.modes(square, "plate", elements=4, count=4)
+    with pytest.raises(Impossible, match="2 and 3 coincide"):
+        found.sensitivity(2)
+    assert found.sensitivity(1)["young"] > 0.0
+    with pytest.raises(Impossible, match="1 to 3"):
+        found.sensitivity(4)
+
+
+def test_a_cantilever_softens_as_the_closed_form_says():
+    """u = 4 F L³/(E b h³): d ln u/d ln E = −1, d ln u/d ln h = −3, d ln u/d ln F = 1; on the lattice too."""
+    pull = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -1e-4))
+    strip = sheet(0.2, 0.02, 0.001, poisson=0.0, loads=(pull,), probes={"P": (0.2, 0.01)})
+    answer = fem_reference.solve(strip, "shell", elements=2)
+    gradient = answer.sensitivity().at_points([(0.2, 0.01)], [(0.0, 0.0, 1.0)])
+    u = answer.displacement([(0.2, 0.01)])[0, 2]
+    names = {"young": (1e6, -1.0), "thickness": (0.001, -3.0), "load1.force_per_length.z": (-1e-4, 1.0)}
+    for name, (value, power) in names.items():
+        assert gradient[name] * value / u == pytest.approx(power, abs=2e-3)
+    lattice = lumped.sensitivity(strip, calibrated(strip, (41, 5)), ["young", "thickness"])
+    for name in ("young", "thickness"):
+        by, u = lattice.derivatives[name][0, 2], lattice.displacement[0, 2]
+        assert by * names[name][0] / u == pytest.approx(names[name][1], abs=2e-3)
 
 
 def test_unstable_equilibria_have_no_derivatives_and_solids_none():

@@ -96,13 +96,17 @@ ROWS = [*((name, "shell") for name in SCENES), *((name, "plate") for name in LIN
 TOUCHING = ("ball", "plane")
 
 
-def at_rest(sheet, q, corrections=8):
+def at_rest(sheet, q):
     """An equilibrium to rounding, from one near by."""
-    static, state = Static(sheet), StaticState(q)
-    for _ in range(1 if sheet.linear else corrections):
+    static, state, moved = Static(sheet), StaticState(q), 1.0
+    while moved > 1e-13:
         forces = static.forces(state, 1.0)
         matrix, rows = static.linearised(state, forces, 1.0, mixed=False)
-        state = StaticState(static.advance(state, forces, 1.0, sheet.solver().factor(matrix).solve(rows)).q)
+        step = sheet.solver().factor(matrix).solve(rows)
+        state, before = StaticState(static.advance(state, forces, 1.0, step).q), moved
+        moved = np.abs(step).max()
+        if moved > 0.5 * before:  # all of it rounding
+            break
     return state.q
 
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.sensitivity import Gradient, Sensitivity, Term
+from fem_reference.sensitivity import SheetGradient, SheetSensitivity, Term
 from fem_reference.shell.directors import multiplier
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.biquadratic import AT_GAUSS
@@ -25,7 +25,7 @@ from sheetbench.numerics.threads import one_blas_thread
 SMALL = 1e-4  # of the thickness, that a mode moves the sheet for a difference
 
 
-class FrequencyGradient(Gradient):
+class FrequencyGradient(SheetGradient):
     """df/dθ [Hz per unit] by name, of a mode φ (N,) and its ω² about q (N,) at a load factor."""
 
     def __init__(self, sheet: DiscreteShell, q: np.ndarray, at: float, mode: np.ndarray, squared: float):
@@ -33,8 +33,8 @@ class FrequencyGradient(Gradient):
             raise Impossible("derivatives of frequencies: not beside obstacles, on which they may jump")
         scale = 1.0 / (4.0 * np.pi * np.sqrt(squared))  # df/dω²
         step = SMALL * sheet.scene.sheet.thickness / np.abs(sheet.displacement(mode)).max()
-        of = Sensitivity(sheet, q, at)
-        sides = [(Sensitivity(sheet, q + end * mode, at), scale / (2.0 * end)) for end in (-step, step)]
+        of = SheetSensitivity(sheet, q, at)
+        sides = [(SheetSensitivity(sheet, q + end * mode, at), scale / (2.0 * end)) for end in (-step, step)]
         with one_blas_thread():
             terms: list[Term] = [(state, by * mode, np.zeros_like(mode)) for state, by in sides]
             if at:
@@ -55,7 +55,9 @@ class FrequencyGradient(Gradient):
         return found
 
 
-def _of_shape(of: Sensitivity, mode: np.ndarray, squared: float, scale: float, third: np.ndarray) -> Term:
+def _of_shape(
+    of: SheetSensitivity, mode: np.ndarray, squared: float, scale: float, third: np.ndarray
+) -> Term:
     """Return what μ and the equilibrium's own change give, of the derivative (N,) of φᵀHφ by q."""
     sheet, first = of.sheet, of.sheet.first_director
     directors, turned = sheet.directors(of.shape.q), mode[first:].reshape(-1, 3)
@@ -72,7 +74,7 @@ def _of_shape(of: Sensitivity, mode: np.ndarray, squared: float, scale: float, t
     return of, moved, given + of.product(moved)
 
 
-def _inertia(of: Sensitivity, mode: np.ndarray, values: Values) -> np.ndarray:
+def _inertia(of: SheetSensitivity, mode: np.ndarray, values: Values) -> np.ndarray:
     """Return φᵀMφ (m, 9) at the Gauss points of a sheet of these constants."""
     constants, sheet = constants_with(values), of.sheet
     u, d = (AT_GAUSS[0] @ part for part in np.split(sheet.surface_change(mode), 2, axis=1))

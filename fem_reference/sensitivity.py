@@ -36,8 +36,8 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.parameters import names_of, parameter, put
 from sheetbench.scenes.meaning.natural_state import natural_at
+from sheetbench.scenes.meaning.parameters import names_of, parameter, put
 from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-4  # of a parameter, or of 1 where it is zero
@@ -47,7 +47,7 @@ PLACED = re.compile(r"(tilt|curvature)_|(gravity|natural|temperature|load|mass|s
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 
 
-class Sensitivity:
+class SheetSensitivity:
     """The derivatives of a sheet's stable equilibrium q (N,) at a load factor. centres: of the elements,
     (m, 2) [m], in the order of fields."""
 
@@ -99,21 +99,21 @@ class Sensitivity:
         """Return the names of all derivatives: of fields, and of `scenes.parameters`."""
         return [*self.fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
 
-    def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
+    def at_points(self, points: np.ndarray, weights: np.ndarray) -> SheetGradient:
         """Return the derivatives of a J that has these by the displacement at plan points, (p, 2), (p, 3)."""
         element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
         out = np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
         return self.pullback(out)
 
-    def pullback(self, by_displacement: np.ndarray) -> Gradient:
+    def pullback(self, by_displacement: np.ndarray) -> SheetGradient:
         """Return the derivatives of a J that has these by the nodes' displacement, (n, 3)."""
         sheet, given = self.sheet, np.zeros(self.sheet.size)
         sheet.displacement(given)[:] = by_displacement
         with one_blas_thread():
             solved = self._transposed.solve(sheet.reduce(self.shape, given))
             moved = -sheet.expand(self.shape, solved)
-            return Gradient(
+            return SheetGradient(
                 self.power(moved, self.values), (self, moved, given + self.product(moved, transposed=True))
             )
 
@@ -191,8 +191,8 @@ class Sensitivity:
             forces.append(force - sum(one.force(shape) for one in items))
         low, high = sides
         rate = (forces[1] - forces[0]) / over
-        for one, *both in zip(sheet.contacts, low.contacts, high.contacts, strict=True):
-            rate -= one.rate(shape, *both, over)
+        for one, before, after in zip(sheet.contacts, low.contacts, high.contacts, strict=True):
+            rate -= one.rate(shape, before, after, over)
         placed[: 6 * sheet.nodes] = ((high.change(shape.at) - low.change(shape.at)) / over).ravel()
         return rate, placed
 
@@ -217,10 +217,10 @@ class Sensitivity:
         return out
 
 
-Term = tuple[Sensitivity, np.ndarray, np.ndarray]
+Term = tuple[SheetSensitivity, np.ndarray, np.ndarray]
 
 
-class Gradient(Mapping[str, Any]):
+class SheetGradient(Mapping[str, Any]):
     """The derivatives of a J by name, found when they are asked for: of its powers at the Gauss points, and
     of states with vectors λ and ∂J/∂δ (N,)."""
 

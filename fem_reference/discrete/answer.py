@@ -27,7 +27,6 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Inspect, Path
 from sheetbench.numerics.continuation.pseudo_transient import relax
-from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.material import limit_note
@@ -151,15 +150,4 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
         fallback=fallback,
         remarks=tuple(notes),
         stretch=shape.stretch,
-        sensitivity=(again := sheet.again()) and partial(_sensitivity, again, q, status, notes),
     )
-
-
-def _sensitivity(again: Callable[[], Any], q: np.ndarray, status: Status, notes: list[str]) -> Any:
-    """Return the derivatives of an equilibrium of a sheet made again. Raises NoEquilibrium for one that is
-    not stable."""
-    from fem_reference.sensitivity import Sensitivity  # for those who ask
-
-    sheet = again()
-    require_stable(sheet.model, status, notes)
-    return Sensitivity(sheet, q)

@@ -17,6 +17,7 @@ from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, constants_of, grown, section_of, stretched
 from sheetbench.scenes import Constants, Scene
 from sheetbench.scenes.meaning.natural_state import natural_at
+from sheetbench.scenes.objects.cells import NUMBERS
 from sheetbench.scenes.objects.material import WORDS
 from sheetbench.scenes.objects.orthotropy import Ply
 
@@ -32,7 +33,7 @@ def values_of(scene: Scene, corners: np.ndarray, natural: bool) -> Values:
     constants = constants_of(scene, corners)
     values: Values = {"thickness": constants.thickness}
     if not constants.plies:
-        values |= {name: getattr(constants, name) for name in ("young", "poisson", "density")}
+        values |= {name: getattr(constants, name) for name in NUMBERS}
     for number, ply in enumerate(constants.plies):
         values |= {f"{number}.{name}": value for name, value in ply._asdict().items()}
     if law := WORDS.get(scene.material.law or ""):
@@ -47,8 +48,7 @@ def constants_with(values: Values) -> Constants:
     """Return the constants of these values."""
     count = sum(name.endswith(".low") for name in values)
     plies = tuple(Ply(*(values[f"{number}.{name}"] for name in Ply._fields)) for number in range(count))
-    own = (values.get(name) for name in ("thickness", "young", "poisson", "density"))
-    return Constants(*own, plies=plies)
+    return Constants(plies=plies, **{name: values.get(name) for name in NUMBERS})
 
 
 def section_with(values: Values) -> Section:

@@ -15,7 +15,7 @@ import lumped
 from fem_reference import sheets
 from fem_reference.discrete.answer import traced
 from fem_reference.discrete.static import Static, StaticState
-from fem_reference.sensitivity import FIELD, Sensitivity
+from fem_reference.sensitivity import FIELD, SheetSensitivity
 from sheetbench.answers.solution import Status
 from sheetbench.errors import Impossible, NoEquilibrium
 from sheetbench.scenes import (
@@ -62,19 +62,22 @@ def pulled(material):
     return oblong(material, supports=ends, loads=(Pressure(value=300.0),))
 
 
+SPATIAL = {"curvature": tuple(range(-3, 8)), "segments": 12, "plane": "spatial", "face": "top"}
+SLOPE = Plane(position=(0.0, 0.0, -0.03), normal=(0.1, 0.0, 1.0))
 BALL = Sphere(position=(0.1, 0.04, -0.033), radius=0.03)
 SCENES = {
     "plain": oblong(loads=(PointLoad(at=(0.17, 0.03), force=(0.02, 0.1, -0.1)),)),
     "fibres": oblong(WOVEN),
     "laminate": oblong(WOVEN, layers=PLIES),
     "holes": load("kirigami-strip"),
-    "chain": oblong(actuators=(chain(curvature=tuple(range(-3, 8)), segments=12, plane="spatial", face="top"),)),
+    "chain": oblong(actuators=(chain(**SPATIAL),)),
     "natural": oblong(
         natural=Natural(strain=(0.02, 0.0, 0.01), curvature=(2.0, -1.0, 0.5)),
         patches=(Patch(shape=LEFT, thickness=0.004, natural=Natural(curvature=(1.0, 2.0, 0.0))),),
     ),
     "pretension": oblong(
-        supports=tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0")), natural=Natural(pretension=(20.0, 10.0))
+        supports=tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0")),
+        natural=Natural(pretension=(20.0, 10.0)),
     ),
     "heat": load("bimetal-strip"),
     "mooney-rivlin": pulled(rubber("mooney-rivlin")),
@@ -82,9 +85,10 @@ SCENES = {
     "gent": pulled(rubber("gent")),
     "neo-hookean": pulled(rubber("neo-hookean")),
     "ball": oblong(RUBBER.replace(young=2e6), obstacles=(BALL,)),
-    "plane": oblong(RUBBER.replace(young=2e6), obstacles=(Plane(position=(0, 0, -0.03), normal=(0.1, 0, 1)),)),
+    "plane": oblong(RUBBER.replace(young=2e6), obstacles=(SLOPE,)),
     "pressure": oblong(
-        gravity=None, loads=(Pressure(value=100.0), EdgeLoad(edge="x1", moment_per_length=0.2, force_per_length=(0, 1, 0)))
+        gravity=None,
+        loads=(Pressure(value=100.0), EdgeLoad(edge="x1", moment_per_length=0.2, force_per_length=(0, 1, 0))),
     ),
     "moved": oblong(actuators=(TURN,)),
     "payload": oblong(masses=(Mass(mass=0.02, at=(0.15, 0.08)), Mass(mass=0.05, where=LEFT))),
@@ -114,7 +118,7 @@ def sensitivity(scene, model="shell", elements=3):
     division = sheets.division_of(scene, model, elements)
     run = traced(division.sheet)
     assert run.path.load_factor == 1.0
-    return Sensitivity(run.sheet, at_rest(run.sheet, run.path.state.q))
+    return SheetSensitivity(run.sheet, at_rest(run.sheet, run.path.state.q))
 
 
 @pytest.mark.parametrize("name, model", ROWS)
@@ -156,7 +160,7 @@ def test_value_and_derivatives_cost_less_than_two_solves_and_a_third():
         begin = process_time()
         answer = fem_reference.solve(scene, "shell", elements=8)
         solved = process_time()
-        gradient = dict(answer.sensitivity().at_points(scene.probe_points()[-1:], np.eye(3)[2:]))
+        gradient = dict(answer.derivatives().at_points(scene.probe_points()[-1:], np.eye(3)[2:]))
         costs.append((solved - begin, process_time() - begin))
     assert len(gradient) >= 10 and gradient["elements.young"].shape == (64,)
     cold, both = np.min(costs, axis=0)
@@ -223,7 +227,7 @@ def test_a_cantilever_softens_as_the_closed_form_says():
     pull = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -1e-4))
     strip = sheet(0.2, 0.02, 0.001, poisson=0.0, loads=(pull,), probes={"P": (0.2, 0.01)})
     answer = fem_reference.solve(strip, "shell", elements=2)
-    gradient = answer.sensitivity().at_points([(0.2, 0.01)], [(0.0, 0.0, 1.0)])
+    gradient = answer.derivatives().at_points([(0.2, 0.01)], [(0.0, 0.0, 1.0)])
     u = answer.displacement([(0.2, 0.01)])[0, 2]
     names = {"young": (1e6, -1.0), "thickness": (0.001, -3.0), "load1.force_per_length.z": (-1e-4, 1.0)}
     for name, (value, power) in names.items():
@@ -240,5 +244,5 @@ def test_unstable_equilibria_have_no_derivatives_and_solids_none():
     answer = fem_reference.solve(column, "shell", elements=2)
     assert answer.status is Status.UNSTABLE
     with pytest.raises(NoEquilibrium, match="unstable"):
-        answer.sensitivity()
-    assert fem_reference.solve(SCENES["plain"], "solid", elements=2).sensitivity is None
+        answer.derivatives()
+    assert fem_reference.solve(SCENES["plain"], "solid", elements=2).derivatives is None

@@ -54,7 +54,7 @@ def solve(
     found = answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
     if (again := runs[0].sheet.again()) is None:
         return found
-    return replace(found, derivatives=partial(_sensitivity, again, runs[0].path.state.q, found))
+    return replace(found, sensitivity=partial(_sensitivity, again, runs[0].path.state.q, found))
 
 
 def _sensitivity(again: Callable[[], Any], q: np.ndarray, answer: Solution) -> SheetSensitivity:

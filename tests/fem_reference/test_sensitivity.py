@@ -160,7 +160,7 @@ def test_value_and_derivatives_cost_less_than_two_solves_and_a_third():
         begin = process_time()
         answer = fem_reference.solve(scene, "shell", elements=8)
         solved = process_time()
-        gradient = dict(answer.derivatives().at_points(scene.probe_points()[-1:], np.eye(3)[2:]))
+        gradient = dict(answer.sensitivity().at_points(scene.probe_points()[-1:], np.eye(3)[2:]))
         costs.append((solved - begin, process_time() - begin))
     assert len(gradient) >= 10 and gradient["elements.young"].shape == (64,)
     cold, both = np.min(costs, axis=0)
@@ -227,7 +227,7 @@ def test_a_cantilever_softens_as_the_closed_form_says():
     pull = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -1e-4))
     strip = sheet(0.2, 0.02, 0.001, poisson=0.0, loads=(pull,), probes={"P": (0.2, 0.01)})
     answer = fem_reference.solve(strip, "shell", elements=2)
-    gradient = answer.derivatives().at_points([(0.2, 0.01)], [(0.0, 0.0, 1.0)])
+    gradient = answer.sensitivity().at_points([(0.2, 0.01)], [(0.0, 0.0, 1.0)])
     u = answer.displacement([(0.2, 0.01)])[0, 2]
     names = {"young": (1e6, -1.0), "thickness": (0.001, -3.0), "load1.force_per_length.z": (-1e-4, 1.0)}
     for name, (value, power) in names.items():
@@ -244,5 +244,5 @@ def test_unstable_equilibria_have_no_derivatives_and_solids_none():
     answer = fem_reference.solve(column, "shell", elements=2)
     assert answer.status is Status.UNSTABLE
     with pytest.raises(NoEquilibrium, match="unstable"):
-        answer.derivatives()
-    assert fem_reference.solve(SCENES["plain"], "solid", elements=2).derivatives is None
+        answer.sensitivity()
+    assert fem_reference.solve(SCENES["plain"], "solid", elements=2).sensitivity is None

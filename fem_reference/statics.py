@@ -8,10 +8,15 @@ factors at which the sheet snapped.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
-from typing import cast
+from typing import Any, cast
+
+import numpy as np
 
 from fem_reference.discrete.answer import Traced, answered, inspected, traced
+from fem_reference.sensitivity import SheetSensitivity
 from fem_reference.sheets import Division
 from fem_reference.shell import coarse_start
 from fem_reference.shell.coarse_start import Shape
@@ -46,4 +51,13 @@ def solve(
     if runs[0].path.fault is STRETCHED:
         fallback = "divided evenly, for it bends much"
         runs.insert(0, traced(division.with_grading(False).sheet, progress=progress, buckled=buckled))
-    return answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
+    found = answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
+    if (again := runs[0].sheet.again()) is None:
+        return found
+    return replace(found, sensitivity=partial(_sensitivity, again, runs[0].path.state.q, found))
+
+
+def _sensitivity(again: Callable[[], Any], q: np.ndarray, answer: Solution) -> SheetSensitivity:
+    """Return what has the derivatives of an answer, of a sheet made again at q (N,)."""
+    answer.require_stable()
+    return SheetSensitivity(again(), q)

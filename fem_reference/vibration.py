@@ -37,13 +37,14 @@ from fem_reference.surface.mesh import Elements
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, require_choice
+from sheetbench.errors import BadInput, Impossible, require_choice
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, free_rigid_motions, require_static, scene_of
 
 REACH = 0.375  # of the grading
+ALIKE = 1e-6  # of a frequency, up to which another is the same
 
 
 @dataclass(frozen=True, repr=False)
@@ -54,6 +55,24 @@ class ReferenceModes(NaturalModes):
     settings: dict[str, Any]
     solve_seconds: float
     sample: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    gradient_of: Callable[[int], Any] | None = None
+
+    def sensitivity(self, number: int) -> Any:
+        """Return df/dθ [Hz per unit] by name of the mode of a number, the first being 1 (`mode_sensitivity`).
+        Raises Impossible for the solid, where two frequencies coincide, and for the last mode found."""
+        if self.gradient_of is None:
+            raise Impossible(
+                f"derivatives of frequencies: of plate and shell, without a section; not of {self.label}"
+            )
+        if not 1 <= number < len(self.frequencies):
+            raise Impossible(f"mode {number}: its neighbours must be known: 1 to {len(self.frequencies) - 1}")
+        near = np.abs(self.frequencies - self.frequencies[number - 1]) <= ALIKE * self.frequencies[number - 1]
+        if near.sum() > 1:
+            which = " and ".join(str(n + 1) for n in np.flatnonzero(near))
+            raise Impossible(
+                f"modes {which} coincide: each of their frequencies has no derivative of its own"
+            )
+        return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
@@ -118,6 +137,13 @@ def modes(
         material, longer = scene.material, max(scene.sheet.lengths)
         slow = scene.sheet.thickness / longer**2 * np.sqrt(material.young / (12.0 * material.density))
         values, vectors = lowest_modes(stiffness, mass, count + rigid, -(slow**2), dense=0)
+
+    def gradient_of(number: int) -> Any:
+        from fem_reference.mode_sensitivity import FrequencyGradient  # for those who ask
+
+        mode = basis @ vectors[:, rigid + number - 1]
+        return FrequencyGradient(sheet, q, at, mode, float(values[rigid + number - 1]))
+
     return ReferenceModes(
         label="{} {} × {}".format(model, *division.counts),
         settings={"elements": list(division.counts), **division.options},
@@ -127,4 +153,5 @@ def modes(
         unknowns=sheet.unknowns,
         solve_seconds=now() - ready,
         sample=sheet.sample,
+        gradient_of=sheet.again() and gradient_of,
     )

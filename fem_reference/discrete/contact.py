@@ -16,6 +16,8 @@ those over {δ > 0} (`patch`), with k STIFFER times as much. In motion k is SOFT
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 from skfem import ElementQuad2
 
@@ -153,6 +155,18 @@ class Touching(SheetItem):
             np.einsum("fmab,ij->fmaibj", both, projector(self.obstacle))
             - out.reshape(*both.shape[:3], 3, 9, 3)
         )
+
+    def rate(self, shape: SheetShape, low: Touching, high: Touching, over: float) -> np.ndarray:
+        """Return the derivative of the force (N,) by what differs between two, `over` which they differ:
+        their obstacle's place and size, the offset, the stiffness. Where the sheet touches stays."""
+        found, (_, load, slope) = self._pressed(shape)
+        stiffer = copy(self)
+        stiffer.full = (high.full - low.full) / over
+        before, after = low.near(shape), high.near(shape)
+        deeper, turned = (after.sunk - before.sunk) / over, (after.slope - before.slope) / over
+        more = stiffer._pressed(shape)[1][1] + (slope @ deeper[..., self.groups, None])[..., 0]
+        pull = self._at_points(more)[..., None] * found.slope + self._at_points(load)[..., None] * turned
+        return self._onto(shape, pull)
 
     def _between(self, blocks: np.ndarray) -> Tangent | None:
         """Return derivatives (faces, m, 9, 3, 9, 3) of nodes' forces by their places as elements have

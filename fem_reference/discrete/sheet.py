@@ -17,6 +17,7 @@ ones those of `items`.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
@@ -77,7 +78,7 @@ class Discrete(ABC):
         self.branches = material.branches if moving else Branches((), ())
         self.tau, self.alpha = (material.dashpot_time, material.damping_rate) if moving else (0.0, 0.0)
         self.items: list[SheetItem] = []
-        self._weights: list[tuple[np.ndarray, Factor]] = []
+        self.weights: list[tuple[np.ndarray, Factor]] = []
 
     def named(self, elements: Elements, through: str = "", **settings: Any) -> Self:
         """The sheet with its label, and with the settings it was made by, but for those that are nothing."""
@@ -88,6 +89,10 @@ class Discrete(ABC):
         own = {name: value for name, value in settings.items() if value is not None}
         self.settings = {"elements": list(counts), **own}
         return self
+
+    def again(self) -> Callable[[], Self] | None:
+        """What makes the sheet anew, None of one without derivatives."""
+        return None
 
     def bound_rods(self) -> BoundRods:
         """The rods on the sheet."""
@@ -103,8 +108,8 @@ class Discrete(ABC):
             nodal, followers = loads.of_scene(alone, self.plan)
             dead = self.on_coordinates(nodal)
             for body in self.bodies:
-                self._weights.append((body.weight(alone), factor))
-                dead = dead + body.scatter(self._weights[-1][0])
+                self.weights.append((body.weight(alone), factor))
+                dead = dead + body.scatter(self.weights[-1][0])
             self.items += [Dead(dead, factor)] if dead.any() else []
             self.items += [Following(load, factor) for load in followers]
         if moving and scene.air:
@@ -212,7 +217,7 @@ class Discrete(ABC):
         edges = list[OnEdge]()
         for body in self.bodies:
             pull = body.pull(shape.q, body.stress(shape))
-            for weight, factor in self._weights:
+            for weight, factor in self.weights:
                 pull = pull - factor_at(factor, shape.at) * weight
             edges += self.on_edges(shape.q, pull if a is None else pull + body.inertial(a))
         held = self.exerted(shape.q, residual)

@@ -18,6 +18,7 @@ Source: Hughes, The Finite Element Method (2000), ch. 5.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import ClassVar
 
@@ -36,7 +37,7 @@ from fem_reference.surface.materials import Section, section_at
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.path import Fault
 from sheetbench.scenes import Scene, outside_model
-from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
 class DiscretePlate(DiscreteShell):
@@ -62,9 +63,11 @@ class DiscretePlate(DiscreteShell):
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:
         nodes = self.plan.corners
-        state = natural_at(self.scene, AT_GAUSS[0] @ nodes)
         made = PlateElements.build(nodes, section or section_at(self.scene, nodes))
-        return made, state and state.made(_own)
+        return made, self.natural_of(self.scene)
+
+    def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
+        return AT_GAUSS[0] @ self.plan.corners, _own
 
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright

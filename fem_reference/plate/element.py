@@ -66,6 +66,10 @@ class PlateElements(Element):
         """e (9 m, 8) of a change (m, 18, 3) of positions and directors."""
         return weighed(self.forms, change.reshape(-1, 54)).reshape(-1, 8)
 
+    def at_points(self, strain: np.ndarray) -> tuple[np.ndarray, ...]:
+        """E, κ (m, 9, 3) and γ (m, 9, 2) at the Gauss points of strains (9 m, 8)."""
+        return tuple(strain.reshape(*self.areas.shape, 8)[..., part] for part in self.parts.values())
+
     def operator(self, change: np.ndarray) -> np.ndarray:
         """B, whatever the change."""
         return self.forms

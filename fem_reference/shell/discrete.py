@@ -16,18 +16,21 @@ is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², of unlike layers with ∫ρz dz u̇·�
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import Any, ClassVar
+from collections.abc import Callable
+from copy import copy
+from functools import cached_property, partial
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, eye_array
 from skfem import MeshQuad
 
+from fem_reference.discrete.course import commands_of
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import UP
 from fem_reference.shell.directors import multiplier, projected, tangent_frames, to_unit
-from fem_reference.shell.element import OF_POSITIONS, TABLES, Element
+from fem_reference.shell.element import AT_SITES, OF_POSITIONS, TABLES, Element
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.shell.laws import LAWS
 from fem_reference.shell.natural import grown, natural_strains
@@ -38,7 +41,7 @@ from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.carried import add_carried
-from fem_reference.surface.materials import Section, constants_of, section_at
+from fem_reference.surface.materials import Section, constants_of, section_at, stretched
 from fem_reference.surface.mesh import plan_of, quarters
 from fem_reference.surface.rod import block_diagonal
 from fem_reference.surface.rubber import require_law
@@ -48,7 +51,7 @@ from sheetbench.choices import STRAIN_LAW
 from sheetbench.errors import BadInput
 from sheetbench.numerics.sparsity import Pattern, add_blocks, pattern_of
 from sheetbench.scenes import Scene, require_uniform
-from sheetbench.scenes.meaning.natural_state import NaturalState
+from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
 class DiscreteShell(DiscreteElements):
@@ -69,6 +72,7 @@ class DiscreteShell(DiscreteElements):
         moving: bool = False,
     ):
         super().__init__(scene, moving)
+        self.section, self.law = section, law
         self.plan = plan = plan_of(mesh)
         self.sites = self.both
         self.element, self.natural = self.elements_of(section, law)
@@ -100,11 +104,40 @@ class DiscreteShell(DiscreteElements):
         require_law(law, LAWS, scene)
         if law == STRAIN_LAW:
             own = grown(section or section_at(scene, nodes), scene, nodes)
-            return Element.build(nodes, own), natural_strains(scene, nodes)
+            return Element.build(nodes, own), self.natural_of(scene)
         require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
         if section is not None:
             raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
         return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
+
+    def again(self) -> Callable[[], Self] | None:
+        law = () if self.linear else (self.law,)
+        return None if self.section else partial(type(self), self.plan.mesh, self.scene, None, *law)
+
+    def natural_of(self, scene: Scene) -> NaturalState | None:
+        """The strains that a scene's sheet has without stress."""
+        sites, make = self.natural_form()
+        state = natural_at(scene if self.linear else stretched(scene), sites)
+        return state and state.made(make)
+
+    def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
+        """Where (m, p, 2) [m] e0 and k0 (m, p, 2, 2) count, and what makes strains of them."""
+        return AT_SITES @ self.plan.corners, partial(natural_strains, self.plan.corners)
+
+    def with_scene(self, scene: Scene) -> Self:
+        """The sheet at rest with the supports, loads, chains and natural state of another scene of the same
+        plan, and with its own elements."""
+        other = copy(self)
+        for name in ("_inertia", "sheet_mass", "mass"):
+            vars(other).pop(name, None)
+        other.scene, other.items, other.weights = scene, [], []
+        other.commanded, other._commands = commands_of(scene, moving=False)
+        other.natural = self.natural_of(scene) if self.natural is not None else None
+        bound = other.bound_rods()
+        if (scene.supports, scene.actuators) != (self.scene.supports, self.scene.actuators):
+            other.supports = rod.hold_bases(other.supports_of(), bound.rods)
+        other.bind(bound)
+        return other
 
     def supports_of(self) -> Supports:
         """What supports and motions hold."""

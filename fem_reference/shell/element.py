@@ -48,6 +48,7 @@ from fem_reference.surface.biquadratic import (
     require_upright,
     shape,
 )
+from fem_reference.surface.constants import Values, section_with
 from fem_reference.surface.materials import Section
 from sheetbench.numerics.cache import cached
 
@@ -161,6 +162,23 @@ class Element:
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D, ∂s/∂e (m, 54, 54) at strains (m, 54)."""
         return self.stiffness
+
+    def at_points(self, strain: np.ndarray) -> tuple[np.ndarray, ...]:
+        """E, κ (m, 9, 3) and γ (m, 9, 2) at the Gauss points of sampled strains (m, 54)."""
+        forms = cartesian(self.reference[:, :9, :2])
+        parts = zip(forms, self.parts.values(), strict=False)
+        return tuple(np.einsum("egak,ek->ega", form, strain[:, part]) for form, part in parts)
+
+    def resultants(self, values: Values, strain: np.ndarray) -> tuple[np.ndarray, ...]:
+        """N, M (m, 9, 3) and Q (m, 9, 2), times areas, at the Gauss points under strains (m, 54) of a sheet
+        of these constants."""
+        (stretch, curvature, slant), section = self.at_points(strain), section_with(values)
+        area = self.areas[..., None]
+        return (
+            area * (weighed(section.membrane, stretch) + weighed(section.mixed, curvature)),
+            area * (weighed(section.mixed, stretch) + weighed(section.bending, curvature)),
+            area * weighed(section.shear, slant),
+        )
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
         """Energy [J] of strains e (m, 54), by part."""

@@ -13,8 +13,8 @@ are 1, and these are the stresses of `Element`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Self
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, built
 from fem_reference.shell.laws import Law
 from fem_reference.shell.slant import linear, slant
 from fem_reference.surface.biquadratic import integrated
+from fem_reference.surface.constants import Values, material_with
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.triad import Triad, outer
 from sheetbench.scenes import Material
@@ -52,17 +53,26 @@ class HyperelasticElement(Element):
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """s (m, 54), conjugate to the sampled strains."""
+        forms = self.membrane, self.bending, self.slanted
+        pulls = zip(forms, self._resultants(strain), strict=True)
+        parts = [np.einsum("egak,ega->ek", form, found, optimize=True) for form, found in pulls]
+        return np.concatenate(parts, axis=1)
+
+    def resultants(self, values: Values, strain: np.ndarray) -> tuple[np.ndarray, ...]:
+        material, half = material_with(values), 0.5 * values["thickness"]
+        other = replace(self, material=material, heights=half * _LEVELS, weights=half * _SHARES)
+        return other._resultants(strain)
+
+    def _resultants(self, strain: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Return what is conjugate to E, κ (m, 9, 3) and γ (m, 9, 2), times areas."""
         stretch, curvature = self._strains(strain)
         t, slope, _ = self.law.thickness(self.material, stretch)
         found = self._response(stretch, t[..., None] * curvature).first * self._volumes[..., None]
         force, moment = found.sum(axis=2), np.einsum("egza,z->ega", found, self.heights)
-        force += np.sum(moment * curvature, axis=-1)[..., None] * slope
+        force = force + np.sum(moment * curvature, axis=-1)[..., None] * slope
         shear, leaning = (self._shear * self.areas)[..., None], self._slant(stretch, strain)
-        force += shear * leaning.first[..., :3]
-        moment, shearing = t[..., None] * moment, shear * leaning.first[..., 3:]
-        forms = (self.membrane, force), (self.bending, moment), (self.slanted, shearing)
-        parts = [np.einsum("egak,ega->ek", form, found, optimize=True) for form, found in forms]
-        return np.concatenate(parts, axis=1)
+        force = force + shear * leaning.first[..., :3]
+        return force, t[..., None] * moment, shear * leaning.first[..., 3:]
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
         """D (m, 54, 54)."""
@@ -118,9 +128,9 @@ class HyperelasticElement(Element):
         return slant(self.material.poisson, stretch, leaning)
 
     @property
-    def _shear(self) -> float:
+    def _shear(self) -> Any:
         """κ G h [N/m]."""
-        return float(section_of(self.material, float(self.weights.sum())).shear[0, 0])
+        return section_of(self.material, self.weights.sum()).shear[0, 0]
 
     @property
     def _volumes(self) -> np.ndarray:

@@ -5,25 +5,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.shell.element import AT_SITES, BENDING, MEMBRANE, STRAINS, TABLES
-from fem_reference.surface.biquadratic import AT_GAUSS, IN_PLANE, pulled_back
+from fem_reference.shell.element import BENDING, MEMBRANE, STRAINS, TABLES
+from fem_reference.surface import materials
+from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.materials import Section, green, stretched
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
+from sheetbench.scenes.meaning.natural_state import natural_at
 
 
-def natural_strains(scene: Scene, nodes: np.ndarray) -> NaturalState | None:
-    """Return those (m, 54) of elements with nodes (m, 9, 2) [m], None of a sheet that is flat at rest."""
-    state = natural_at(stretched(scene), AT_SITES @ nodes)
-    if state is None:
-        return None
-
-    def sample(e: np.ndarray, k: np.ndarray) -> np.ndarray:
-        forms = green(e), 0.5 * (green(e - k) - green(e + k))
-        parts = [sampled(nodes, form) for form in forms]
-        return np.pad(np.concatenate(parts, axis=1), ((0, 0), (0, STRAINS - BENDING.stop)))
-
-    return state.made(sample)
+def natural_strains(nodes: np.ndarray, e: np.ndarray, k: np.ndarray) -> np.ndarray:
+    """Return those (m, 54) of elements with nodes (m, 9, 2) [m], of e0 and k0 (m, 21, 2, 2) at the sites."""
+    forms = green(e), 0.5 * (green(e - k) - green(e + k))
+    parts = [sampled(nodes, form) for form in forms]
+    return np.pad(np.concatenate(parts, axis=1), ((0, 0), (0, STRAINS - BENDING.stop)))
 
 
 def sampled(nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
@@ -38,10 +32,4 @@ def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
     state = natural_at(stretched(scene), AT_GAUSS[0] @ corners)
     if state is None or not (strain := state.at()[0]).any():
         return section
-    stretch = np.eye(2) + strain
-    inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]
-    turn = pulled_back(inverse, IN_PLANE)
-    back = area * turn.swapaxes(-1, -2)
-    shear = area * inverse @ section.shear @ inverse
-    membrane, bending, mixed = (back @ k @ turn for k in (section.membrane, section.bending, section.mixed))
-    return Section(membrane, bending, shear, mixed)
+    return materials.grown(section, strain)

@@ -80,7 +80,7 @@ def require_upright(area: np.ndarray) -> None:
 def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
     """Cartesian strain of covariant strain (…, p, p), components by pairs, both with engineering shears;
     inverse: ξ_b,x_c (…, b, c)."""
-    out = np.zeros((*inverse.shape[:-2], len(pairs), len(pairs)))
+    out = np.zeros((*inverse.shape[:-2], len(pairs), len(pairs)), inverse.dtype)
     for row, (i, j) in enumerate(pairs):
         for column, (a, b) in enumerate(pairs):
             both = inverse[..., a, i] * inverse[..., b, j] + inverse[..., b, i] * inverse[..., a, j]

@@ -61,6 +61,18 @@ def green(stretch: np.ndarray) -> np.ndarray:
     return np.asarray(stretch + 0.5 * stretch @ stretch)
 
 
+def grown(section: Section, strain: np.ndarray) -> Section:
+    """Return the section per area and strain of the sheet as drawn, of one per natural area and strain, where
+    e0 is a strain (…, 2, 2)."""
+    stretch = np.eye(2) + strain
+    inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]
+    turn = pulled_back(inverse, IN_PLANE)
+    back = area * turn.swapaxes(-1, -2)
+    shear = area * inverse @ section.shear @ inverse
+    membrane, bending, mixed = (back @ k @ turn for k in (section.membrane, section.bending, section.mixed))
+    return Section(membrane, bending, shear, mixed)
+
+
 def stretched(scene: Scene) -> Scene:
     """Return the scene with the natural strain that gives its pretension by these strains of the natural
     sides, whose stress in a sheet held where it is drawn is its tension: there the stretch is 1."""
@@ -88,7 +100,7 @@ def section_of(material: Material | Constants, thickness: float) -> Section:
 def plane_stress(material: Material | Constants) -> np.ndarray:
     """C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
     nu = np.asarray(material.poisson)
-    form = np.zeros((*nu.shape, 3, 3))
+    form = np.zeros((*nu.shape, 3, 3), np.result_type(float, nu))
     form[..., 0, 0] = form[..., 1, 1] = 1.0
     form[..., 0, 1] = form[..., 1, 0] = nu
     form[..., 2, 2] = (1.0 - nu) / 2.0

@@ -33,7 +33,7 @@ _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact for g², of the 
 def _turned(own: np.ndarray, angle: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
     """Stiffness by x, y, z of that in a ply's axes, of strains by pairs of axes."""
     c, s = np.cos(angle), np.sin(angle)
-    axes = np.zeros((*c.shape, 3, 3))
+    axes = np.zeros((*c.shape, 3, 3), c.dtype)
     axes[..., 0, 0] = axes[..., 1, 1] = c
     axes[..., 1, 0], axes[..., 0, 1], axes[..., 2, 2] = s, -s, 1.0
     turn = pulled_back(axes, pairs)  # strains in the ply's axes of those in x, y, z
@@ -43,8 +43,8 @@ def _turned(own: np.ndarray, angle: np.ndarray, pairs: Sequence[tuple[int, int]]
 def plane_stress(ply: Ply) -> np.ndarray:
     """C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
     constants = ply.young_1, ply.young_2, ply.poisson_12, ply.shear_12, ply.angle
-    e1, e2, nu, g, angle = np.broadcast_arrays(*map(np.float64, constants))
-    own = np.zeros((*e1.shape, 3, 3))
+    e1, e2, nu, g, angle = np.broadcast_arrays(*constants)
+    own = np.zeros((*e1.shape, 3, 3), np.result_type(float, *constants))
     left = 1.0 - nu**2 * e2 / e1
     own[..., 0, 0], own[..., 1, 1], own[..., 2, 2] = e1 / left, e2 / left, g
     own[..., 0, 1] = own[..., 1, 0] = nu * e2 / left
@@ -53,7 +53,7 @@ def plane_stress(ply: Ply) -> np.ndarray:
 
 def shear_moduli(ply: Ply) -> np.ndarray:
     """G (…, 2, 2) [Pa]: stress [xz, yz] of strain [2xz, 2yz]."""
-    g13, g23, angle = np.broadcast_arrays(*map(np.float64, (ply.shear_13, ply.shear_23, ply.angle)))
+    g13, g23, angle = np.broadcast_arrays(ply.shear_13, ply.shear_23, ply.angle)
     return _turned(np.stack([g13, g23], axis=-1)[..., None] * np.eye(2), angle, ((0, 2), (1, 2)))
 
 
@@ -70,7 +70,7 @@ def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.nda
     )
     neutral = pulled / stretched
     bent = bent - neutral * pulled
-    compliance = np.zeros((*bent.shape, 2))
+    compliance = np.zeros((*bent.shape, 2), bent.dtype)
     carried = np.zeros_like(bent)  # g at the ply's lower face
     for c, ply in zip(moduli, plies, strict=True):
         own = np.diagonal(c, axis1=-2, axis2=-1)[..., :2]

@@ -139,7 +139,8 @@ class Solution(Answer):
     asked, and why; remarks: what else there is to say, a clause each. stretch: the largest elongation of the
     mid-surface, None where a model does not tell. points: plan points [m] of the
     scene's probes by name, as far as a verb knows them. contacts: what is known of the contact with each
-    obstacle, whose force on the sheet is among the reactions.
+    obstacle, whose force on the sheet is among the reactions. sensitivity: makes the derivatives of the
+    equilibrium (`names`, `at_points`, `pullback`, `pushforward`), None of a model without.
     """
 
     file_name = "solution"
@@ -165,6 +166,7 @@ class Solution(Answer):
     stretch: float | None = None
     points: dict[str, PlanPoint] = field(default_factory=dict)
     contacts: dict[str, ContactState] = field(default_factory=dict)
+    sensitivity: Callable[[], Any] | None = None
 
     def __post_init__(self) -> None:
         if self.status in _EQUILIBRIA and self.balance is not None and not self.balance.holds:

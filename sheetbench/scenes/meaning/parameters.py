@@ -13,42 +13,62 @@ massN                                                 of the scene's Nth [[mass]
 obstacleN.x, y, z, radius, friction                   of the scene's Nth [[obstacle]]
 natural.exx, …, natural.kxy                           of [natural]: strain (e), curvature (k)
 patchN.natural.exx, …                                 of the scene's Nth [[patch]], where that has its own
+gravity.x, y, z                                       acceleration
+loadN.force.x, …, at.x, y, value, …                   of the scene's Nth [[load]], by its keys
+supportN.x, y, z                                      of the last place of the scene's Nth [[support]]
+actuatorN.x, y, z, curvatureJ, bending_stiffness      of the scene's Nth [[actuator]]; J: of its joints
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import suppress
 from functools import reduce
-from math import inf, pi
+from itertools import product
+from math import inf, isfinite, pi
 from typing import Any, NamedTuple
 
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes.language.refusals import in_keys
 from sheetbench.scenes.objects.actuators import Chain
-from sheetbench.scenes.objects.fields import AScene, SceneFields
+from sheetbench.scenes.objects.fields import LISTS, AScene, SceneFields
+from sheetbench.scenes.objects.material import CONSTANTS as OF_LAWS
 from sheetbench.scenes.objects.natural import LARGEST_STRAIN
 from sheetbench.scenes.objects.patches import CONSTANTS
-from sheetbench.scenes.objects.supports import LARGEST_TILT, Clamped, Curved
+from sheetbench.scenes.objects.supports import EDGES, LARGEST_TILT, Clamped, Curved
 
 MATERIAL = ("young", "poisson", "density", "damping_time", "damping_rate", "loss_factor")
 FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23", "angle")
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
-NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY"]
+NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY", "gravity.z", "loadN.KEY"]
+NAMES += ["supportN.z", "actuatorN.KEY"]
 PLACES = {  # by patterns of names, but for those of an edge; a number counts from 1
-    "|".join((*MATERIAL, *FIBRES)): r"material.\g<0>",
+    "|".join((*MATERIAL, *FIBRES, *OF_LAWS)): r"material.\g<0>",
     "thickness": "sheet.thickness",
     "drag": "air.drag",
     r"(share|time)_(\d+)": r"material.relaxation.\2.\1",
     r"mass(\d+)": r"masses.\1.mass",
     rf"patch(\d+)\.({'|'.join(CONSTANTS)})": r"patches.\1.\2",
+    rf"layer(\d+)\.({'|'.join((*MATERIAL[:3], *FIBRES))})": r"layers.\1.\2",
     r"obstacle(\d+)\.([xyz])": r"obstacles.\1.position.\2",
     r"obstacle(\d+)\.(radius|friction)": r"obstacles.\1.\2",
     r"natural\.e(xx|yy|xy)": r"natural.strain.\1",
     r"natural\.k(xx|yy|xy)": r"natural.curvature.\1",
+    r"natural\.pretension\.([xy])": r"natural.pretension.\1",
     r"patch(\d+)\.natural\.e(xx|yy|xy)": r"patches.\1.natural.strain.\2",
     r"patch(\d+)\.natural\.k(xx|yy|xy)": r"patches.\1.natural.curvature.\2",
+    r"temperature\.(change|gradient)": r"temperature.\1",
+    r"gravity\.([xyz])": r"gravity.acceleration.\1",
+    r"load(\d+)\.(force|force_per_length|force_per_area)\.([xyz])": r"loads.\1.\2.\3",
+    r"load(\d+)\.at\.([xy])": r"loads.\1.at.\2",
+    r"load(\d+)\.(value|moment_per_length)": r"loads.\1.\2",
+    r"support(\d+)\.([xyz])": r"supports.\1.motion.displacement.last.\2",
+    r"actuator(\d+)\.([xyz])": r"actuators.\1.displacement.last.\2",
+    r"actuator(\d+)\.curvature(\d+)": r"actuators.\1.curvature.\2",
+    r"actuator(\d+)\.bending_stiffness": r"actuators.\1.bending_stiffness",
 }
-COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "yy": 1, "xy": 2}
+COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "yy": 1, "xy": 2, "last": -1}
 UNITS = {  # none of other keys
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
     **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
@@ -62,7 +82,10 @@ BOUNDS = {  # others are above 0
     "curvature": (-inf, inf),
     "share": (0.0, 1.0),
     "position": (-inf, inf),
+    **dict.fromkeys(("c2", "c3", "change", "gradient"), (-inf, inf)),
     "strain": (-LARGEST_STRAIN, LARGEST_STRAIN),
+    **dict.fromkeys(("acceleration", "force", "force_per_length", "force_per_area", "at"), (-inf, inf)),
+    **dict.fromkeys(("value", "pretension", "moment_per_length", "displacement"), (-inf, inf)),
 }
 Path = tuple[str | int, ...]  # keys, and numbers in lists
 
@@ -90,6 +113,31 @@ def parameter(scene: SceneFields, name: str) -> Parameter:
     return Parameter(name, UNITS.get(key, ""), float(_value(scene, path) or 0.0), low, high)
 
 
+def names_of(scene: SceneFields) -> list[str]:
+    """Return the names of all parameters that the scene has."""
+    lists = [getattr(scene, key) for key in LISTS]
+    joints = [getattr(one, "segments", 0) for one in scene.actuators]
+    most = max(*map(len, lists), len(scene.material.relaxation), *joints, 1)
+    ends = [f"{key}_{edge}" for key in ("curvature", "tilt") for edge in EDGES]
+    found = []
+    for name in (*(name for pattern in PLACES for name in _expanded(pattern, most)), *ends):
+        with suppress(BadInput, TypeError):
+            if isfinite(parameter(scene, name).value):  # a plane's radius is not
+                found.append(name)
+    return found
+
+
+def _expanded(pattern: str, most: int) -> Iterator[str]:
+    """Yield the names that a pattern of names stands for, with numbers up to `most`."""
+    parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
+    numbers = [str(n + 1) for n in range(most)]
+    words = [part.removeprefix("(").removesuffix(")") for part in parts]
+    choices = [
+        numbers if word == r"\d+" else [*word[1:-1]] if word[0] == "[" else word.split("|") for word in words
+    ]
+    return map("".join, product(*choices))
+
+
 def put(scene: AScene, name: str, value: float) -> AScene:
     """Return the scene with a parameter at another value. Raises BadInput where it has none of this name, and
     SceneError where the value cannot be."""
@@ -108,11 +156,13 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
     for path in paths:
         of: Any = scene
         for n, part in enumerate(path):
-            if isinstance(part, int) and not 0 <= part < len(of):
+            if isinstance(part, int) and not -len(of) <= part < len(of):
                 raise BadInput(f"'{name}': the scene has {len(of)} {path[n - 1]}")
+            pulled = part == "strain" and of.pretension is not None
             of = of[part] if isinstance(part, int) else getattr(of, part, None)
             fibres = scene.material.kind == "orthotropic"  # of which the angle is 0 unless given
-            if (of is None and not (part == "angle" and fibres)) or (name == "poisson" and fibres):
+            derived = pulled or (name == "poisson" and fibres)
+            if derived or (of is None and not (part == "angle" and fibres)):
                 where = in_keys(path[: n + 1])
                 raise BadInput(f"'{name}': the scene has no {where}; give a first guess there")
     return paths
@@ -157,6 +207,7 @@ def _replaced(of: Any, path: Path, value: Any) -> Any:
         return value
     part, inner = path[0], path[1:]
     if isinstance(part, int):
+        part %= len(of)  # -1 is the last
         return (*of[:part], _replaced(of[part], inner, value), *of[part + 1 :])
     return of.replace(**{part: _replaced(getattr(of, part), inner, value)})
 

@@ -51,7 +51,7 @@ if _TYPE_CHECKING:
     )
 
     calibrate = check = compare = crosscheck = identify = modes = new = report = score = _verb("")
-    simulate = stability = tradeoff = verify = calibrate
+    simulate = stability = sweep = tradeoff = verify = calibrate
 
 _MODULES = {  # all else is of sheetbench.scenes
     "comparisons.codes.cell": "Cell cell",
@@ -70,7 +70,8 @@ __all__ = [
     "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "Mass",
     "Material", "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric",
     "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "identify", "load", "modes",
-    "new", "report", "scenes", "score", "simulate", "solve", "stability", "study", "tradeoff", "verify",
+    "new", "report", "scenes", "score", "simulate", "solve", "stability", "study", "sweep", "tradeoff",
+    "verify",
 ]  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import reprlib
 from collections.abc import Callable, Mapping
@@ -53,9 +54,9 @@ def conversion(parameter: Parameter, separator: str | None = None) -> Callable[[
 
 
 def items_of(name: str, value: Any, separator: str | None) -> list[Any]:
-    """Return the items of a list: of one that is given alone, of a mapping as key=value; texts in parts at
-    the separator, numbers as 9 or 9x5, paths as text, objects of ours as they are."""
-    value = [f"{key}={one}" for key, one in value.items()] if isinstance(value, Mapping) else value
+    """Return the items of a list: of one that is given alone, of a mapping as key=value or key=a,b; texts in
+    parts at the separator, numbers as 9 or 9x5, paths as text, objects of ours as they are."""
+    value = [f"{key}={_listed(one)}" for key, one in value.items()] if isinstance(value, Mapping) else value
     found: list[Any] = []
     for one in value if isinstance(value, list | tuple) else [value]:
         one = _single(name, one)
@@ -66,6 +67,13 @@ def items_of(name: str, value: Any, separator: str | None) -> list[Any]:
         else:
             found.append("x".join(map(str, one)) if isinstance(one, list | tuple) else str(one))
     return found
+
+
+def _listed(values: Any) -> str:
+    """Return a mapping's value as text: of a list or an array its items with commas between."""
+    each = getattr(values, "tolist", lambda: values)()
+    each = each if isinstance(each, list | tuple) else [each]
+    return ",".join(one if isinstance(one, str) else json.dumps(one, default=str) for one in each)
 
 
 def _single(name: str, value: Any, numbers: bool = True) -> Any:

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 Shown = TypeVar("Shown", bound="Answer")
 NOT_CONVERGED = 3
-NOTES = 3  # that a terminal shows without --verbose
 PICTURES = (".svg", ".png", ".pdf", ".gif")
 COMPILED = 5.0  # s, above which it is noted: loading takes less
 
@@ -152,7 +151,7 @@ class Output:
             notes.append(
                 f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
             )
-        shown = len(report.notes) if console.verbose else NOTES
+        shown = len(report.notes) if console.verbose else report.notes_shown
         notes += report.notes[:shown]
         if (left := len(report.notes) - shown) > 0:
             notes.append(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")

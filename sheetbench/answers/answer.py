@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 
 class Answer(ABC):
     """Base of all answers; file_name: of the files under `--out`, page_name: of its tables' in Markdown,
-    where that differs."""
+    where that differs; notes_shown: how many notes a terminal shows without --verbose."""
 
     file_name: ClassVar[str] = "answer"
     page_name: ClassVar[str] = ""
+    notes_shown: ClassVar[int] = 3
 
     @abstractmethod
     def document(self) -> dict[str, Any]:
@@ -86,6 +87,7 @@ class Answer(ABC):
             tables=tuple(self.tables()),
             printed=tuple(self.printed()),
             notes=tuple(self.notes()),
+            notes_shown=self.notes_shown,
             complaints=tuple(self.complaints()),
             pictures=tuple(pictures),
             attachments=self.files(),

@@ -103,9 +103,9 @@ class Report:
     name: of the document's file; page: of the tables' in Markdown, `name` unless given.
     title, subtitle, lead: what it is about, and a line more. result: the answer in a line. tables: in the
     files, each with a name in CSV too; printed: what a terminal shows instead of them. notes: remarks under
-    the tables. complaints: what went wrong, a sentence each. document: the JSON document. attachments:
-    further files by name, with what writes them. settings: for the manifest. succeeded: whether the question
-    has its answer.
+    the tables, notes_shown of them on a terminal without --verbose. complaints: what went wrong, a sentence
+    each. document: the JSON document. attachments: further files by name, with what writes them. settings:
+    for the manifest. succeeded: whether the question has its answer.
     """
 
     name: str
@@ -118,6 +118,7 @@ class Report:
     tables: tuple[Table, ...] = ()
     printed: tuple[Table, ...] | None = None
     notes: tuple[str, ...] = ()
+    notes_shown: int = 3
     complaints: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
     attachments: Mapping[str, Write] = field(default_factory=dict)

@@ -11,7 +11,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
 
 import typer
 
@@ -86,7 +86,7 @@ class Output:
                 "retry": options.retry,
             }
 
-    def stop(self, complaint: str) -> None:
+    def stop(self, complaint: str) -> NoReturn:
         """End the command without an answer: the reason, also as the document's `stopped`, exit status 3;
         in Python NoEquilibrium."""
         from comparisons.cli import console

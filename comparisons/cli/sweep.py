@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from comparisons.cli.options import CampaignOptions, Kind, LatticeOptions, Models
 from comparisons.cli.output import PictureOptions
 from sheetbench.choices import REFERENCE
+
+if TYPE_CHECKING:
+    from comparisons.sweep.variation import Variation
 
 
 def command(
@@ -21,7 +24,7 @@ def command(
     large: bool = False,
     campaign: CampaignOptions,
     output: PictureOptions,
-) -> Any:
+) -> Variation:
     """Solve a scene for many values of its keys.
 
     Lattice, reference and further models of every combination of the values; run it again to resume.

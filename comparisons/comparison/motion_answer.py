@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison import frames
+from comparisons.comparison.errors import one_of
 from comparisons.comparison.measures import Measures, difference, leading, measured_alike
 from comparisons.sweep.limits import in_all
 from sheetbench.answers.answer import Answer
@@ -47,6 +48,15 @@ class MotionComparison(Answer):
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
     animate: bool = False
+
+    @property
+    def lattice(self) -> History:
+        """The chosen lattice's motion."""
+        return next(iter(self.histories.values()))
+
+    def __getitem__(self, model: str) -> History:
+        """Return the motion of a model by its name. Raises BadInput where there is none."""
+        return one_of(self.histories, model)
 
     @property
     def reference(self) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import cycle
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -34,7 +35,13 @@ def compose(found: Variation, style: FigureStyle = PLAIN) -> Figure:
         at = [shown.scale * one for one in values] if found.numeric(key) else [*map(str, values)]
         place = list(found.scene.probes).index(probe)
         marker = MARKERS[models.index(model) % len(MARKERS)]
-        how = {"color": colours[fixed], "marker": marker, "ms": 3.6, "lw": 0.9, "markerfacecolor": "white"}
+        how: dict[str, Any] = {
+            "color": colours[fixed],
+            "marker": marker,
+            "ms": 3.6,
+            "lw": 0.9,
+            "markerfacecolor": "white",
+        }
         how |= {"ls": (0, (4, 1.5))} if model == found.reference else {}
         left.plot(at, [1e3 * row.u[place, axis] for row in known], label=plain(f"{model}  {fixed}"), **how)
         off = [(x, 100.0 * row.error) for x, row in zip(at, known, strict=True) if row.error is not None]
@@ -46,12 +53,11 @@ def compose(found: Variation, style: FigureStyle = PLAIN) -> Figure:
         panel.set_ylabel(label)
     right.set_ylim(bottom=0.0)
     handles, labels = left.get_legend_handles_labels()
-    rows = min(len(labels), MOST)
-    columns = 1 if style.narrow else 2
-    below = {"loc": "outside lower center", "ncols": columns, "frameon": False, "fontsize": 7}
-    figure.legend(handles[:rows], labels[:rows], **below)
+    named, columns = min(len(labels), MOST), 1 if style.narrow else 2
+    below: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": 7}
+    figure.legend(handles[:named], labels[:named], loc="outside lower center", **below)
     if style.titled:
         title = plain(found.scene.title or found.scene.name, longest=110)
         figure.suptitle(title, x=0.01, ha="left", fontsize=8.5)
-    figure.set_size_inches(style.width, 2.6 * style.panels(2)[0] + 0.18 * -(-rows // columns) + 0.3)
+    figure.set_size_inches(style.width, 2.6 * style.panels(2)[0] + 0.18 * -(-named // columns) + 0.3)
     return figure

@@ -80,6 +80,7 @@ def test_a_sentence_says_how_far_the_lattice_is_from_the_sheet_as_described(tmp_
     """Its numbers are the error, bar and model error together, and with what another clamp would change; it
     comes first, on a terminal alone."""
     both = compare(SCENE, Lattice(5), elements=4)
+    assert both.lattice is both["lumped"] is both.solutions[0] and both["shell"] is both.reference
     numbers = [float(n) for n in re.findall(r"([\d.]+) %", both.sentence)]
     within = both.bar.error + both.model_error.value
     wanted = [both.error(both.solutions[0]), within, within + both.model_error.clamp]

@@ -9,8 +9,9 @@ the choices of its `Kind`; both are refused in one way for all.
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import ExitStack, nullcontext, redirect_stdout
+from contextlib import ExitStack, redirect_stdout
 from difflib import get_close_matches
 from functools import cache, wraps
 from inspect import Parameter, Signature, cleandoc, getmodule, isclass, signature
@@ -280,8 +281,14 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         try:
             declared.require(found, lambda option: option)
             of_output = {"verb": name, "terminal": False} if has_output else {}
-            said = nullcontext() if has_output else redirect_stdout(StringIO())
-            with running(**{key: value for key, value in held.items() if value}), said:
+            with ExitStack() as stack:
+                if not has_output:
+                    stack.enter_context(redirect_stdout(StringIO()))
+                elif held["progress"] is None and "ipykernel" in sys.modules:
+                    from comparisons.cli import console  # with rich
+
+                    held["progress"] = stack.enter_context(console.progress())
+                stack.enter_context(running(**{key: value for key, value in held.items() if value}))
                 return command(**declared.grouped(found, **of_output))
         except BadInput as error:
             error.args = (OPTIONS.sub(_in_python, str(error)),)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from sheetbench.answers import notebook
 from sheetbench.answers.report import ROWS, Picture, Report, Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput
@@ -109,3 +110,13 @@ class Answer(ABC):
 
     def __repr__(self) -> str:
         return self.report().text(ROWS)
+
+    def _repr_mimebundle_(self, **kinds: Any) -> dict[str, Any]:
+        """Return tables and picture for a notebook, drawn once."""
+        return notebook.bundle(self.report())
+
+    def _repr_html_(self) -> str:
+        return str(notebook.bundle(self.report())["text/html"])
+
+    def _repr_png_(self) -> bytes | None:
+        return notebook.drawn(self.report().pictures)

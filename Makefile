@@ -75,6 +75,10 @@ test: $(VENV)/testing lint kernels
 check: $(VENV)/testing lint kernels
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m 'smoke and not nightly and not slow'
 
+# what type checkers read of `import sheetbench`
+stubs:
+	@PYTHONPATH=tests/helpers $(BIN)/python tests/helpers/stubs.py
+
 # once, and not by each of the tests' processes
 kernels: $(VENV)/testing
 	@$(BIN)/python tests/helpers/kernels.py

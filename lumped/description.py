@@ -13,6 +13,8 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
+from lumped.dynamics.explicit.stable_steps import StableSteps, stable_steps
+from lumped.dynamics.system import System
 from lumped.lattice import Lattice
 from lumped.masses import masses
 from lumped.springs.all_families import table_dampers
@@ -20,11 +22,13 @@ from lumped.springs.families import Links, SpringCells
 from lumped.springs.law_table import AREA_AND_STRAINS, ENERGIES
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, solve_from_best_start
+from lumped.vibration import modes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, free_rigid_motions, require_no_branches, require_static
 from sheetbench.scenes.objects.supports import named
 
+EQUILIBRIUM = "equilibrium"  # a state to check by
 STRETCH, WARP, TURN = 0.02, -0.05, 2.0  # of the imposed states: strain, height over length, rad in all
 
 
@@ -44,8 +48,7 @@ class LinkTable:
 class CellTable:
     """Springs of one kind of `lumped.springs.law_table.ENERGIES`: corners (c, 4, p), the masses whose mean
     each corner is; rest_area (c,) [m²]; natural (c, 3) [m²], A·A, B·B and A·B of the mean sides without
-    stress; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n) [N·s/m]; energy: its
-    formula."""
+    stress; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n) [N·s/m]."""
 
     kind: str
     corners: np.ndarray
@@ -53,7 +56,6 @@ class CellTable:
     natural: np.ndarray
     stiffness: np.ndarray
     damping: np.ndarray
-    energy: str
 
 
 @dataclass(frozen=True)
@@ -94,8 +96,9 @@ class CheckState:
 class Description:
     """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
     (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: points (`lumped.contact.Contact.table`); notes: what of
-    the scene is not in here. Masses of no cell, which an outline or cutouts leave, are left out."""
+    `pressed` (c, 4, p) of the mid-surface; contact: points (`lumped.contact.Contact.table`); steps: how to
+    move it; notes: what of the scene is not in here. Masses of no cell, which an outline or cutouts leave,
+    are left out."""
 
     index: np.ndarray
     positions: np.ndarray
@@ -110,6 +113,7 @@ class Description:
     couples: tuple[Couple, ...]
     contact: tuple[np.ndarray, ...]
     states: tuple[CheckState, ...]
+    steps: StableSteps
     notes: tuple[str, ...] = ()
 
 
@@ -140,13 +144,17 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     columns, moments, pressures = loads.at_time(None)
     pressed = pressures != 0.0
     states, why = _check_states(scene, calibration, problem)
+    weight = masses(scene, lattice, calibration.masses, calibration.cells)
+    shapes = [flat, *(one.displacement for one in states if one.name == EQUILIBRIUM)]
+    lowest = modes(scene, calibration, 1, calibration.masses).frequencies[0]
+    steps = stable_steps(System(scene, problem, weight), shapes, float(lowest))
     none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
     points = zip(none, *(one.table() for one in problem.contacts), strict=True)
     touching, *touched = map(np.concatenate, points)
     return Description(
         index=np.indices((ny, nx, layers)).reshape(3, -1)[[1, 0, 2]].T[there],
         positions=lattice.positions[there],
-        mass=masses(scene, lattice, calibration.masses, calibration.cells)[there],
+        mass=weight[there],
         damping_rate=scene.material.damping_rate,
         links=_links(scene, assembly, number),
         cells=tuple(_cells(scene, assembly, number)),
@@ -162,6 +170,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         states=tuple(
             replace(one, displacement=one.displacement[there], force=one.force[there]) for one in states
         ),
+        steps=steps,
         notes=(*_left_out(scene), *why),
     )
 
@@ -189,7 +198,7 @@ def _cells(scene: Scene, assembly: Assembly, number: np.ndarray) -> Iterator[Cel
     """Yield the springs of each kind, and dampers where there are no springs."""
     time = 0.0 if scene.dampers is not None else scene.material.dashpot_time
     families = [family for family in assembly.springs if isinstance(family, SpringCells)]
-    for kind, energy in ENERGIES.items():
+    for kind in ENERGIES:
         for family in families:
             own, natural, area = _without_stress(family)
             stiffness = family.law.parts(own, family.others, area).get(kind)
@@ -199,7 +208,7 @@ def _cells(scene: Scene, assembly: Assembly, number: np.ndarray) -> Iterator[Cel
             if (on := np.any(pair[0], axis=-1) | np.any(pair[1], axis=-1)).any():
                 springs, dampers = (each[on] for each in pair)
                 nodes = number[family.nodes[on]]
-                yield CellTable(kind, nodes, area[on], natural[on], springs, dampers, energy)
+                yield CellTable(kind, nodes, area[on], natural[on], springs, dampers)
 
 
 def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -265,7 +274,7 @@ def _check_states(
         require_static(scene)
         path = solve_from_best_start(problem, calibration)
         if path.status is Status.CONVERGED:
-            shapes.append(("equilibrium", "under supports and loads", path.state.u))
+            shapes.append((EQUILIBRIUM, "under supports and loads", path.state.u))
         else:
             why = (f"no equilibrium to check by: {path.status}: {'; '.join(path.notes)}",)
     states = []

@@ -12,66 +12,30 @@ A function takes a scene, a name or a path, and is loaded when it is first used.
 from __future__ import annotations
 
 from importlib import import_module as _import_module
-from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from sheetbench.choices import FUNCTIONS as _FUNCTIONS
 
-if _TYPE_CHECKING:
-    import sheetbench.scenes as scenes
-    from comparisons.codes.cell import Cell
-    from comparisons.codes.cell import cell_of as cell
-    from comparisons.comparison.comparison import error
-    from comparisons.identification.measurements import Displacements
-    from comparisons.models.spec import Elements, External, Lattice
-    from sheetbench.answers.history import History
-    from sheetbench.answers.solution import Solution, Status
-    from sheetbench.face import solve, study
-    from sheetbench.face import verb as _verb
-    from sheetbench.scenes import (
-        BadInput,
-        Chain,
-        Clamped,
-        Curved,
-        EdgeLoad,
-        EdgeMotion,
-        Gravity,
-        Held,
-        Hinged,
-        Implausible,
-        Mass,
-        Material,
-        PointLoad,
-        Pressure,
-        Scene,
-        SceneError,
-        Sheet,
-        Symmetric,
-        catalogue,
-        load,
-    )
-
-    calibrate = check = compare = crosscheck = identify = modes = new = report = score = _verb("")
-    simulate = stability = tradeoff = verify = calibrate
-
-_MODULES = {  # all else is of sheetbench.scenes
-    "comparisons.codes.cell": "Cell cell",
+_MODULES = {  # `__init__.pyi`, which type checkers read, is made of these and of the verbs: make stubs
+    "comparisons.codes.cell": "Cell cell_of=cell",
     "comparisons.comparison.comparison": "error",
     "comparisons.identification.measurements": "Displacements",
     "comparisons.models.spec": "Elements External Lattice",
     "sheetbench.answers.history": "History",
     "sheetbench.answers.solution": "Solution Status",
     "sheetbench.face": "solve study",
+    "sheetbench.scenes": (
+        "Air AreaLoad BadInput Chain Circle Clamped CurvatureTable Curved Cutout Cylinder EdgeLoad "
+        "EdgeMotion FactorTable Gravity Held Hinged Implausible Initial Layer Mass Material Motion Natural "
+        "Patch PerDirection Plane Point PointLoad Pressure Rectangle Relaxation Scene SceneError Shape Sheet "
+        "Sphere Symmetric Temperature DamperSet=Dampers SpringSet=Springs catalogue load"
+    ),
 }
-_MODULE_OF = {name: module for module, names in _MODULES.items() for name in names.split()}
-_NAME_THERE = {"cell": "cell_of"}
-
-__all__ = [
-    "BadInput", "Cell", "Chain", "Clamped", "Curved", "Displacements", "EdgeLoad", "EdgeMotion", "Elements",
-    "External", "Gravity", "Held", "Hinged", "History", "Implausible", "Lattice", "Mass",
-    "Material", "PointLoad", "Pressure", "Scene", "SceneError", "Sheet", "Solution", "Status", "Symmetric",
-    "calibrate", "catalogue", "cell", "check", "compare", "crosscheck", "error", "identify", "load", "modes",
-    "new", "report", "scenes", "score", "simulate", "solve", "stability", "study", "tradeoff", "verify",
-]  # fmt: skip
+_PLACES = {
+    (entry.partition("=")[2] or entry): (module, entry.partition("=")[0])
+    for module, names in _MODULES.items()
+    for entry in names.split()
+}
+__all__ = sorted([*_PLACES, *_FUNCTIONS, "scenes"])
 
 
 def __getattr__(name: str) -> object:
@@ -81,12 +45,12 @@ def __getattr__(name: str) -> object:
         return version("sheetbench")
     if name == "scenes":
         return _import_module("sheetbench.scenes")
-    if name not in __all__:
-        raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
     if name in _FUNCTIONS:
         return _import_module("sheetbench.face").verb(name)
-    module = _import_module(_MODULE_OF.get(name, "sheetbench.scenes"))
-    return getattr(module, _NAME_THERE.get(name, name))
+    if name not in _PLACES:
+        raise AttributeError(f"module 'sheetbench' has no attribute {name!r}")
+    module, there = _PLACES[name]
+    return getattr(_import_module(module), there)
 
 
 def __dir__() -> list[str]:

@@ -87,8 +87,8 @@ STRAIN_LAWS = {
     "neo-hookean": "compressible, for rubbers and silicones",
 }
 FUNCTIONS = (  # the verbs that are functions too
-    *("new", "check", "compare", "simulate", "tradeoff", "stability", "crosscheck", "calibrate", "identify"),
-    *("modes", "score", "verify", "report"),
+    *("new", "check", "compare", "simulate", "sweep", "tradeoff", "stability", "crosscheck", "calibrate"),
+    *("identify", "modes", "score", "verify", "report"),
 )
 VERBS = (*FUNCTIONS, "live", "study")
 SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")  # of the reference set

@@ -26,6 +26,10 @@ class SceneError(BadInput):
     """A scene that cannot be read or asks something impossible; the text names file, key and value."""
 
 
+class WrongArgument(SceneError, TypeError):
+    """A keyword that a function or an object does not have, one too many, or one that is missing."""
+
+
 class Impossible(SceneError):
     """What a scene that reads well does not go with; the text names the scene, and whoever knows its file
     puts that before it."""

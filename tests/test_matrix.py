@@ -146,6 +146,13 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
     "tradeoff two-edges-settling --duration 0.004 --plate 1 --shell 1 --elements 2 --solid= --workers 1": [
         (("--lumped", "3x4", "--calibration", "hyperelastic", "--json"), ("--k", "550", "--out", "{folder}")),
     ],
+    "sweep --vary sheet.thickness=2mm,3mm --workers 1": [
+        (("one-edge-clamped",), ("{pressed}",), ("{weightless}",), ("{touching}",)),
+        (("--lumped", "3"), ("--lumped", "3x4")),
+        ((), ("--calibration", "hyperelastic"), ("--k", "550")),
+        (("--reference", "plate", "--elements", "2"), ("--reference", "", "--model", "shell:elements=2")),
+        OUTPUTS[:3],
+    ],
     "crosscheck --plate 2,3 --shell 2,3 --judges= --workers 1": [
         (("one-edge-clamped",), ("{pressed}",), ("{natural}",), ("{touching}",)),
         (("--lumped", "3,4,5"), ("--lumped", "3,4")),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import reprlib
 from collections.abc import Callable, Mapping
@@ -13,6 +14,15 @@ from typing import Annotated, Any, get_args, get_origin
 
 from comparisons.cli.options import Kind
 
+SIZE = "int | Sequence[int] | str"
+IN_PYTHON = {  # what else than a text is taken, by the parameter's name or what its value is called
+    "measured": "Displacements | str | Path",
+    **dict.fromkeys(("SCENE", "SCENES"), "Scene | str | Path"),
+    **dict.fromkeys(("GRID", "GRIDS", "N", "N,N,N", "ELEMENTS"), SIZE),
+    **dict.fromkeys(("DIR", "FILE", "FILES"), "str | Path"),
+    **dict.fromkeys(("MODEL", "MODELS"), "Spec | str"),
+    **{"CELL": "Cell | str", "G": "Grading | float | str", "M": "float | Sequence[float] | str"},
+}
 OURS = ("sheetbench", "comparisons", "lumped", "fem_reference")  # packages
 
 
@@ -28,6 +38,27 @@ def plain(parameter: Parameter) -> Parameter:
     if get_origin(annotation) is Annotated:
         annotation = get_args(annotation)[0]
     return parameter.replace(annotation=annotation)
+
+
+def in_python(parameter: Parameter, metavar: str | None) -> Parameter:
+    """Return a parameter with the types that it takes in Python; metavar: what its value is called."""
+    own = plain(parameter).annotation
+    if isinstance(own, str):
+        return parameter
+    text, called = str(own), (metavar or "").strip("[]")
+    taken = next((kind for kind in ("int", "bool", "float") if kind in text), "str")
+    if "tuple" in text:
+        taken = "tuple[float, float]"
+    elif taken == "float":
+        taken = "float | str"
+    elif taken == "str":
+        taken = IN_PYTHON.get(parameter.name) or IN_PYTHON.get(
+            called, "str | Path" if "Path" in text else "str"
+        )
+    if "list[" in text:
+        mapped = "Mapping[str, Any] | " if "=" in called or called == "FILES" else ""
+        taken = f"{mapped}Sequence[{taken}] | {taken}"
+    return parameter.replace(annotation=f"{taken} | None" if "None" in text else taken)
 
 
 def conversion(parameter: Parameter, separator: str | None = None) -> Callable[[Any], Any]:
@@ -53,9 +84,9 @@ def conversion(parameter: Parameter, separator: str | None = None) -> Callable[[
 
 
 def items_of(name: str, value: Any, separator: str | None) -> list[Any]:
-    """Return the items of a list: of one that is given alone, of a mapping as key=value; texts in parts at
-    the separator, numbers as 9 or 9x5, paths as text, objects of ours as they are."""
-    value = [f"{key}={one}" for key, one in value.items()] if isinstance(value, Mapping) else value
+    """Return the items of a list: of one that is given alone, of a mapping as key=value or key=a,b; texts in
+    parts at the separator, numbers as 9 or 9x5, paths as text, objects of ours as they are."""
+    value = [f"{key}={_listed(one)}" for key, one in value.items()] if isinstance(value, Mapping) else value
     found: list[Any] = []
     for one in value if isinstance(value, list | tuple) else [value]:
         one = _single(name, one)
@@ -66,6 +97,13 @@ def items_of(name: str, value: Any, separator: str | None) -> list[Any]:
         else:
             found.append("x".join(map(str, one)) if isinstance(one, list | tuple) else str(one))
     return found
+
+
+def _listed(values: Any) -> str:
+    """Return a mapping's value as text: of a list or an array its items with commas between."""
+    each = getattr(values, "tolist", lambda: values)()
+    each = each if isinstance(each, list | tuple) else [each]
+    return ",".join(one if isinstance(one, str) else json.dumps(one, default=str) for one in each)
 
 
 def _single(name: str, value: Any, numbers: bool = True) -> Any:

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from comparisons.cli.options import Kind, LatticeOptions, Metres, SheetOptions
 from comparisons.cli.output import OutputOptions, command_line
 from comparisons.cli.verb import no_effect
 from sheetbench.choices import CALIBRATIONS
+
+if TYPE_CHECKING:
+    from comparisons.calibration.calibrate import SheetCalibration
+    from comparisons.codes.cell_moduli import CellModuli
+    from comparisons.codes.setup import CodeSetup
 
 SUMMARIES = "; ".join(f"{name}: {method.summary}" for name, method in CALIBRATIONS.items())
 SPRINGS = "calibration k layer_distance grading toml"
@@ -38,7 +43,11 @@ def command(
     prony: Path | None = None,
     large: bool = False,
     output: OutputOptions,
-) -> Any:
+) -> Annotated[
+    SheetCalibration | CodeSetup | CellModuli,
+    "for_: SheetCalibration | CodeSetup",
+    "cell: CellModuli",
+]:
     """Find spring constants for a sheet, or another code's numbers.
 
     Give a SCENE, or --young --poisson --thickness --side; with both, the options change the scene's values.

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
+
+if TYPE_CHECKING:
+    from comparisons.models.catalogue import Catalogue, Schema
+    from comparisons.models.check import Check
 
 
 @no_effect(with_schema="scene")
@@ -14,7 +18,7 @@ def command(
     *,
     schema: bool = False,
     output: PictureOptions,
-) -> Any:
+) -> Check | Catalogue | Schema:
     """Say what will be solved and warn of slips; list the catalogue.
 
     Without a SCENE the catalogue is listed. --out draws the scene and copies those of the catalogue, to start

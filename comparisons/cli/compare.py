@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from comparisons.cli.options import LatticeOptions, Models, Seconds
 from comparisons.cli.output import PictureOptions
@@ -11,6 +11,8 @@ from comparisons.cli.verb import no_effect
 from sheetbench.choices import REFERENCE
 
 if TYPE_CHECKING:
+    from comparisons.comparison.answer import Comparison
+    from comparisons.comparison.motion_answer import MotionComparison
     from sheetbench.answers.solution import Solution
 
 FRAMES = 100  # of a motion
@@ -32,7 +34,7 @@ def command(
     animate: bool = False,
     large: bool = False,
     output: PictureOptions,
-) -> Any:
+) -> Annotated[Comparison | MotionComparison, "duration: MotionComparison"]:
     """Solve a scene with the lattice and a reference, side by side.
 
     What differs is shown with the reference's error bar, and what it cost. Where no calibration is named,

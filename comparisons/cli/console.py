@@ -20,6 +20,7 @@ err = Console(stderr=True, highlight=False)
 _quiet = False
 verbose = False  # all notes
 QUIET, BETWEEN = 2.0, 10.0  # s without a line of progress where there is no terminal: at first, and later
+REFRESHED = 0.3  # s between changes of the line of progress in a notebook
 
 
 @contextmanager
@@ -36,9 +37,14 @@ def speaking(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
 @contextmanager
 def progress() -> Iterator[Callable[[object], None]]:
     """Yield a function that shows what is being done, a `Work`, a campaign's progress or a text: a spinner on
-    a terminal, else a line now and then, and at once of what says that it is to be told at once."""
+    a terminal, in a notebook a line that changes, else a line now and then, and at once of what says that it
+    is to be told at once."""
     if _quiet:
         yield lambda what: None
+        return
+    if err.is_jupyter:
+        with _in_notebook() as show_there:
+            yield show_there
         return
     if not err.is_terminal:
         due = monotonic() + QUIET
@@ -53,6 +59,29 @@ def progress() -> Iterator[Callable[[object], None]]:
         return
     with err.status("", spinner="line") as spinner:
         yield lambda what: spinner.update(Text(terminal(str(what))))
+
+
+@contextmanager
+def _in_notebook() -> Iterator[Callable[[object], None]]:
+    """Yield a function that shows a text in one place of a notebook's cell, which is empty at the end."""
+    from IPython.display import display
+
+    handle, due = None, monotonic() + REFRESHED
+
+    def change(what: object) -> None:
+        nonlocal handle, due
+        if monotonic() >= due:
+            text, due = Text(terminal(str(what)), style="dim"), monotonic() + REFRESHED
+            if handle is None:
+                handle = display(text, display_id=True)
+            else:
+                handle.update(text)
+
+    try:
+        yield change
+    finally:
+        if handle is not None:
+            handle.update({"text/plain": ""}, raw=True)
 
 
 def tell(text: str) -> None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from comparisons.cli.options import CampaignOptions, SpringOptions
 from comparisons.cli.output import PictureOptions
+
+if TYPE_CHECKING:
+    from comparisons.comparison.crosscheck_answer import Crosscheck
 
 SIZES = {"lumped": "9,13,17", "plate": "8,12,16", "shell": "8,12,16", "solid": "6,8,12"}
 
@@ -24,7 +27,7 @@ def command(
     large: bool = False,
     campaign: CampaignOptions,
     output: PictureOptions,
-) -> Any:
+) -> Crosscheck:
     """Compare models and external codes, each with its convergence.
 
     An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from comparisons.cli.options import Kind, LatticeOptions, Metres
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
+
+if TYPE_CHECKING:
+    from comparisons.identification.answer import Identification
+    from comparisons.identification.tensile.tensile import TensileFit
 
 OF_SCENE = "scene measured uncertainty unknown model elements law offset refine lattice grid calibration k"
 
@@ -31,7 +35,7 @@ def command(
     refine: bool = True,
     large: bool = False,
     output: PictureOptions,
-) -> Any:
+) -> Annotated[Identification | TensileFit, "tensile: TensileFit"]:
     """Fit material or support values to measurements of a sheet.
 
     With 95 % intervals. The search starts at the scene's values; at others too if that fit is poor. Without

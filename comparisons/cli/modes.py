@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, cast
 
 from comparisons.cli.options import Kind, LatticeOptions
 from comparisons.cli.output import PictureOptions
@@ -10,6 +10,8 @@ from comparisons.cli.verb import no_effect
 from sheetbench.choices import ELEMENTS, REFERENCE
 
 if TYPE_CHECKING:
+    from comparisons.modes.answer import Spectra
+    from comparisons.modes.state_space import Linearisation
     from sheetbench.answers.solution import About
 
 
@@ -28,7 +30,7 @@ def command(
     reduce: str | None = None,
     large: bool = False,
     output: PictureOptions,
-) -> Any:
+) -> Annotated[Spectra | Linearisation, "state_space: Linearisation"]:
     """List natural frequencies; buckling loads; control matrices.
 
     Frequencies of lattice and reference, of the flat sheet or about its equilibrium. With --state-space the

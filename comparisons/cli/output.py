@@ -11,7 +11,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
 
 import typer
 
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 Shown = TypeVar("Shown", bound="Answer")
 NOT_CONVERGED = 3
-NOTES = 3  # that a terminal shows without --verbose
 PICTURES = (".svg", ".png", ".pdf", ".gif")
 COMPILED = 5.0  # s, above which it is noted: loading takes less
 
@@ -87,7 +86,7 @@ class Output:
                 "retry": options.retry,
             }
 
-    def stop(self, complaint: str) -> None:
+    def stop(self, complaint: str) -> NoReturn:
         """End the command without an answer: the reason, also as the document's `stopped`, exit status 3;
         in Python NoEquilibrium."""
         from comparisons.cli import console
@@ -152,7 +151,7 @@ class Output:
             notes.append(
                 f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
             )
-        shown = len(report.notes) if console.verbose else NOTES
+        shown = len(report.notes) if console.verbose else report.notes_shown
         notes += report.notes[:shown]
         if (left := len(report.notes) - shown) > 0:
             notes.append(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")

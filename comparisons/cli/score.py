@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from comparisons.cli.options import Kind
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from sheetbench.choices import SUITES
+
+if TYPE_CHECKING:
+    from comparisons.scoring.score import Score
+    from comparisons.scoring.suite import Suite
 
 
 @no_effect(without_answers="case")
@@ -18,7 +22,7 @@ def command(
     suite: Annotated[str | None, Kind(choices=SUITES)] = None,
     case: list[str] | None = None,
     output: PictureOptions,
-) -> Any:
+) -> Annotated[Suite | Score, "answers: Score"]:
     """List the reference set, or score somebody's answers to it.
 
     Without ANSWERS list the set: scenes with converged values, error bars, and why each is in it; --out

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from comparisons.cli.options import Kind, LatticeOptions, Seconds
 from comparisons.cli.output import PictureOptions
 from sheetbench.choices import INTEGRATOR, INTEGRATORS
+
+if TYPE_CHECKING:
+    from comparisons.comparison.simulation import Simulation
 
 FRAMES = 100
 SUMMARIES = "; ".join(f"{name}: {summary}" for name, summary in INTEGRATORS.items())
@@ -24,7 +27,7 @@ def command(
     animate: bool = False,
     large: bool = False,
     output: PictureOptions,
-) -> Any:
+) -> Simulation:
     """Move the lattice from rest; with --out it streams and resumes.
 
     Gravity and loads are on at t = 0. With --out the same command resumes a run.

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from comparisons.cli.options import CampaignOptions, Kind, LatticeOptions
 from comparisons.cli.output import PictureOptions
 from sheetbench.choices import REFERENCE, VARIED
+
+if TYPE_CHECKING:
+    from comparisons.stability.answer import Stability
 
 
 def command(
@@ -19,7 +22,7 @@ def command(
     large: bool = False,
     campaign: CampaignOptions,
     output: PictureOptions,
-) -> Any:
+) -> Stability:
     """Map where each model is accurate, degrades, refuses or fails.
 
     Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from comparisons.cli.options import CampaignOptions, Kind, Models, Seconds, Share, SpringOptions
 from comparisons.cli.output import PictureOptions
 from comparisons.cli.verb import no_effect
 from comparisons.tradeoff import usual
 from sheetbench.choices import INTEGRATORS, REFERENCE, REFERENCES
+
+if TYPE_CHECKING:
+    from comparisons.tradeoff.advice import Advice
+    from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
 
 OF_ROWS = "model elements repeats duration integrator workers scheduler retry"
 
@@ -39,7 +43,12 @@ def command(
     large: bool = False,
     campaign: CampaignOptions,
     output: PictureOptions,
-) -> Any:
+) -> Annotated[
+    Tradeoff | DynamicTradeoff | Advice,
+    "duration: DynamicTradeoff",
+    "tolerance: Advice",
+    "budget: Advice",
+]:
     """Trade error against time over models, or choose the cheapest.
 
     What each model gets wrong and what it costs; run it again to resume. An empty list leaves a model out:

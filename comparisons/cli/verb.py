@@ -9,17 +9,19 @@ the choices of its `Kind`; both are refused in one way for all.
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import ExitStack, nullcontext, redirect_stdout
+from contextlib import ExitStack, redirect_stdout
+from difflib import get_close_matches
 from functools import cache, wraps
-from inspect import Parameter, Signature, cleandoc, isclass, signature
+from inspect import Parameter, Signature, cleandoc, getmodule, isclass, signature
 from io import StringIO
 from typing import Annotated, Any
 
 import typer
 
 from comparisons.cli import interruption, options
-from comparisons.cli.arguments import conversion, items_of, kind_of, plain
+from comparisons.cli.arguments import conversion, in_python, items_of, kind_of, plain
 from comparisons.cli.options import CampaignOptions, Group, LatticeOptions, Words, words_of
 from comparisons.cli.output import OutputOptions
 
@@ -45,7 +47,7 @@ class _Declared:
     """A command's parameters, those of its groups one by one."""
 
     def __init__(self, command: Command) -> None:
-        self.command, self.own = command, signature(command, eval_str=True)
+        self.command, self.own = command, evaluated(command)
         self.groups: dict[str, type[Group]] = {
             name: one.annotation
             for name, one in self.own.parameters.items()
@@ -129,6 +131,14 @@ class _Declared:
         settings |= {} if kind.unit is None else {"parser": _quantity_in(kind.unit)}
         info = typer.Option(*_names(one), hidden=hidden, min=kind.least, **settings)
         return one.replace(annotation=Annotated[own, info])
+
+
+def evaluated(command: Command) -> Signature:
+    """Return a command's signature, its parameters' types evaluated; what it returns is not imported."""
+    own, names = signature(command), vars(getmodule(command))
+    types = [eval(one.annotation, names) for one in own.parameters.values()]
+    each = zip(own.parameters.values(), types, strict=True)
+    return own.replace(parameters=[one.replace(annotation=kind) for one, kind in each])
 
 
 def _flag(name: str) -> str:
@@ -231,30 +241,34 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         found += kind.parameters() if kind is not None else []
     has_output = any(issubclass(kind, OutputOptions) for kind in declared.groups.values())
     if has_output:
-        shown: Any = {"default": None, "annotation": "Callable[[Any], None]"}
+        shown: Any = {"default": None, "annotation": "Callable[[Any], object] | None"}
         found.append(Parameter("progress", Parameter.KEYWORD_ONLY, **shown))
 
     def place(one: Parameter) -> tuple[int, bool]:
         return one.kind, one.kind is Parameter.KEYWORD_ONLY and one.default is not Parameter.empty
 
-    own = Signature(sorted((plain(one) for one in found if one.name not in TERMINAL), key=place))
+    metavars = {name: words.metavar for name, words in declared.words.items()}
+    taken = (in_python(one, metavars.get(one.name)) for one in found if one.name not in TERMINAL)
+    own = Signature(sorted(taken, key=place), return_annotation=declared.own.return_annotation)
     converted = {one.name: conversion(one, declared.separators.get(one.name)) for one in declared.each()}
 
     @wraps(command)
     def run(*values: Any, **named: Any) -> Any:
         from comparisons.models.context import running
-        from sheetbench.errors import BadInput
+        from sheetbench.errors import BadInput, WrongArgument
         from sheetbench.scenes import Scene
         from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
         if "lumped" in named and "grid" in own.parameters:  # one option, as on the command line
             if "grid" in named:
-                raise BadInput(f"{name}: lumped and grid are one; give one of them")
+                raise WrongArgument(f"{name}: lumped and grid are one; give one of them")
             named["grid"] = named.pop("lumped")
         try:
             bound = own.bind(*values, **named)
         except TypeError as error:
-            raise BadInput(f"{name}: {error}; it has {', '.join(own.parameters)}") from None
+            wrong = next((key for key in named if key not in own.parameters), "")
+            near = "".join(f"; did you mean {key}?" for key in get_close_matches(wrong, own.parameters, 1))
+            raise WrongArgument(f"{name}: {error}; it has {', '.join(own.parameters)}{near}") from None
         bound.apply_defaults()
         found = dict(bound.arguments)
         written = [one for one in found.values() if isinstance(one, Scene)]
@@ -267,8 +281,14 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         try:
             declared.require(found, lambda option: option)
             of_output = {"verb": name, "terminal": False} if has_output else {}
-            said = nullcontext() if has_output else redirect_stdout(StringIO())
-            with running(**{key: value for key, value in held.items() if value}), said:
+            with ExitStack() as stack:
+                if not has_output:
+                    stack.enter_context(redirect_stdout(StringIO()))
+                elif held["progress"] is None and "ipykernel" in sys.modules:
+                    from comparisons.cli import console  # with rich
+
+                    held["progress"] = stack.enter_context(console.progress())
+                stack.enter_context(running(**{key: value for key, value in held.items() if value}))
                 return command(**declared.grouped(found, **of_output))
         except BadInput as error:
             error.args = (OPTIONS.sub(_in_python, str(error)),)

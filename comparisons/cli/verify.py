@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from comparisons.cli.output import PictureOptions
+
+if TYPE_CHECKING:
+    from fem_reference.verification.cases import Verification
 
 
 def command(
     case: list[str] | None = None,
     *,
     output: PictureOptions,
-) -> Any:
+) -> Verification:
     """Check the references against published values.
 
     One row each: exit status 3 unless all pass.

@@ -16,7 +16,7 @@ from comparisons.codes.tables import NAMES, arrays, contacts, natural, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.escape import markdown
-from sheetbench.answers.files import write_text
+from sheetbench.answers.files import to_json, write_text
 from sheetbench.answers.report import Write
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
@@ -98,6 +98,12 @@ link, the gradients above with c1 (da/dt)/a0 and (c1 de1/dt, c2 de2/dt, c3 dg/dt
 of the couplings; of rubber those of its small strains, rows of kind `area` and `strain` without stiffness.
 Drag on every mass: {rate:g} 1/s × mass × velocity, against its motion.
 
+Largest steps with these masses, springs and dampers, in `motion.json` too: {steps[symplectic_euler]:.4g} s
+of symplectic Euler (v ← v + h a(x, v), x ← x + h v), {steps[velocity_verlet]:.4g} s of velocity Verlet
+(w = v + h/2 a(x, v), x ← x + h w, v ← w + h/2 a(x, w)), a the force over the mass, dampers included:
+{share:g} of the limit at the highest frequency, {highest:.4g} Hz{bound}. To come to rest soonest: the lowest
+mode, {lowest:.4g} Hz flat, is critically damped by a drag of {critical:.4g} 1/s × mass × velocity.
+
 ## Supports and loads
 
 - `supports.csv`: the mean displacement of the masses along one component is held.
@@ -138,6 +144,12 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         about=about,
         states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
         rate=lattice.damping_rate,
+        steps=lattice.steps.advised,
+        share=lattice.steps.share,
+        bound="" if lattice.steps.exact else ", a bound: dampers or contact may allow more",
+        highest=lattice.steps.highest,
+        lowest=lattice.steps.lowest,
+        critical=lattice.steps.critical_rate,
         layers=layers,
         natural=NATURAL if scene.natural_by else "",
         notes=notes,
@@ -174,6 +186,7 @@ def lattice_files(
     texts = {**tables(lattice), **differing, "README.md": page(lattice, scene, calibration, own), **own}
     values = arrays(lattice)
     found: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}
+    found["motion.json"] = partial(write_text, text=to_json(lattice.steps.as_dict()))
     found["lattice.npz"] = partial(write_npz, values=values)
     found["lattice.mat"] = partial(write_mat, values=values)
     return found, list(lattice.notes)

@@ -26,6 +26,9 @@ NAMES = {  # and what they are
     "index": "(n, 3) of each mass along x, along y, through the thickness",
     "mass": "(n,) [kg]",
     "damping_rate": "drag of each mass over its mass [1/s]",
+    "critical_damping_rate": "of it at which the lowest mode does not swing [1/s]",
+    "symplectic_euler_step": "largest step [s]",
+    "velocity_verlet_step": "largest step [s]",
     "link_masses": "(m, 2) masses at the ends",
     "link_family": "(m,) names",
     "link_rest_length": "(m,) [m]",
@@ -79,6 +82,8 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
         "index": lattice.index,
         "mass": lattice.mass,
         "damping_rate": np.array(lattice.damping_rate),
+        "critical_damping_rate": np.array(lattice.steps.critical_rate),
+        **{f"{name}_step": np.array(step) for name, step in lattice.steps.advised.items()},
         **{f"link_{name}": values for name, values in vars(lattice.links).items()},
         "hold_masses": _repeated([hold.masses for hold in lattice.holds], layers),
         "hold_axis": np.array([hold.axis for hold in lattice.holds], dtype=int),
@@ -122,7 +127,6 @@ Row = Sequence[Any]
 def tables(lattice: Description) -> dict[str, str]:
     """Return the text of every file by its name."""
     numbers, corners = np.arange(len(lattice.mass)), ",".join(f"corner_{n}" for n in range(1, 5))
-    formulas = dict.fromkeys(f"{table.kind}: E = {table.energy}" for table in lattice.cells)
     width = max(3, *(table.stiffness.shape[1] for table in lattice.cells), 0)
     cells = [
         "kind", corners, "rest_area", *(f"stiffness_{n}" for n in range(1, width + 1)),
@@ -134,7 +138,7 @@ def tables(lattice: Description) -> dict[str, str]:
             "number,i,j,k,x,y,z,mass", _rows(numbers, lattice.index, lattice.positions, lattice.mass)
         ),
         "links.csv": _csv("a,b,family,rest_length,stiffness,damping", _rows(*vars(lattice.links).values())),
-        "cells.csv": _csv(",".join(cells), _cells(lattice, width), "; ".join((*formulas, "force -dE/dx"))),
+        "cells.csv": _csv(",".join(cells), _cells(lattice, width)),
         "supports.csv": _csv(
             "edge,masses,component,displacement",
             (
@@ -166,12 +170,11 @@ def _followers(lattice: Description) -> Iterator[Row]:
 
 
 def _cells(lattice: Description, width: int) -> Iterator[Row]:
-    """Kind, corners, area at rest, stiffness and damping of every cell with springs, and its energy."""
+    """Kind, corners, area at rest, stiffness and damping of every cell with springs."""
     for table in lattice.cells:
         corners = np.array([[*map(_joined, masses)] for masses in table.corners.tolist()])
         stiffness, damping = _wide(table.stiffness, width), _wide(table.damping[:, :3], 3)
-        kind, energy = ([text] * len(corners) for text in (table.kind, table.energy))
-        yield from _rows(kind, corners, table.rest_area, stiffness, damping, energy)
+        yield from _rows([table.kind] * len(corners), corners, table.rest_area, stiffness, damping)
 
 
 def natural(lattice: Description) -> str:
@@ -215,9 +218,9 @@ def _joined(masses: Sequence[int]) -> str:
     return "+".join(map(str, masses))
 
 
-def _csv(header: str, rows: Iterable[Row], last: str = "") -> str:
-    """Return a file's text; header: names with commas; last: of one more column, whatever it has in it."""
+def _csv(header: str, rows: Iterable[Row]) -> str:
+    """Return a file's text; header: names with commas."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerows([[*header.split(","), *([last] if last else [])], *rows])
+    writer.writerows([header.split(","), *rows])
     return text.getvalue()

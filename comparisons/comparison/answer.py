@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from functools import partial
+from functools import cached_property, partial
 from math import hypot
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.pictures.array_files import write_mesh
 from comparisons.pictures.plan import plan_mesh
-from comparisons.sweep.differences import unseen
+from comparisons.sweep.differences import far, unseen
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.solution import Solution, Status
@@ -54,7 +54,7 @@ FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 class Comparison(Compared, Answer):
     """Document, tables, pictures, files and notes of solutions that are compared."""
 
-    file_name, page_name = "comparison", "table"
+    file_name, page_name, notes_shown = "comparison", "table", 1
 
     @property
     def succeeded(self) -> bool:
@@ -66,6 +66,7 @@ class Comparison(Compared, Answer):
             "scene": self.scene.document(),
             "solutions": [self._solution_document(solution) for solution in self.solutions],
             "apart": self.disagreement,
+            "sentence": self.sentence,
             "differences": [asdict(difference) for difference in self.differences],
             "errors": [
                 {
@@ -94,16 +95,32 @@ class Comparison(Compared, Answer):
         }
 
     def result(self) -> str:
-        return "; ".join(map(self._result, (one for one in self.solutions if one is not self.reference)))
+        ended = ", ".join(f"{s.model} {s.status}" for s in self.solutions[:2])
+        return self.sentence or f"not comparable: {ended}"
 
-    def _result(self, solution: Solution) -> str:
-        if (off := self.error(solution)) is None:
-            ended = [one for one in (solution, self.reference) if one.status is not Status.CONVERGED]
-            return ", ".join([f"{solution.label}: not comparable", *(f"{s.model} {s.status}" for s in ended)])
-        expected = self._expected(solution)
-        own = "" if expected is None else f", expected {few(100 * expected)} %"
-        bar = "" if self.bar is None else f" ± {few(100 * self.bar.error)} %"
-        return f"{solution.label}: {few(100 * off)} % off {self.reference.label}{bar}{own}"
+    @cached_property
+    def sentence(self) -> str:
+        """How far the lattice is from the reference, and that from the sheet, in a sentence; nothing where
+        they cannot be compared."""
+        lattice, reference = self.solutions[:2]
+        off, over = self.error(lattice), self.field_errors.get(lattice.model)
+        if off is None:
+            return ""
+        bar = None if self.bar is None else self.bar.error
+        where = f" at the probes and {_percent(over)} over the sheet" if over and far(off, over, bar) else ""
+        said = f"The lattice is {_percent(off)} off the {reference.model}{where}"
+        of = self.scene.material
+        alone = of.kind == "isotropic" and of.law in (None, "neo-hookean")
+        if (left := self.model_error) is None:
+            return f"{said}; how far that is from the sheet as described is not known."
+        within = left.value + (bar or 0.0)
+        held = {"the clamp also holds the thickness": left.clamp, "hinges also hold the twist": left.hinge}
+        changed = "; ".join(f"{_percent(within + by)} if {what}" for what, by in held.items() if by > 0.0)
+        mesh = "" if self.bar else " but for the error of its mesh"
+        return (
+            f"{said}, and the {reference.model} within {_percent(within)} of the sheet as described{mesh}"
+            f"{f' ({changed})' * bool(changed)}; {'E is' if alone else 'its constants are'} not in this."
+        )
 
     def heading(self) -> tuple[str, str, str]:
         return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)
@@ -198,6 +215,7 @@ class Comparison(Compared, Answer):
     def notes(self) -> list[str]:
         ref, first = f"u_{self.reference.model}", self.solutions[0].model
         return [
+            *([self.sentence] if self.sentence else []),
             *([BUCKLED] if self.reference.settings.get("branch") == "buckled" else []),
             *([f"{first}: {self.expected}"] if self.expected else []),
             *self._bar_notes(),
@@ -230,3 +248,7 @@ class Comparison(Compared, Answer):
             elif close:
                 found.append(f"{solution.model}: not distinguishable from {model} at {', '.join(close)}.")
         return found
+
+
+def _percent(share: float) -> str:
+    return f"{few(100.0 * share)} %"

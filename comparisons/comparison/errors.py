@@ -12,8 +12,10 @@ round-off, a number is not finite, or one of the two models did not reach the fu
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
@@ -24,9 +26,17 @@ from comparisons.sweep.differences import error, field_points, relative
 from comparisons.sweep.model_error import ModelError, model_error
 from fem_reference.uncertainty import ROUNDING
 from sheetbench.answers.solution import Solution, Status
+from sheetbench.errors import require_choice
 from sheetbench.scenes import Scene
 
+Answered = TypeVar("Answered")
 ROUND_OFF = 1e-9  # of the largest displacement at a probe
+
+
+def one_of(answers: Mapping[str, Answered], model: str) -> Answered:
+    """Return the answer of a model. Raises BadInput, naming those that there are."""
+    require_choice("model", model, answers)
+    return answers[model]
 
 
 @dataclass(frozen=True)
@@ -66,9 +76,18 @@ class Compared:
     law_chosen: bool = False
 
     @property
+    def lattice(self) -> Solution:
+        """The chosen lattice's solution."""
+        return self.solutions[0]
+
+    @property
     def reference(self) -> Solution:
         """The solution that the others are measured against."""
         return self.solutions[1]
+
+    def __getitem__(self, model: str) -> Solution:
+        """Return the solution of a model by its name. Raises BadInput where there is none."""
+        return one_of({solution.model: solution for solution in self.solutions}, model)
 
     def probes(self, solution: Solution) -> dict[str, np.ndarray]:
         """Displacement (3,) [m] at each probe."""

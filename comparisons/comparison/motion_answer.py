@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.comparison import frames
+from comparisons.comparison.errors import one_of
 from comparisons.comparison.measures import Measures, difference, leading, measured_alike
 from comparisons.sweep.limits import in_all
 from sheetbench.answers.answer import Answer
@@ -42,11 +43,20 @@ class MotionComparison(Answer):
     measured, None where a run of it did not end; animate: draw the sheets moving, side by side.
     """
 
-    file_name = "motion"
+    file_name, notes_shown = "motion", 1
     scene: Scene
     histories: dict[str, History]
     uncertainty: dict[str, float | None] = field(default_factory=dict)
     animate: bool = False
+
+    @property
+    def lattice(self) -> History:
+        """The chosen lattice's motion."""
+        return next(iter(self.histories.values()))
+
+    def __getitem__(self, model: str) -> History:
+        """Return the motion of a model by its name. Raises BadInput where there is none."""
+        return one_of(self.histories, model)
 
     @property
     def reference(self) -> str:
@@ -132,11 +142,11 @@ class MotionComparison(Answer):
         return (drawn, film) if self.animate else (drawn,)
 
     def result(self) -> str:
-        bar = "" if self.bar is None else f" ± {few(100 * self.bar)} %"
-        return "; ".join(
-            f"{one['of']}: up to {few(100 * one['largest'])} % off the {self.reference}{bar}"
-            for one in self.differences
-        )
+        bar, reference = self.bar, self.reference
+        within = "an unknown error" if bar is None else f"{few(100 * bar)} %"
+        off = few(100 * self.differences[0]["largest"])
+        own = f"the {reference} within {within} of finer meshes and steps; E and damping are not in this."
+        return f"The lattice is up to {off} % off the {reference} in motion, and {own}"
 
     def notes(self) -> list[str]:
         models: dict[str, list[str]] = {}
@@ -144,6 +154,7 @@ class MotionComparison(Answer):
             for note in history.notes():
                 models.setdefault(note, []).append(name)
         return [
+            self.result(),
             *self._driven(),
             *self._bars(),
             *(f"{', '.join(names)}: {note}" for note, names in models.items()),

@@ -23,9 +23,14 @@ def unseen(errors: Iterable[tuple[str, float | None, float | None]], bar: float 
     """Return a sentence on the models whose field error is far above the error at the probes; errors: name,
     error and field error of each; bar: of the reference, below which no error is told."""
     known = [(name, at, over) for name, at, over in errors if at is not None and over is not None]
-    names = [name for name, at, over in known if over > UNSEEN * max(at, bar or 0.0)]
+    names = [name for name, at, over in known if far(at, over, bar)]
     why = f"error over the sheet more than {UNSEEN} times that at the probes; other [probes] show where"
     return [f"{', '.join(names)}: {why}."] if names else []
+
+
+def far(at: float, over: float, bar: float | None = None) -> bool:
+    """Return whether the field error `over` is far above the error `at` the probes (`unseen`)."""
+    return over > UNSEEN * max(at, bar or 0.0)
 
 
 def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from sheetbench.answers import notebook
 from sheetbench.answers.report import ROWS, Picture, Report, Write
 from sheetbench.answers.table import Table
 from sheetbench.errors import BadInput
@@ -18,10 +19,11 @@ if TYPE_CHECKING:
 
 class Answer(ABC):
     """Base of all answers; file_name: of the files under `--out`, page_name: of its tables' in Markdown,
-    where that differs."""
+    where that differs; notes_shown: how many notes a terminal shows without --verbose."""
 
     file_name: ClassVar[str] = "answer"
     page_name: ClassVar[str] = ""
+    notes_shown: ClassVar[int] = 3
 
     @abstractmethod
     def document(self) -> dict[str, Any]:
@@ -86,6 +88,7 @@ class Answer(ABC):
             tables=tuple(self.tables()),
             printed=tuple(self.printed()),
             notes=tuple(self.notes()),
+            notes_shown=self.notes_shown,
             complaints=tuple(self.complaints()),
             pictures=tuple(pictures),
             attachments=self.files(),
@@ -107,3 +110,13 @@ class Answer(ABC):
 
     def __repr__(self) -> str:
         return self.report().text(ROWS)
+
+    def _repr_mimebundle_(self, **kinds: Any) -> dict[str, Any]:
+        """Return tables and picture for a notebook, drawn once."""
+        return notebook.bundle(self.report())
+
+    def _repr_html_(self) -> str:
+        return str(notebook.bundle(self.report())["text/html"])
+
+    def _repr_png_(self) -> bytes | None:
+        return notebook.drawn(self.report().pictures)

@@ -14,6 +14,7 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
+from sheetbench.answers import notebook
 from sheetbench.answers.escape import html, markdown, terminal
 from sheetbench.answers.figure_style import PLAIN, FigureStyle, parse_figure
 from sheetbench.answers.files import digest, to_json, write_text
@@ -43,7 +44,7 @@ class Picture:
 
     name: str
     compose: str
-    of: tuple[Any, ...]
+    of: tuple[Any, ...] = field(repr=False)
     description: str = ""
     formats: tuple[str, ...] = ("svg", "png", "pdf")
     style: FigureStyle = PLAIN
@@ -61,7 +62,20 @@ class Picture:
 
         with rc_context(STYLE):
             figure: Figure = resolve_name(self.compose)(*self.of, self.style)
+        figure.__dict__["_repr_png_"] = partial(notebook.png, figure)  # as a notebook shows it
         return figure
+
+    @property
+    def moves(self) -> bool:
+        """Whether it is a film, which is written and not shown."""
+        return self.formats == FILM
+
+    def _repr_png_(self) -> bytes | None:
+        """Return the figure for a notebook, None where it cannot be drawn."""
+        try:
+            return None if self.moves else notebook.png(self.figure())
+        except NoPicture:
+            return None
 
     def write(self, folder: Path) -> str | None:
         """Write the files into a folder; a sentence that says why there are none."""
@@ -69,7 +83,7 @@ class Picture:
 
         paths = [folder / name for name in self.names]
         try:
-            if self.formats == FILM:
+            if self.moves:
                 resolve_name(self.compose)(*self.of, paths)
             else:
                 save(self.figure(), paths, self.description)
@@ -79,7 +93,7 @@ class Picture:
 
     def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
         """Return the picture in each of the styles, and in its formats where it names some."""
-        if self.formats == FILM:
+        if self.moves:
             return (self,)
         return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
 
@@ -103,9 +117,9 @@ class Report:
     name: of the document's file; page: of the tables' in Markdown, `name` unless given.
     title, subtitle, lead: what it is about, and a line more. result: the answer in a line. tables: in the
     files, each with a name in CSV too; printed: what a terminal shows instead of them. notes: remarks under
-    the tables. complaints: what went wrong, a sentence each. document: the JSON document. attachments:
-    further files by name, with what writes them. settings: for the manifest. succeeded: whether the question
-    has its answer.
+    the tables, notes_shown of them on a terminal without --verbose. complaints: what went wrong, a sentence
+    each. document: the JSON document. attachments: further files by name, with what writes them. settings:
+    for the manifest. succeeded: whether the question has its answer.
     """
 
     name: str
@@ -118,6 +132,7 @@ class Report:
     tables: tuple[Table, ...] = ()
     printed: tuple[Table, ...] | None = None
     notes: tuple[str, ...] = ()
+    notes_shown: int = 3
     complaints: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
     attachments: Mapping[str, Write] = field(default_factory=dict)
@@ -147,6 +162,10 @@ class Report:
 
     def __repr__(self) -> str:
         return self.text()
+
+    def _repr_mimebundle_(self, **kinds: Any) -> dict[str, Any]:
+        """Return tables and picture for a notebook."""
+        return notebook.bundle(self)
 
     def text(self, most: int | None = None) -> str:
         """Return title, tables and complaints; most: rows of a table."""

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, get_args, get_orig
 import numpy as np
 
 from sheetbench.answers.escape import cell, csv_cell, markdown
+from sheetbench.answers.notebook import table_html
 from sheetbench.errors import BadInput
 
 if TYPE_CHECKING:
@@ -219,6 +220,9 @@ class Table:
 
     def __repr__(self) -> str:
         return self.to_markdown()
+
+    def _repr_html_(self) -> str:
+        return table_html(self)
 
     def to_markdown(self) -> str:
         """Return a pipe table with shown units, its caption above it."""

@@ -8,13 +8,16 @@ from sheetbench.scenes.meaning.strains import outside_model, weight_strain
 from sheetbench.scenes.objects.actuators import Chain, CurvatureTable, EdgeMotion
 from sheetbench.scenes.objects.air import Air
 from sheetbench.scenes.objects.cells import Cells, Constants
+from sheetbench.scenes.objects.cutouts import Cutout
 from sheetbench.scenes.objects.layers import Layer
-from sheetbench.scenes.objects.loads import AreaLoad, EdgeLoad, Load, PointLoad, Pressure
+from sheetbench.scenes.objects.loads import AreaLoad, EdgeLoad, Initial, Load, PointLoad, Pressure
 from sheetbench.scenes.objects.masses import Mass
 from sheetbench.scenes.objects.material import Material, require_no_branches
+from sheetbench.scenes.objects.natural import Natural, Temperature
 from sheetbench.scenes.objects.obstacles import Cylinder, Plane, Sphere
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.relaxation import Branches, Relaxation
+from sheetbench.scenes.objects.shapes import Circle, Rectangle, Shape
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.springs import DamperSet, PerDirection, SpringSet
 from sheetbench.scenes.objects.supports import (

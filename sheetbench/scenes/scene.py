@@ -9,7 +9,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Self
 
-from sheetbench.errors import SceneError
+from sheetbench.errors import WrongArgument
 from sheetbench.scenes.language import summary
 from sheetbench.scenes.meaning import corners, distances, region
 from sheetbench.scenes.meaning.words import in_words
@@ -100,7 +100,7 @@ class Scene(SceneFields, defer_build=False):
         keys = [*LISTS.values(), *(key for part in parts for key in type(part).model_fields)]
         for key in values:
             if key not in keys and (near := get_close_matches(key, keys, 1)):
-                raise SceneError(f"replace: {key}: unknown key; did you mean {near[0]}?")
+                raise WrongArgument(f"replace: {key}: unknown key; did you mean {near[0]}?")
         for part in ("sheet", "material"):
             kind = type(getattr(self, part))
             own = {key: values.pop(key) for key in list(values) if key in kind.model_fields}

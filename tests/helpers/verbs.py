@@ -44,6 +44,7 @@ SMALL = {  # the verb, or the verb and what of it
     "compare": f"compare {SEED} --lumped 3 --elements 2",
     "compare motion": f"compare {SETTLING} --lumped 3 --elements 2 --duration 0.004 --no-uncertainty",
     "simulate": f"simulate {SETTLING} --lumped 3 --duration 0.02 --every 0.004",
+    "sweep": f"sweep {SEED} --vary sheet.thickness=2mm,3mm --lumped 3 --elements 2 --workers 1",
     "tradeoff": f"tradeoff {SEED} --lumped 3 --plate= --shell 2 --solid= --elements 4 --repeats 1",
     "tradeoff tolerance": f"tradeoff {ONE} --tolerance 0.2",
     "stability": f"stability {SEED} --lumped 3 --elements 2 --vary slenderness --vary time-step --workers 1",

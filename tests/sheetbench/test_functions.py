@@ -7,9 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fake_solutions import solution
 
 import sheetbench as sb
 from comparisons.cli.app import VERBS
+from comparisons.comparison.answer import Comparison
 
 ROOT = Path(__file__).parents[2]
 
@@ -66,7 +68,7 @@ SCENE = sb.load("one-edge-clamped")
 WRONG = {
     "a keyword of none": (
         lambda: sb.compare(SCENE, gird=5),
-        "compare: got an unexpected keyword argument 'gird'; it has .*grid",
+        "compare: got an unexpected keyword argument 'gird'; it has .*did you mean grid\\?",
     ),
     "the older name": (lambda: sb.stability(SCENE, varied=["load"]), "'varied'; it has .*vary"),
     "one too many": (lambda: sb.calibrate(SCENE, grid=3, lumped=3), "lumped and grid are one"),
@@ -78,14 +80,26 @@ WRONG = {
     "a length": (lambda: sb.simulate(SCENE, "2 mm", grid=3), "duration = '2 mm': '2 mm' is a length"),
     "shapes": (lambda: sb.error([[1, 2, 3]], [[1, 2]]), "equal shapes"),
     "a key of a part": (lambda: SCENE.replace(yung=1e6), "yung: unknown key; did you mean young"),
+    "an object's keyword": (lambda: sb.Sheet(0.1, 0.1, thicknes=1e-3), "did you mean thickness"),
+    "an object's values": (lambda: sb.Circle((0.1, 0.1), 0.1, 3), "takes 2 values by place"),
+    "an object's value": (lambda: sb.Circle((0.1, 0.1), -0.1), "must be greater than 0"),
+    "a model of none": (
+        lambda: Comparison(SCENE, (solution(SCENE), solution(SCENE, "shell")))["shel"],
+        "model = 'shel': unknown, choose one of lumped, shell; did you mean shell",
+    ),
     "no scene": (lambda: sb.compare(3), "scene = 3: a Scene, a name of the catalogue or a path"),
     "no model": (lambda: sb.solve(SCENE, 5), "model = 5: a name as 'lumped'"),
     "no number": (lambda: sb.modes(SCENE, count="3", grid=3), "count = 3: a whole number"),
 }
 
 
+ARGUMENTS = ("a keyword of none", "the older name", "one too many", "a missing one", "a key of a part")
+ARGUMENTS += ("an object's keyword", "an object's values")
+
+
 @pytest.mark.parametrize("case", WRONG)
 def test_a_wrong_argument_is_refused_in_the_terminals_words(case):
     ask, said = WRONG[case]
-    with pytest.raises(sb.BadInput, match=said):
+    with pytest.raises(sb.BadInput, match=said) as refused:
         ask()
+    assert isinstance(refused.value, TypeError) == (case in ARGUMENTS)

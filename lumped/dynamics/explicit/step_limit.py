@@ -69,15 +69,15 @@ def turn_limit(ratio: float, exact: bool = True) -> float:
     return 2.0 / (ratio + math.sqrt(1.0 - 3.0 * ratio**2)) if ratio < 0.5 else 1.0 / ratio
 
 
-def step_limit(system: System, u: np.ndarray) -> StepLimit:
-    """The limit at displacement u (size, 3) [m], at rest, where the air does not resist."""
+def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
+    """The limit at displacement u (size, 3) [m] and a time [s], at rest, where the air does not resist."""
     nothing = np.zeros_like(u)
-    stiffness = system.matrix(u, nothing, 0.0, 0.0, 0.0, 1.0)
+    stiffness = system.matrix(u, nothing, time, 0.0, 0.0, 1.0)
     touching = sum(item.stiffest(system.lattice_mass) for item in system.items)
     frequency = math.sqrt(max(_largest(system, stiffness), 0.0) + touching)
     ratio = 0.0
     if system.resists:
-        damping = system.matrix(u, nothing, 0.0, 0.0, 1.0, 0.0)
+        damping = system.matrix(u, nothing, time, 0.0, 1.0, 0.0)
         ratio = _largest(system, damping) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
     safety = TOUCHING if system.items else SAFETY

@@ -88,7 +88,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
             return f"{key}: kind = {shown(tag)}: {wish(str(tag)) or _choose(tag, nodes)}"
         case "literal_error":
             return f"{given}: {_choose(value, nodes)}"
-        case "float_type" if isinstance(value, str) and (unit := _unit(fault["loc"], schema)) is not None:
+        case "float_type" if isinstance(value, str) and (unit := unit_at(fault["loc"], schema)) is not None:
             try:
                 quantity(value, unit)
             except BadInput as error:
@@ -108,7 +108,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
     return f"{given}: {allowed}{''.join(hints[:1])}"
 
 
-def _unit(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
+def unit_at(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
     """The SI unit of the number at a location, or None where it has none."""
     places = (_place(location[:end], schema)[1] for end in range(len(location), 0, -1))
     return next((str(node["unit"]) for nodes in places for node in nodes if "unit" in node), None)

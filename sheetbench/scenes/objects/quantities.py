@@ -30,7 +30,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from sheetbench.errors import BadInput, SceneError
+from sheetbench.errors import BadInput, SceneError, WrongArgument
 from sheetbench.scenes.language.refusals import in_one_line
 from sheetbench.scenes.language.schema import sentences
 from sheetbench.scenes.language.units import converted
@@ -142,11 +142,14 @@ class Frozen(BaseModel, frozen=True):
     def __init__(self, *values: Any, **keys: Any) -> None:
         names = [name for name, field in type(self).model_fields.items() if not field.kw_only]
         if len(values) > len(names):
-            raise TypeError(f"{type(self).__name__} takes {len(names)} values by place: {', '.join(names)}")
+            many = f"{type(self).__name__} takes {len(names)} values by place: {', '.join(names)}"
+            raise WrongArgument(many)
         try:
             super().__init__(**dict(zip(names, values, strict=False)), **keys)
         except ValidationError as error:
-            raise SceneError(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
+            wrong = {"extra_forbidden", "missing"}.intersection(one["type"] for one in error.errors())
+            kind = WrongArgument if wrong else SceneError
+            raise kind(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
 
     # what is read from a file or lies within another object is built without the above, so that the whole
     # scene's faults are reported together

@@ -24,7 +24,7 @@ from comparisons.cli.app import VERBS, verb_group
 from comparisons.cli.arguments import kind_of
 from comparisons.cli.options import Group
 from comparisons.cli.study import module_of
-from comparisons.cli.verb import as_verb
+from comparisons.cli.verb import as_verb, evaluated
 from lumped.fitting.methods import MAKERS
 from sheetbench import choices
 from sheetbench.answers.report import Picture
@@ -173,14 +173,14 @@ def test_a_help_page_cuts_nothing_off(monkeypatch, capsys, verb, width):
     assert "--help" in page and "…" not in page.replace("N,N,…", "")
 
 
-def test_help_lists_fifteen_verbs_on_a_screen(monkeypatch, capsys):
+def test_help_lists_sixteen_verbs_on_a_screen(monkeypatch, capsys):
     """Of 40 lines and 80 columns, a line each."""
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setattr("typer.rich_utils.MAX_WIDTH", 80)
     assert run("--help") == 0
     page = capsys.readouterr().out.splitlines()
     assert len(page) <= 40 and tuple(re.findall(r"^│ (\w+)  ", "\n".join(page), re.M)) == VERBS
-    assert len(VERBS) == 15
+    assert len(VERBS) == 16
 
 
 # ---- on a terminal
@@ -283,16 +283,20 @@ def test_every_list_takes_commas_and_repetition(verb, tmp_path):
     plain = [ONE for one in main.params if one.param_type_name == "argument" and one.required]
     plain += ["--out", str(tmp_path / "out")] if "out" in options else []
 
+    needed = {one.opts[0]: "a=1" for one in options.values() if one.required}
+
     def given(*arguments):
-        main(args=[*plain, *arguments], standalone_mode=False)
+        more = [word for flag, word in needed.items() if flag not in arguments for word in (flag, word)]
+        main(args=[*plain, *more, *arguments], standalone_mode=False)
         return taken
 
-    own = signature(module.command, eval_str=True).parameters
+    own = evaluated(module.command).parameters
     for name, option in options.items():
         assert not re.search(r"(?i)default: (\S+); \1 ", option.help or ""), name
         if option.multiple:
-            first, second, *_ = (name in own and kind_of(own[name]).choices) or "ab"
             flag = option.opts[0]
+            usual = ("a=1", "b=2") if flag in needed else "ab"
+            first, second, *_ = (name in own and kind_of(own[name]).choices) or usual
             assert given(flag, f"{first}, {second}")[name] == [first, second]
             assert given(flag, first, flag, second)[name] == [first, second]
             assert given(flag, "")[name] == [] and option.help.endswith("with commas, or the option again.")

@@ -49,7 +49,7 @@ def test_the_tables_hold_what_the_lattice_is(folders):
     assert [*links[0]] == ["a", "b", "family", "rest_length", "stiffness", "damping"]
     corners = [f"corner_{n}" for n in (1, 2, 3, 4)]
     assert [*cells[0]][:9] == ["kind", *corners, "rest_area", *(f"stiffness_{n}" for n in (1, 2, 3))]
-    assert "0.5 k1 (a/a0 - 1)^2 a0" in [*cells[0]][-1]
+    assert all(len(name) < 12 and name.replace("_", "").isalnum() for name in cells[0])
     assert sum(float(row["mass"]) for row in nodes) == pytest.approx(1678.0 * 0.003 * 0.188**2)
     families = {row["family"] for row in links}
     assert families == {"axial", "diagonal", "vertical", "cross", "cross_diagonal"}

@@ -1,6 +1,7 @@
 """Comparisons: what errors and differences mean, what fails and is left out, real solves and their files."""
 
 import json
+import re
 import subprocess
 from dataclasses import replace
 
@@ -73,6 +74,34 @@ def test_the_error_over_the_sheet_stands_beside_that_at_the_probes():
         assert [row[at] for row in costs.rows] == [pytest.approx(0.03), None]
         assert both.figures()[0].description.endswith(f"{100 * at_probe:.2f} %, over the sheet 3.00 %")
         assert any("over the sheet more than 1.5 times" in note for note in both.notes()) == (not at_probe)
+
+
+def test_a_sentence_says_how_far_the_lattice_is_from_the_sheet_as_described(tmp_path):
+    """Its numbers are the error, bar and model error together, and with what another clamp would change; it
+    comes first, on a terminal alone."""
+    both = compare(SCENE, Lattice(5), elements=4)
+    assert both.lattice is both["lumped"] is both.solutions[0] and both["shell"] is both.reference
+    numbers = [float(n) for n in re.findall(r"([\d.]+) %", both.sentence)]
+    within = both.bar.error + both.model_error.value
+    wanted = [both.error(both.solutions[0]), within, within + both.model_error.clamp]
+    assert numbers == pytest.approx([100.0 * one for one in wanted], rel=0.051)
+    assert re.fullmatch(
+        r"The lattice is [\d.]+ % off the shell, and the shell within [\d.]+ % of the sheet as described "
+        r"\([\d.]+ % if the clamp also holds the thickness\); E is not in this\.",
+        both.sentence,
+    )
+    report = both.report()
+    assert report.notes[0] == both.sentence == report.document["sentence"] and report.notes_shown == 1
+    assert both.sentence in report.to_markdown()
+    for other, said in (
+        ({"reference": "plate"}, "is not known"),
+        ({"uncertainty": False}, "error of its mesh"),
+    ):
+        assert said in compare(SCENE, Lattice(5), elements=4, **other).sentence
+    fibres = scenes.load("fabric-square")
+    assert "its constants are not in this" in compare(fibres, Lattice(5), elements=3).sentence
+    partial = fake_solutions.solution(SCENE, "lumped", status=Status.DIVERGED, load_factor=0.4)
+    assert not Comparison(SCENE, (partial, fake_solutions.solution(SCENE, "shell"))).sentence
 
 
 @pytest.mark.parametrize("status", [Status.DIVERGED, Status.STEP_LIMIT, Status.REFUSED])

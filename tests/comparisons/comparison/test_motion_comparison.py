@@ -1,5 +1,6 @@
 """A scene's motion by the lattice and by a reference, side by side: what is measured, shown and written."""
 
+import re
 from dataclasses import replace
 
 import meshio
@@ -64,7 +65,9 @@ def test_the_references_row_is_of_the_extrema_that_the_other_row_is_of():
 def test_the_reference_has_a_bar_by_mesh_and_by_step():
     both = sb.compare("two-edges-settling", duration=0.05, grid=5, elements=2)
     assert 0.0 < both.uncertainty["step"] < both.uncertainty["mesh"] < 0.2
-    notes = both.report().notes
+    assert both.lattice is both["lumped"] is not both["shell"]
+    sentence, *notes = both.report().notes
+    assert re.match(r"The lattice is up to [\d.]+ % off the shell in motion, and the shell within", sentence)
     assert "% with elements twice as large" in notes[0] and "% with steps twice as long" in notes[0]
 
     def barred(mesh, step):

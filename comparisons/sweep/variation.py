@@ -1,0 +1,173 @@
+"""Models of one scene whose values vary: `sheetbench sweep`, and its answer.
+
+Every variant is solved by every model, through a campaign's store; errors are at the probes and over the
+sheet against the reference of the same variant (`comparisons.comparison.errors`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Unpack
+
+import numpy as np
+
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Spec, unlike
+from comparisons.sweep.campaign import CampaignKeywords
+from comparisons.sweep.differences import error
+from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.store import Store
+from comparisons.sweep.variants import in_words, unit_of, variants
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.report import Picture
+from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, PERCENT, Column, Table, unit
+from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes.language.summary import few
+
+AXES = ("ux", "uy", "uz")
+
+
+@dataclass(frozen=True)
+class VariedRow(Solved):
+    """A model's answer to a variant, and its errors against the reference, None where there are none."""
+
+    error: float | None = None
+    field_error: float | None = None
+
+    @property
+    def varied(self) -> dict[str, Any]:
+        """Values [SI] by key."""
+        return dict(self.ask.tags["varied"])
+
+    @property
+    def model(self) -> str:
+        return str(self.ask.tags["model"])
+
+
+@dataclass(frozen=True, repr=False)
+class Variation(Answer):
+    """A row per variant and model, the variants in their order; reference: the model errors are against, ""
+    where there is none."""
+
+    file_name = "sweep"
+    scene: Scene
+    reference: str
+    rows: tuple[VariedRow, ...]
+
+    def document(self) -> dict[str, Any]:
+        rows = [
+            {
+                **{"varied": row.varied, "model": row.model, "label": row.label, "status": row.status},
+                **{"message": row.message, "probes": row.row.get("probes"), "error": row.error},
+                **{"field_error": row.field_error, "load_factor": row.row.get("load_factor")},
+                "solve_seconds": row.seconds,
+            }
+            for row in self.rows
+        ]
+        return {"scene": self.scene.document(), "reference": self.reference, "rows": rows}
+
+    @property
+    def keys(self) -> list[str]:
+        """What is varied."""
+        return list(self.rows[0].varied)
+
+    def numeric(self, key: str) -> bool:
+        """Return whether all values of a key are numbers."""
+        values = [row.varied[key] for row in self.rows]
+        return all(isinstance(one, int | float) and not isinstance(one, bool) for one in values)
+
+    @cached_property
+    def moves_most(self) -> tuple[str, int]:
+        """The probe and the component that move most in any variant."""
+        most = [np.abs(row.u) for row in self.rows if row.usable]
+        whole = np.max(most, axis=0) if most else np.zeros((len(self.scene.probes), 3))
+        probe, axis = np.unravel_index(int(np.argmax(whole)), whole.shape)
+        return list(self.scene.probes)[probe], int(axis)
+
+    def tables(self) -> tuple[Table, ...]:
+        shown = self.moves_most
+        places = [(probe, axis) for probe in self.scene.probes for axis in range(3)]
+        columns = (
+            *(unit(unit_of(key))(".4g", key) if self.numeric(key) else Column(key) for key in self.keys),
+            *("model", *(MILLIMETRES(".4g", f"{p} {AXES[a]}", detail=(p, a) != shown) for p, a in places)),
+            *(PERCENT(".2g", "error"), PERCENT(".2g", "field error")),
+            *(MILLISECONDS(".3g", "solve", detail=True), Column("status", prose=True)),
+        )
+        rows = (
+            (
+                *row.varied.values(),
+                *(row.model, *(row.u.ravel().tolist() if row.usable else [None] * len(places))),
+                *(row.error, row.field_error, row.seconds, row.status),
+            )
+            for row in self.rows
+        )
+        return (Table.listed("Variants", columns, rows, "sweep", grouped=True),)
+
+    def figures(self) -> tuple[Picture, ...]:
+        return (Picture("sweep", "comparisons.sweep.variation_figure:compose", (self,)),)
+
+    def result(self) -> str:
+        count = len({str(row.varied) for row in self.rows})
+        known = [row for row in self.rows if row.error is not None]
+        if not known:
+            return f"{count} variants of {', '.join(self.keys)}"
+        off = max(known, key=lambda row: row.error or 0.0)
+        up_to = f"up to {few(100.0 * (off.error or 0.0))} % off the {self.reference}"
+        return f"{count} variants: {off.model} is {up_to}, at {in_words(off.varied)}."
+
+    def notes(self) -> tuple[str, ...]:
+        against = (
+            f"error: at the probes, from the {self.reference} of the same variant; `compare` has its bar."
+        )
+        return (self.result(), *([against] if self.reference else []))
+
+    def complaints(self) -> list[str]:
+        """Return a sentence for every row without a stable equilibrium."""
+        return [f"{row.ask.label}: {row.ending}" for row in self.rows if not row.stable]
+
+    def choices(self) -> dict[str, Any]:
+        return {row.model: row.row.get("settings") or row.ask.spec.settings for row in self.rows}
+
+    @property
+    def succeeded(self) -> bool:
+        return not self.complaints()
+
+
+def vary(
+    scene: Scene,
+    values: Sequence[str],
+    store: Store,
+    *,
+    models: Sequence[Spec],
+    reference: Spec | None,
+    **how: Unpack[CampaignKeywords],
+) -> Variation:
+    """Return every model's answer to every variant (`comparisons.sweep.variants`).
+
+    Raises SceneError for a variant that cannot be or has no static answer, and BadInput for a model or
+    setting that does not exist, before anything is solved. A solve that fails is a row with its status.
+    """
+    varied = variants(scene, values)
+    specs: dict[str, Spec] = {} if reference is None else {reference.model: reference}
+    for spec in models:
+        specs[unlike(spec.model, specs)] = spec
+    asks = []
+    for one in varied:
+        require_static(one.scene)
+        for name, spec in specs.items():
+            resolve(one.scene, spec)
+            tags, label = {"varied": one.varied, "model": name}, f"{name} {one}"
+            asks.append(Ask(one.scene, spec, columns=("field",), tags=tags, label=label))
+    rows, found = sweep(asks, store, **how), []
+    for n in range(0, len(rows), len(specs)):
+        truth = rows[n] if reference is not None and rows[n].usable else None
+        found += [_row(row, truth) for row in rows[n : n + len(specs)]]
+    return Variation(scene, "" if reference is None else reference.model, tuple(found))
+
+
+def _row(row: Solved, truth: Solved | None) -> VariedRow:
+    if truth is None or row is truth or not row.usable:
+        return VariedRow(**vars(row))
+    return VariedRow(**vars(row), error=error(row.u, truth.u), field_error=error(row.field, truth.field))

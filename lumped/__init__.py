@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from lumped import moduli
 from lumped.calibration import Calibration, given
 from lumped.calibration.cell_by_cell import with_shares
-from lumped.description import Description, describe
 from lumped.fitting.fits import ModalTarget, StaticTarget
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.methods import CALIBRATIONS, calibrate
@@ -24,6 +23,7 @@ from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
+    from lumped.description import Description, describe
     from lumped.dynamics.explicit.step_limit import step_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
@@ -76,6 +76,7 @@ __all__ = [
 ]
 
 _LATER = {"Linear": "lumped.linearised", "linearise": "lumped.linearised"}
+_LATER |= {"Description": "lumped.description", "describe": "lumped.description"}
 _LATER |= {"Balanced": "lumped.state_space", "StateSpace": "lumped.state_space"}
 
 

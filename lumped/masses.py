@@ -108,10 +108,10 @@ def sheet_masses(
         np.subtract.at(by_line, np.arange(len(left)) + wider, taken)
     if not scene.layers:
         return np.repeat(plan.ravel(), layers)
-    return np.outer(layers * plan, _shares_of_layers(scene, lattice)).ravel()
+    return np.outer(layers * plan, shares_of_layers(scene, lattice)).ravel()
 
 
-def _shares_of_layers(scene: Scene, lattice: Lattice) -> np.ndarray:
+def shares_of_layers(scene: Scene, lattice: Lattice) -> np.ndarray:
     """Shares (layers,) of a column's mass, whose centre is that of the laminate's. Raises BadInput where one
     would have none."""
     of, heights = of_sheet(scene), lattice.positions[: lattice.grid[2], 2]

@@ -17,7 +17,7 @@ resist strains of their natural sides. Derived here.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -28,50 +28,119 @@ from lumped.springs.laws import of_stiffness
 from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
+XX_YY_XY = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
+STEP = 1e-5  # of a strain, for a difference of stiffnesses
+
 
 def with_natural(
     lattice: Lattice, families: Sequence[Family], state: NaturalState
 ) -> Callable[..., list[Family]]:
     """Return what makes the families of a sheet that is not flat at rest, of its cells' strain and curvature.
     Raises BadInput for springs of a per-direction law."""
+    found = _natural(lattice, families)
+    grown = [one and replace(one, stiffness=one.grown(state.at()[0])) for one in found]
+    return lambda *forms: [
+        family if one is None else one.of(*forms) for family, one in zip(families, grown, strict=True)
+    ]
 
-    def maker(family: Family) -> Callable[..., Family]:
-        if isinstance(family, DirectionalLinks):
-            raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
+
+def pulled(
+    lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray], by: list[np.ndarray]
+) -> np.ndarray:
+    """Return the derivatives (strain or curvature, rows, columns, 3) by every cell's natural strain xx, yy
+    and xy and curvature [m] of what has those `by` the constants and the natural δg₀ of the families
+    (`AllFamilies.powers_by_constants`), which are those of a flat sheet; state: both, (rows, columns, 2, 2).
+    """
+    found = np.zeros((2, lattice.cell_areas.size, 3))
+    for one, power in zip(_natural(lattice, families), by, strict=False):
+        if one is not None:
+            found += one.pulled(*state, power, lattice.cell_areas.size)
+    return found.reshape(2, *lattice.cell_areas.shape, 3)
+
+
+@dataclass(frozen=True)
+class _Natural:
+    """Springs of cells with a natural state. sides: two for each product that is measured, (2, m, p, 3) [m];
+    cells, shares: (m, q) of each spring; heights: (m, 2) of its ends [m]; stiffness: of the grown sheet."""
+
+    family: Links | SpringCells
+    sides: np.ndarray
+    cells: np.ndarray
+    shares: np.ndarray
+    heights: np.ndarray
+    stiffness: np.ndarray = field(default_factory=lambda: np.empty(0))
+
+    def grown(self, strain: np.ndarray) -> np.ndarray:
+        """Return the stiffness for sides as drawn, of springs that resist strains of the natural ones."""
+        family = self.family
         if isinstance(family, Links):
-            sides, stiffness = np.stack(2 * [family.offset[:, None]]), family.stiffness  # (2, m, p, 3)
-            grid_links = lattice.links
-            every, own = (nodes @ [lattice.mass_count, 1] for nodes in (grid_links.nodes, family.nodes))
-            cells, shares = (part[:, np.isin(every, own)].T for part in (grid_links.cells, grid_links.shares))
-            shares = shares / shares.sum(axis=1, keepdims=True)
-        elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and len(family):
-            sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
-            cells = np.arange(lattice.cell_areas.size)[lattice.kept]
-            cells = np.tile(cells, len(family) // len(cells))[:, None]
-            shares = np.ones(cells.shape)
-            grown = family.sides.copy()
-            grown[..., :2] += family.sides[..., :2] @ state.at()[0].reshape(-1, 2, 2)[cells[:, 0]]
-            natural = of_stiffness(family.stiffness, grown, np.abs(np.linalg.det(grown[..., :2])))
-            drawn = of_stiffness(np.ones_like(family.stiffness), family.sides, family.area)
-            stiffness = (natural / drawn)[:, : family.stiffness.shape[1]]  # [N/m] for sides as drawn
-        else:
-            return lambda strain, curvature: family
-        flat, plan = sides.prod(axis=0).sum(axis=-1).T, sides[:, :, None, :, :2]  # products (p, m)
-        ends = lattice.positions[family.nodes[:, :2], 2].reshape(len(family), 2, -1).mean(axis=2)
+            return family.stiffness
+        grown = family.sides.copy()
+        grown[..., :2] += family.sides[..., :2] @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]
+        natural = of_stiffness(family.stiffness, grown, np.abs(np.linalg.det(grown[..., :2])))
+        drawn = of_stiffness(np.ones_like(family.stiffness), family.sides, family.area)
+        return np.asarray((natural / drawn)[:, : family.stiffness.shape[1]])
 
-        def make(*forms: np.ndarray) -> Family:
-            """The family with √g₀ of links or √det g₀ of cells and δg₀ (1 + p, m)."""
-            e, k = (form.reshape(-1, 2, 2)[cells] for form in forms)
-            moved = [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends.T, strict=True)]
-            change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
-            by = np.einsum("mq,mqpi->pm", shares, change)
-            g = flat + by
-            natural = np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])
-            if isinstance(family, Links):
-                return replace(family, rest_length=natural[0], natural=natural[1])
-            return replace(family, stiffness=stiffness, natural=natural)
+    def _moved(self, *forms: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
+        """Return the sides in the plan (2, m, 1, p, 2), and what strain and curvature add to them."""
+        e, k = (form.reshape(-1, 2, 2)[self.cells] for form in forms)
+        plan, ends = self.sides[:, :, None, :, :2], self.heights.T
+        return plan, [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends, strict=True)]
 
-        return make
+    def of(self, *forms: np.ndarray) -> Family:
+        """Return the family with √g₀ of links or √det g₀ of cells and δg₀ (1 + p, m)."""
+        plan, moved = self._moved(*forms)
+        change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
+        by = np.einsum("mq,mqpi->pm", self.shares, change)
+        g = self.sides.prod(axis=0).sum(axis=-1).T + by
+        natural = np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])
+        if isinstance(self.family, Links):
+            return replace(self.family, rest_length=natural[0], natural=natural[1])
+        return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    makers = [maker(family) for family in families]
-    return lambda *forms: [make(*forms) for make in makers]
+    def pulled(self, strain: np.ndarray, curvature: np.ndarray, by: np.ndarray, count: int) -> np.ndarray:
+        """Return derivatives (2, cells, 3), as `pulled` above."""
+        plan, moved = self._moved(strain, curvature)
+        weight = by[:, -self.sides.shape[2] :]
+        sides = zip(plan, moved, plan[::-1], moved[::-1], self.heights.T, strict=True)
+        out = np.zeros((2, *self.cells.shape, 3))
+        for side, _, other, other_moved, z in sides:
+            of_side = np.einsum(
+                "mp,mqpj,mqpi->mqji", weight, np.broadcast_to(side, other_moved.shape), other + other_moved
+            )
+            of_side = np.einsum("cji,mqji->mqc", XX_YY_XY, of_side) * self.shares[..., None]
+            out += np.stack([of_side, -z[:, None, None] * of_side])
+        if isinstance(self.family, SpringCells):
+            for c, way in enumerate(STEP * XX_YY_XY):
+                up, down = (
+                    replace(self.family, stiffness=self.grown(strain + h)).constants for h in (way, -way)
+                )
+                out[0, :, 0, c] += (by[:, : up.shape[1]] * (up - down)).sum(axis=1) / (2.0 * STEP)
+        flat = self.cells.ravel()
+        sums = [np.bincount(flat, values.ravel(), count) for values in np.moveaxis(out, 3, 1).reshape(6, -1)]
+        return np.stack(sums).reshape(2, 3, count).swapaxes(1, 2)
+
+
+def _natural(lattice: Lattice, families: Sequence[Family]) -> list[_Natural | None]:
+    """Return the families as springs of cells, None of those that keep what they have."""
+    return [_of_cells(lattice, family) for family in families]
+
+
+def _of_cells(lattice: Lattice, family: Family) -> _Natural | None:
+    if isinstance(family, DirectionalLinks):
+        raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
+    if isinstance(family, Links):
+        sides = np.stack(2 * [family.offset[:, None]])
+        links = lattice.links
+        every, own = (nodes @ [lattice.mass_count, 1] for nodes in (links.nodes, family.nodes))
+        cells, shares = (part[:, np.isin(every, own)].T for part in (links.cells, links.shares))
+        shares = shares / shares.sum(axis=1, keepdims=True)
+    elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and len(family):
+        sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
+        cells = np.arange(lattice.cell_areas.size)[lattice.kept]
+        cells = np.tile(cells, len(family) // len(cells))[:, None]
+        shares = np.ones(cells.shape)
+    else:
+        return None
+    heights = lattice.positions[family.nodes[:, :2], 2].reshape(len(family), 2, -1).mean(axis=2)
+    return _Natural(family, sides, cells, shares, heights)

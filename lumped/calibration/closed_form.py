@@ -76,19 +76,21 @@ class NoClosedForm(Exception):
     """Of a cell of these sides [m]."""
 
 
-def springs_of_cells(each: EachCell, layer_distance: float | None = None, **special: bool) -> Springs:
+def springs_of_cells(
+    each: EachCell, layer_distance: float | None = None, anyhow: bool = False, **special: bool
+) -> Springs:
     """Return the springs of all cells, in layers as far apart as the cell asks that asks for most. Raise
-    NoClosedForm for a cell that has none."""
+    NoClosedForm for a cell that has none, unless `anyhow`: some springs are then negative."""
     (sides, _), target, layers = each.present, each.target, each.grid[2]
     found, distance, has_one = closed_form(target, sides, layers, layer_distance, **special)
     if layer_distance is None and len(sides) > 1 and has_one.all():
         found, distance, has_one = closed_form(target, sides, layers, float(distance.max()), **special)
-    if not has_one.all():
+    if not (anyhow or has_one.all()):
         raise NoClosedForm(*sides[np.argmin(has_one)])
     of = {name: each.placed(values) for name, values in found.items()}
     return Springs.made(
         float(distance.max()),
-        **{name: by_direction(*values) if name in PAIRS else values for name, values in of.items()},
+        **{name: by_direction(*v) if name in PAIRS and not anyhow else v for name, v in of.items()},
     )
 
 

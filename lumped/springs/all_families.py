@@ -126,6 +126,14 @@ class AllFamilies:
             family.loops.add_average_forces(start, end, family.arrays, force)
         return self.beside(0.5 * (start + end), force)
 
+    def powers_by_constants(self, u: np.ndarray, v: np.ndarray) -> list[np.ndarray]:
+        """Return the derivatives of the power v·f of every spring at u by its constants, then by its natural
+        δg₀: links (m, 2), cells of each kind (c, n + 3). Raises BadInput for springs without an energy."""
+        if self._others:
+            raise BadInput("gradient: springs of unequal stiffness along x, y and z have no energy")
+        at = np.ascontiguousarray(u), np.ascontiguousarray(v)
+        return [family.loops.powers_by_constants(*at, family.arrays) for family in self._central]
+
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
         """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite: a sum of
         squares, with negative area springs (ν < 1/3) only while strains are small."""
@@ -215,17 +223,26 @@ def tangent(
     return blocks
 
 
+def stiffness_by_cells(lattice: Lattice, springs: Constants) -> np.ndarray:
+    """Return what the cells beside every link of the grid give to its stiffness, (4, links, components)
+    [N/m]."""
+    links = lattice.links
+
+    def shared(springs: Constants) -> np.ndarray:
+        each = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
+        of_cells = each[links.step, links.cells if each.shape[1] > 1 else 0]
+        return np.asarray(links.shares[:, :, None] * of_cells)
+
+    found = shared(springs)
+    if springs.upward.of:
+        at = _levels(lattice.grid[2])[links.nodes[:, 0] % lattice.grid[2]]
+        found = found + at[:, None] * shared(springs.upward)
+    return found
+
+
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:
     """Central links, first and even where there are none; then those of a per-direction law."""
-    links = lattice.links
-    each = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
-    of_cells = each[links.step, links.cells if each.shape[1] > 1 else 0]
-    k = (links.shares[:, :, None] * of_cells).sum(axis=0)
-    if (more := springs.upward).of:
-        rise = np.stack(np.broadcast_arrays(*(more.of_links(*family)[:, 0] for *family, _ in STEPS)))
-        rise = rise[links.step, links.cells if rise.shape[1] > 1 else 0]
-        at = _levels(lattice.grid[2])[links.nodes[:, 0] % lattice.grid[2]]
-        k = k + (at * (links.shares * rise).sum(axis=0))[:, None]
+    links, k = lattice.links, stiffness_by_cells(lattice, springs).sum(axis=0)
     unequal = (k != k[:, :1]).any(axis=1)
 
     def family(kind: type[Links], which: np.ndarray, k: np.ndarray) -> Links:
@@ -281,17 +298,23 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
         yield _cells(at_rest, pattern, stiffness, name) if stiffness.any() else NO_CELLS
 
 
+def faces_by_cells(lattice: Lattice, springs: Constants) -> np.ndarray:
+    """Return what the cells beside every upright face give to its stiffness times its area, (4, faces)
+    [N·m]."""
+    along = [springs.along("face_shear", axis) for axis in (0, 1)]
+    over, one = (springs.along(name, 0) for name in FACES[1:])
+    each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
+    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])
+    return np.asarray(lattice.faces.shares * stored[lattice.faces.axis, lattice.faces.cells])
+
+
 def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> SpringCells:
     """On the upright faces between the layers, against their shear."""
     if not springs.of.keys() & FACES:
         return NO_CELLS
     faces, area = lattice.faces, lattice.faces.at_rest.area
-    along = [springs.along("face_shear", axis) for axis in (0, 1)]
-    over, one = (springs.along(name, 0) for name in FACES[1:])
-    each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
-    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])[faces.axis, faces.cells]
     stiffness = np.zeros((len(area), 4))
-    stiffness[:, 3] = (faces.shares * stored).sum(axis=0) / area
+    stiffness[:, 3] = faces_by_cells(lattice, springs).sum(axis=0) / area
     others = stiffness[:, 3:] / area[:, None]
     return _cells(faces.at_rest, pattern, stiffness, "face_shear", FACE, others)
 
@@ -299,7 +322,12 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
 @cached(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
 def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet) -> AllFamilies:
     """The springs of a spring set on a lattice; of a small one the same every time."""
-    of = lattice, pattern, Constants.read(springs)
+    return families_of(lattice, pattern, Constants.read(springs))
+
+
+def families_of(lattice: Lattice, pattern: MassPattern, springs: Constants) -> AllFamilies:
+    """Return the springs of these constants on a lattice."""
+    of = lattice, pattern, springs
     central, *others = link_springs(*of)
     return AllFamilies([central, *cell_springs(*of), face_springs(*of), *others], pattern)
 

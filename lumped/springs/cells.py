@@ -26,7 +26,9 @@ import numpy as np
 from lumped.springs.cell_blocks import add_blocks, by_sides, by_warp, to_diagonals
 from lumped.springs.law_table import (
     Tag,
+    by_constants,
     constants_of,
+    count,
     extrapolate,
     mean_stress,
     measures,
@@ -44,7 +46,7 @@ from lumped.springs.laws import (
     plus,
     times,
 )
-from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import inner, njit
 
 
@@ -172,6 +174,20 @@ def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarr
         rate = 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va), 2.0 * dot(q, vq)
         moved = extrapolate(cells.law, d, g, area, memory, s, k, rate)
         out[c, 0], out[c, 1], out[c, 2], out[c, 3] = moved
+    return out
+
+
+@njit
+def powers_by_constants(u: np.ndarray, v: np.ndarray, cells: CellArrays) -> np.ndarray:
+    """Return the derivatives of every cell's power v·f at u by its constants and by its natural δg₀,
+    (c, n + 3), f the internal force and v (n, 3)."""
+    out = zeros((len(cells.nodes), count(cells.law) + 3))
+    for c in range(len(cells.nodes)):
+        (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
+        _, memory, _ = respond(cells.law, d, g, area, k)
+        va, vb, vq = changes(v, cells.nodes, c)
+        rate = 2.0 * dot(a, va), 2.0 * dot(b, vb), dot(a, vb) + dot(b, va), 2.0 * dot(q, vq)
+        by_constants(cells.law, d, g, area, memory, k, rate, out[c])
     return out
 
 

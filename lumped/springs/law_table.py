@@ -69,6 +69,16 @@ def stiffness_of_face(
 
 
 @inner()
+def face_by_constants(
+    d: Four, g: Three, area: float, stiff: float, k: Constants, rate: Four, out: np.ndarray
+) -> None:
+    """Set the derivatives of the power S·ġ by k₀ to k₄ in `out` (5,)."""
+    now = g[0] + d[0]
+    pull = g[0] / now * d[2]
+    out[4] = pull * (rate[2] - 0.5 * d[2] / now * rate[0])
+
+
+@inner()
 def _itself(d: Four, g: Three, memory: Any, predicted: Four) -> Any:
     return memory, predicted
 
@@ -105,6 +115,7 @@ class CellLaw:
     tag: type[Tag]
     respond: Callable[..., Any]
     stiffness: Callable[..., Any]
+    by_constants: Callable[..., Any]
     extrapolate: Callable[..., Any]
     of_extrapolated: Callable[..., Any]
     measures: int
@@ -138,6 +149,7 @@ AREA_AND_STRAINS = CellLaw(
     AreaAndStrains,
     laws.area_and_strains,
     laws.stiffness_of_area_and_strains,
+    laws.area_and_strains_by_constants,
     laws.extrapolated_area_and_strains,
     laws.area_and_strains_of_extrapolated,
     3,
@@ -148,6 +160,7 @@ RUBBER = CellLaw(
     Rubber,
     laws.rubber,
     laws.stiffness_of_rubber,
+    laws.rubber_by_constants,
     _linear(laws.stiffness_of_rubber),
     _itself,
     4,
@@ -163,6 +176,7 @@ FACE = CellLaw(
     Face,
     face,
     stiffness_of_face,
+    face_by_constants,
     _linear(stiffness_of_face),
     _itself,
     3,
@@ -197,6 +211,14 @@ def stiffness(
 ) -> tuple[Six, Four]:
     """Return M + share (D − M), of g and of s (`CellLaw.stiffness`)."""
     return _OF[type(tag)].stiffness(d, g, area, memory, share, k)  # type: ignore[no-any-return]
+
+
+@_compiled_by_tag
+def by_constants(
+    tag: Tag, d: Four, g: Three, area: float, memory: Any, k: Constants, rate: Four, out: np.ndarray
+) -> None:
+    """Set the derivatives of the power S·ġ by the constants (`CellLaw.by_constants`)."""
+    _OF[type(tag)].by_constants(d, g, area, memory, k, rate, out)
 
 
 @_compiled_by_tag

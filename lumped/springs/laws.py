@@ -156,6 +156,26 @@ def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four)
     return (t, memory[1]), s
 
 
+@inner()
+def area_and_strains_by_constants(
+    d: Four, g: Three, area: float, memory: Memory, q: Constants, rate: Four, out: np.ndarray
+) -> None:
+    """Set the derivatives of the power S·ġ by q₀ to q₆, and by the natural change of g, of which A₀ is √det,
+    in `out` (10,)."""
+    now = math.sqrt(memory[1])
+    turned = g[2] * d[2]
+    grown = (g[1] * d[0] + g[0] * d[1] + d[0] * d[1] - (turned + turned) - d[2] * d[2]) / (now + area)
+    swept = (g[1] + d[1]) * rate[0] + (g[0] + d[0]) * rate[1] - 2.0 * (g[2] + d[2]) * rate[2]  # of A²
+    out[0] = 0.5 * grown / now * swept
+    out[1], out[2], out[3] = d[0] * rate[0], d[1] * rate[1], d[2] * rate[2]
+    out[4] = d[0] * rate[1] + d[1] * rate[0]
+    out[5] = d[0] * rate[2] + d[2] * rate[0]
+    out[6] = d[1] * rate[2] + d[2] * rate[1]
+    s1, s2, s3 = times_six(q[1:], (rate[0], rate[1], rate[2]))
+    by_area = -0.25 * q[0] * swept / (now * area)
+    out[7], out[8], out[9] = by_area * g[1] - s1, by_area * g[0] - s2, -2.0 * by_area * g[2] - s3
+
+
 def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:
     """Constants q (c, 7) [N/m³] of springs of stiffness k (c, 4 or 7) [N/m] against the change of area
     A/A₀ − 1 and the Green strains ε1 = δg₁₁/2g₁₁, ε2 = δg₂₂/2g₂₂, γ = δg₁₂/√(g₁₁ g₂₂), each with the energy
@@ -277,6 +297,38 @@ def stiffness_of_rubber(
         share * (o[4] + o[5]) / 12.0,
         share * ((o[0] + 2.0 * o[3] + o[1]) / 144.0 - 0.0625 * (c1 + c2)),
     )
+
+
+@inner()
+def rubber_by_constants(
+    d: Four, g: Three, area: float, memory: Memory, k: Constants, rate: Four, out: np.ndarray
+) -> None:
+    """Set the derivatives of the power S·ġ by k₀ to k₁₂ in `out` (13,): rates of the energy's own, ∂W/∂k, at
+    which θ is stationary, with θ̇ = −(F_T Ṫ + F_A Ȧ)/F_θ of its condition F = 0."""
+    if k[4] + k[5] == 0.0:
+        return
+    theta, a, c01, limit = 1.0 + memory[0], memory[1], k[5], k[9]
+    e1, e2 = (d[0] + d[3] / 12.0) / g[0], (d[1] + d[3] / 12.0) / g[1]
+    r1, r2 = (rate[0] + rate[3] / 12.0) / g[0], (rate[1] + rate[3] / 12.0) / g[1]
+    trace, growing = 2.0 + e1 + e2, r1 + r2
+    swept = r1 * (1.0 + e2) + r2 * (1.0 + e1) - 2.0 * d[2] * rate[2] / (area * area)
+    x = e1 + e2 + memory[0]
+    _, f1, f2, _ = of_trace(x, k)
+    slope = k[4] + f1 + c01 * trace + theta * f2 + 0.25 * k[8] / theta
+    thinning = -(theta * (f2 + c01) * growing + 0.25 * k[8] * swept / a) / slope
+    moved, by_volume = growing + thinning, swept / a + thinning / theta
+    left = 1.0 if limit == 0.0 else 1.0 - x / limit
+    out[4] = moved / left - by_volume
+    out[5] = swept + theta * growing + trace * thinning - 2.0 * by_volume
+    if limit == 0.0:
+        out[6], out[7] = 2.0 * x * moved, 3.0 * x * x * moved
+    else:
+        out[9] = -k[4] * x * moved / (limit * limit * left * left)
+    out[8] = 0.25 * math.log(a * theta) * by_volume
+    d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
+    out[10] = -elongation(d1, g[0] + d1, math.sqrt(g[0]), 1.0)[1] * (rate[0] + 0.25 * rate[3])
+    out[11] = -elongation(d2, g[1] + d2, math.sqrt(g[1]), 1.0)[1] * (rate[1] + 0.25 * rate[3])
+    out[12] = d[2] * rate[2]
 
 
 @inner(cache=True, forceinline=True)

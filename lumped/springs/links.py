@@ -135,6 +135,19 @@ def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: boo
 
 
 @njit
+def powers_by_constants(u: np.ndarray, v: np.ndarray, links: LinkArrays) -> np.ndarray:
+    """Return the derivatives of every link's power v·f at u by its stiffness and by its natural δg₀, (m, 2),
+    f the internal force and v (n, 3)."""
+    out = empty((len(links.nodes), 2))
+    for m in range(len(links.nodes)):
+        change, square, length, r = measure(u, links, m)
+        now, along = np.sqrt(square), dot(r, difference(v, links.nodes, m))
+        out[m, 0] = change / ((now + length) * now) * along
+        out[m, 1] = -0.5 * links.constants[m] * along / (now * length)
+    return out
+
+
+@njit
 def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, force: np.ndarray) -> None:
     """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
     of the mean stress on the mean r, as δg is 2 r̄·Δr (Simo and Tarnow 1992, Gonzalez 1996)."""

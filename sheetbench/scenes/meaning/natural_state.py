@@ -52,6 +52,14 @@ class NaturalState:
         self._make: Callable[[np.ndarray, np.ndarray], Any] = lambda *both: both
         self._kept: tuple[np.ndarray, Any] | None = None
 
+    @classmethod
+    def given(cls, fields: np.ndarray) -> Self:
+        """Return the state of a strain and a curvature of every cell, (rows, columns, 6), xx, yy and xy."""
+        units = np.eye(6).reshape(6, 2, 3)
+        state = cls([Source("cells", Natural(), *unit) for unit in units], fields.shape[:-1], shares_of)
+        state._weights = np.moveaxis(fields, -1, 0)
+        return state
+
     def made(self, make: Callable[[np.ndarray, np.ndarray], Any]) -> Self:
         """Return the state as what this makes of strains and curvatures."""
         other = copy(self)

@@ -1,0 +1,250 @@
+"""What every cell of a sheet is made of, as fields: a lattice of any values, and derivatives by all of them.
+
+Springs of a cell follow from its own section by the closed form of `lumped.calibration.closed_form`, at the
+layer distance that the lattice has, so that what would be negative springs at the least distance may be
+slightly so here. Along edges and rims a cell keeps the factor f of its twisting stiffness, which is that of
+the lattice's own calibration: f depends on how cells across a strip differ (`lumped.calibration.edge_twist`).
+As each cell's constants depend on that cell alone, one difference with all cells changed at once gives the
+derivatives of all.
+
+Fields over the cells (rows, columns), from y0 to y1, each row from x0 to x1:
+
+    cells.young, cells.poisson, cells.thickness, cells.density      [Pa], [-], [m], [kg/m³]
+    cells.strain, cells.curvature     (…, 3), natural, xx, yy and xy; [1/m]
+
+young scales all moduli of fibres. A cell that several parts share has the E, ν, h and ρ of an isotropic sheet
+with its stiffness and mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from copy import copy
+from dataclasses import replace
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+
+from lumped.assembly import Assembly
+from lumped.calibration import Calibration
+from lumped.calibration.cell_by_cell import each_cell
+from lumped.calibration.closed_form import springs_of_cells
+from lumped.masses import shares_of_layers
+from lumped.natural import pulled
+from lumped.sections import CellSection, of_cells, twisting
+from lumped.spring_constants import EDGES_OWN, NEAR_EDGES, NONE, RIMS_OWN, Springs
+from lumped.springs.all_families import AllFamilies, faces_by_cells, families_of, stiffness_by_cells
+from lumped.springs.law_table import FACE
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Cells, Scene
+from sheetbench.scenes.meaning.natural_state import NaturalState, sheet_at_rest
+
+OF_SECTION = ("young", "poisson", "thickness")
+NUMBERS = (*OF_SECTION, "density")
+STATE = ("strain", "curvature")
+STEP = 1e-5  # of a field, for differences of springs, whose error is of its square
+CLOSED = {"consistent-membrane": {"gradients": True}, "consistent-oblique": {"waves": True}}
+CLOSED |= {"consistent": {}, "consistent-interior": {}}
+Fields = Mapping[str, np.ndarray]
+
+
+class CellFields:
+    """Of a scene's lattice `assembly` with the springs of a calibration."""
+
+    def __init__(self, scene: Scene, calibration: Calibration, assembly: Assembly):
+        self.scene, self.calibration, self.assembly = scene, calibration, assembly
+        self.shape = assembly.lattice.cell_areas.shape
+
+    @cached_property
+    def section(self) -> CellSection:
+        """The sections of all cells."""
+        if (cells := self.calibration.cells) is not None:
+            return cells
+        return of_cells(Cells.of(self.scene.sheet, self.scene.material), self.calibration.grid)
+
+    @cached_property
+    def base(self) -> dict[str, np.ndarray]:
+        """The fields as they are, by the names of the module's text without "cells."."""
+        section, share = self.section, 1.0 if self.section.share is None else self.section.share
+        own, bent = section.membrane[..., 0, 0], section.bending[..., 0, 0]
+        there = own > 0.0
+
+        def over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+            return np.divide(part, whole, out=np.zeros_like(part), where=there)
+
+        poisson = over(section.membrane[..., 0, 1], section.membrane[..., 1, 1])
+        thickness = np.sqrt(over(12.0 * bent, own))
+        whole = np.where(there, thickness * share, 1.0)
+        free = own - over(section.membrane[..., 0, 1] ** 2, section.membrane[..., 1, 1])
+        found = {"young": free / whole, "poisson": poisson, "thickness": thickness}
+        return found | {"density": section.per_area / whole, **dict(zip(STATE, self._state(), strict=True))}
+
+    def _state(self) -> tuple[np.ndarray, np.ndarray]:
+        if self.assembly.natural is None:
+            return np.zeros((*self.shape, 3)), np.zeros((*self.shape, 3))
+        strain, curvature = (form[..., [0, 1, 0], [0, 1, 1]] for form in self._forms)
+        return strain, curvature
+
+    @cached_property
+    def _forms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Natural strain and curvature (rows, columns, 2, 2)."""
+        if self.assembly.natural is None:
+            return 2 * (np.zeros((*self.shape, 2, 2)),)  # type: ignore[return-value]
+        both: tuple[np.ndarray, np.ndarray] = self.assembly.natural.made(lambda *forms: forms).at()
+        return both
+
+    def changed_section(self, fields: Fields) -> CellSection:
+        """Return the sections of cells with other fields."""
+        section, base = self.section, self.base
+
+        def ratio(name: str) -> np.ndarray:
+            whole = np.where(base[name] != 0.0, base[name], 1.0)
+            return np.asarray(fields.get(name, base[name]) / whole)[..., None, None]
+
+        e, t = ratio("young"), ratio("thickness")
+        membrane, bending, shear = section.membrane * e * t, section.bending * e * t**3, section.shear * e * t
+        if "poisson" in fields:
+            if self.scene.material.kind == "orthotropic" or self.scene.layers:
+                raise BadInput("cells.poisson: of isotropic sheets only")
+            was, now = (nu[..., None, None] for nu in (base["poisson"], fields["poisson"]))
+            form = np.zeros_like(membrane)
+            form[..., 0, 0] = form[..., 1, 1] = 1.0
+            form[..., 0, 1] = form[..., 1, 0] = now[..., 0, 0]
+            form[..., 2, 2] = 0.5 * (1.0 - now[..., 0, 0])
+            by = (1.0 - was**2) / (1.0 - now**2) * form
+            membrane, bending = membrane[..., :1, :1] * by, bending[..., :1, :1] * by
+            shear = shear * (1.0 + was) / (1.0 + now)
+        mixed, per_area = section.mixed * e * t**2, section.per_area * (t * ratio("density"))[..., 0, 0]
+        parts = {"membrane": membrane, "bending": bending, "shear": shear, "mixed": mixed}
+        return replace(section, **parts, per_area=per_area)
+
+    def springs(self, fields: Fields) -> Springs:
+        """Return the springs of cells with other fields. Raises BadInput for ν and h of a calibration that is
+        not in closed form."""
+        constants, cells = self.calibration.constants, self.changed_section(fields)
+        there = self.section.bending[..., 0, 0] > 0.0
+        now, was = (twisting(section.bending) for section in (cells, self.section))
+        factor = np.divide(now, was, out=np.ones_like(now), where=was > 0.0)
+        if not fields.keys() & {"poisson", "thickness"}:
+            e = fields.get("young", self.base["young"]) / np.where(there, self.base["young"], 1.0)
+            inside = constants.scaled(e)
+        else:
+            inside = self._closed(cells)
+        of = dict(inside.of)
+        for name in RIMS_OWN:
+            if name in constants.of:
+                of[name] = (constants.along(name, 0) * factor[..., 0],)
+        for name in NEAR_EDGES if any(name in constants.of for name in EDGES_OWN) else ():
+            near = constants.of.get(name, NONE)
+            pairs = {name: (near, 0), f"far_{name}": (constants.of.get(f"far_{name}", near), -1)}
+            for key, (pair, end) in pairs.items():
+                x, y = pair[0], pair[-1]
+                if name != "edge_coupling":
+                    x, y = x * factor[:, [end], 0], y * factor[[end], :, 1]
+                of[key] = (x, y)
+        return Springs(of, constants.layer_distance)
+
+    def _closed(self, cells: CellSection) -> Springs:
+        method, grid = self.calibration.method, self.calibration.grid
+        if method not in CLOSED:
+            raise BadInput(f"cells.poisson, cells.thickness: the calibration '{method}' has no closed form")
+        sheet, material = sheet_at_rest(self.scene), self.scene.material
+
+        def springs(cells: CellSection) -> Springs:
+            each = each_cell(sheet, material, grid, self.calibration.grading, cells)
+            distance = self.calibration.layer_distance
+            return springs_of_cells(each, distance, anyhow=True, **CLOSED[method])
+
+        own = springs(self.section)
+        for name, parts in self.calibration.constants.of.items():
+            if name not in (*EDGES_OWN, *RIMS_OWN):
+                miss = np.abs(np.asarray(parts) - own[name]).max(initial=0.0)
+                if miss > 1e-9 * max(np.abs(np.asarray(part)).max() for part in own.of.values()):
+                    raise BadInput(
+                        f"cells.poisson, cells.thickness: the springs of '{method}' are not the closed form's"
+                    )
+        return springs(cells)
+
+    def families_of(self, springs: Springs) -> AllFamilies:
+        """Return springs without a natural state."""
+        return families_of(self.assembly.lattice, self.assembly.pattern, springs)
+
+    def assembly_of(self, fields: Fields) -> Assembly:
+        """Return the lattice of cells with other fields."""
+        springs = self.springs(fields) if fields.keys() & {*OF_SECTION} else self.calibration.constants
+        assembly = self._grown(self.families_of(springs), fields)
+        if "density" in fields or "thickness" in fields:
+            assembly.cells = self.changed_section(fields)
+        return assembly
+
+    def _grown(self, families: AllFamilies, fields: Fields = MappingProxyType({})) -> Assembly:
+        """Return the lattice with these springs in its natural state, or in that of fields."""
+        assembly, natural = copy(self.assembly), self.assembly.natural
+        assembly.natural = None
+        assembly._take(families)
+        if fields.keys() & {*STATE}:
+            state = [fields.get(name, self.base[name]) for name in STATE]
+            natural = NaturalState.given(np.concatenate(state, axis=-1))
+        if natural is not None:
+            assembly.grow(natural.made(lambda *forms: forms))
+        return assembly
+
+    def powers(self, name: str, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return the derivatives of the power v·(f − f_int) at u (n, 3) by a field."""
+        if name in STATE:
+            which = STATE.index(name)
+            flat, by = (
+                self.families_of(self.calibration.constants).families,
+                self.assembly.all_families.powers_by_constants(u, v),
+            )
+            return -pulled(self.assembly.lattice, flat, self._forms, by)[which]
+        found = np.zeros(self.shape)
+        if name in OF_SECTION:
+            found -= self._of_springs(name, u, v)
+        if name in ("density", "thickness") and self.scene.gravity is not None:
+            acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
+            per_area = self.section.per_area / np.where(self.base[name] > 0.0, self.base[name], 1.0)
+            found += per_area * self._of_masses(v[: self.assembly.lattice.mass_count] @ acceleration)
+        return found
+
+    def _of_springs(self, name: str, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return those of the springs' power, by a difference of what each cell gives to its springs."""
+        by, base = self.assembly.all_families.powers_by_constants(u, v), self.base[name]
+        step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
+        step, found = np.where(step > 0.0, step, 1.0), np.zeros(base.size)
+        for end, sign in ((base + step, 1.0), (base - step, -1.0)):
+            for (cells, constants), power in zip(self._of_cells({name: end}), by, strict=True):
+                work = sign * np.einsum("qmn,mn->qm", constants, power[:, : constants.shape[2]])
+                found += np.bincount(cells.ravel(), work.ravel(), found.size)
+        return found.reshape(base.shape) / (2.0 * step)
+
+    def _of_cells(self, fields: Fields) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield of each kind of springs the cells beside each, (q, m), and what they give to its constants,
+        (q, m, n)."""
+        lattice, springs = self.assembly.lattice, self.springs(fields)
+        links = self.assembly.links
+        every, own = (nodes @ [lattice.mass_count, 1] for nodes in (lattice.links.nodes, links.nodes))
+        these = np.isin(every, own)
+        yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
+        kept = np.arange(lattice.cell_areas.size)[lattice.kept]
+        grown = self._grown(self.families_of(springs)).springs
+        for family, now in zip(self.assembly.springs[1:3], grown[1:3], strict=True):
+            constants = now.constants if len(family) else np.empty((0, 1))
+            yield np.tile(kept, max(1, len(family) // len(kept)))[None, : len(family)], constants[None]
+        if len(self.assembly.springs[3]):
+            stored = faces_by_cells(lattice, springs)
+            constants = np.zeros((*stored.shape, FACE.count))
+            constants[..., -1] = stored / lattice.faces.at_rest.area**2
+            yield lattice.faces.cells, constants
+        else:
+            yield np.empty((1, 0), int), np.empty((1, 0, 1))
+
+    def _of_masses(self, weight: np.ndarray) -> np.ndarray:
+        """Return what a unit of mass per area of every cell adds to weight · masses, weight (n,)."""
+        lattice = self.assembly.lattice
+        layers = lattice.grid[2]
+        shares = shares_of_layers(self.scene, lattice) if self.scene.layers else np.full(layers, 1.0 / layers)
+        found = np.zeros(lattice.cell_areas.size)
+        found[lattice.kept] = 0.25 * (weight[lattice.mid_cells] @ shares).sum(axis=1)
+        return found.reshape(self.shape) * lattice.cell_areas

@@ -1,0 +1,243 @@
+"""How an equilibrium depends on the numbers of its scene: by one solve with the tangent's factors.
+
+At equilibrium the residual R(q, θ) = Tᵀ (f − f_int)(T q + g(θ), θ) is zero for every θ, so that with the
+tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/dθ + dg/dθ, one solve a parameter
+(`pushforward`); and of a number J(u) with λ = T K⁻ᵀ Tᵀ ∂J/∂u, whatever the parameters,
+
+    dJ/dθ = λ · ∂(f − f_int)/∂θ + ∂J/∂u · dg/dθ                                          (`pullback`).
+
+By what all cells are made of (`lumped.cell_fields`) ∂f_int/∂θ · λ is a loop over the springs, each with its
+law's derivatives by its constants. By a number of the scene ∂R/∂θ is a central difference of the residual at
+fixed q, of springs found again and supports and loads bound again. The residual is linear in every spring
+constant and in E, where that is exact to rounding; in the thickness, ν, a layer distance, a curvature or a
+tilt its relative error is of order 1e-8. Contact is differentiated with what touches now, and a load at a
+line of the grid, where its shares have a kink, has the mean of both sides.
+
+Names: those of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …; "material.young" and
+"sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, … where a direction has
+its own), layer_distance; "cells.young", … over all cells; "forces" (n, 3) [N] on the masses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from lumped.calibration import MAKERS, Calibration
+from lumped.cell_fields import NUMBERS, STATE, CellFields
+from lumped.loads import Loads
+from lumped.mid_surface import MidSurface
+from lumped.pretension import calibrated_at_rest
+from lumped.sections import sections_of
+from lumped.statics.problem import Problem
+from lumped.statics.solver import build_problem, stable_equilibrium
+from sheetbench.errors import BadInput
+from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.numerics.threads import one_blas_thread
+from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put
+
+STEP = 1e-5  # of a parameter, for the difference of residuals
+CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
+STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-11}  # m, of what presses in by 1e-8 m
+STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
+PATCH = "patch"  # with which names of a patch's constants begin
+FIELD = "cells."
+FORCES = "forces"
+FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """displacement: (n, 3) [m] at the points; derivatives: parameter → (n, 3) [m per unit of the
+    parameter]."""
+
+    displacement: np.ndarray
+    derivatives: dict[str, np.ndarray]
+
+
+Calibrate = Callable[[Scene], Calibration]
+
+
+def sensitivity(
+    scene: Scene,
+    calibration: Calibration,
+    parameters: Sequence[str],
+    points: np.ndarray | None = None,
+    calibrate: Calibrate | None = None,
+) -> Sensitivity:
+    """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
+
+    calibrate: how springs of a changed scene are found; by the same method without options unless given.
+
+    Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
+    """
+    require_static(scene)
+    with one_blas_thread():
+        problem = build_problem(scene, calibration)
+        u = stable_equilibrium(problem).u
+        found = Equilibrium(problem, calibration, u, calibrate)
+        at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
+        return Sensitivity(at.of(u), {name: at.of(found.pushforward({name: 1.0})) for name in parameters})
+
+
+class Equilibrium:
+    """Derivatives at a stable equilibrium u (n, 3) [m] of a problem; calibrate: as of `sensitivity`."""
+
+    def __init__(
+        self, problem: Problem, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
+    ):
+        self.problem, self.calibration, self.u, self.calibrate = problem, calibration, u, calibrate
+
+    @cached_property
+    def cells(self) -> CellFields:
+        """What the cells are made of."""
+        return CellFields(self.problem.scene, self.calibration, self.problem.assembly)
+
+    @cached_property
+    def _factor(self) -> Factor:
+        with one_blas_thread():  # that of the path's end may be older
+            return self.problem.system.factor(self.problem.tangent(self.u, 1.0))
+
+    @cached_property
+    def _transposed(self) -> Factor:
+        if self.problem.symmetric:
+            return self._factor
+        matrix = self.problem.system.matrix(self.problem.tangent(self.u, 1.0))
+        return DirectSolver(symmetric=False).factor(sp.csc_array(matrix.T))
+
+    def names(self) -> list[str]:
+        """Return the names of all derivatives."""
+        fields = [
+            name for name in NUMBERS if name != "poisson" or not self.problem.scene.material.ply.young_2
+        ]
+        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(self.problem.scene)]
+
+    def pullback(self, by_displacement: np.ndarray) -> Gradient:
+        """Return the derivatives of J by name, where J has these by the masses' displacement, (n, 3)."""
+        with one_blas_thread():
+            adjoint = self._transposed.solve(self.problem.reduce(by_displacement))
+        return Gradient(self, by_displacement, adjoint)
+
+    def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
+        """Return those of a J that has these by the displacement at plan points (p, 2), (p, 3)."""
+        middle = MidSurface(self.problem.assembly.lattice, points)
+        return self.pullback(middle.shared(weights, len(self.u)))
+
+    def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
+        """Return how the displacement (n, 3) moves with these changes of parameters."""
+        rows, moved = np.zeros(self.problem.system.unknowns), np.zeros_like(self.u)
+        for name, change in changes.items():
+            rate, placed = self.rates(name, change)
+            rows, moved = rows + rate, moved + placed
+        with one_blas_thread():
+            return self.problem.expand(self._factor.solve(rows)) + moved
+
+    def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
+        """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""
+        if name == FORCES:
+            return self.problem.reduce(np.asarray(change)), np.zeros_like(self.u)
+        if not name.startswith(FIELD):
+            _, moved, rows = rates(self.calibration, self.problem, self.u, name, self.calibrate)
+            return change * rows, change * moved
+        field = name.removeprefix(FIELD)
+        base, way = self.base(field), np.asarray(change, dtype=float)
+        step = FIELD_STEP.get(field, 1e-5 * np.abs(base).max() or 1e-5) / (np.abs(way).max() or 1.0)
+        up, down = (self.with_fields({field: base + h * way}).residual(self.u, 1.0) for h in (step, -step))
+        return (up.reduced - down.reduced) / (2.0 * step), np.zeros_like(self.u)
+
+    def base(self, field: str) -> np.ndarray:
+        """Return a field over the cells as it is."""
+        if field not in (*NUMBERS, *STATE):
+            known = ", ".join(FIELD + one for one in (*NUMBERS, *STATE))
+            raise BadInput(f"{FIELD}{field}: choose from {known}")
+        return self.cells.base[field]
+
+    def with_fields(self, fields: Mapping[str, np.ndarray]) -> Problem:
+        """Return the problem with other fields over the cells."""
+        problem, assembly = self.problem, self.cells.assembly_of(fields)
+        loads = problem.loads
+        if assembly.cells is not problem.assembly.cells:
+            loads = Loads(problem.scene, assembly)
+        return Problem(problem.scene, assembly, problem.constraints, loads, problem.items)
+
+
+class Gradient(Mapping[str, Any]):
+    """Derivatives of a number J by name, each found when it is asked for; adjoint: K⁻ᵀ Tᵀ ∂J/∂u, (m,)."""
+
+    def __init__(self, of: Equilibrium, by_displacement: np.ndarray, adjoint: np.ndarray):
+        self._of, self._by, self._adjoint = of, by_displacement, adjoint
+
+    def __getitem__(self, name: str) -> Any:
+        by_forces = self._of.problem.expand(self._adjoint)
+        if name == FORCES:
+            return by_forces
+        with one_blas_thread():
+            if name.startswith(FIELD):
+                self._of.base(field := name.removeprefix(FIELD))
+                return self._of.cells.powers(field, self._of.u, by_forces)
+            rows, moved = self._of.rates(name)
+        return float(self._adjoint @ rows + np.sum(self._by * moved))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._of.names())
+
+    def __len__(self) -> int:
+        return len(self._of.names())
+
+
+def rates(
+    calibration: Calibration, problem: Problem, u: np.ndarray, name: str, calibrate: Calibrate | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
+    force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]."""
+    scene, name = problem.scene, name.removeprefix("material.").removeprefix("sheet.")
+    if of_springs := name in (*calibration.constants.names(), "layer_distance"):
+        value, low, high = calibration.constants.value(name), -np.inf, np.inf
+    else:
+        found = parameter(scene, name)
+        value, low, high = found.value, found.low, found.high
+    own = name.partition(".")[2] if name.startswith(PATCH) else name
+    step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
+    if step == 0.0:
+        raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
+    unknowns = problem.constraints.nearest(u - problem.prescribed(1.0))
+    sides, ends = [], np.clip([value + step, value - step], low, high)
+    for end in ends.tolist():
+        if of_springs:
+            changed = build_problem(scene, calibration.with_constant(name, end), same=problem)
+        else:
+            changed = build_problem(*_changed(scene, calibration, name, end, calibrate))
+        placed = changed.expand(unknowns) + changed.prescribed(1.0)
+        left = changed.residual(placed, 1.0)
+        sides.append((left.force, placed, left.reduced))
+    force, moved, rows = ((up - down) / (ends[0] - ends[1]) for up, down in zip(*sides, strict=True))
+    return force, moved, rows
+
+
+def _changed(
+    scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
+) -> tuple[Scene, Calibration]:
+    """The scene with another value, and its springs: by the same method where what they are found from has
+    changed, unless `calibrate` finds them."""
+    changed = put(scene, name, value)
+    if name not in CALIBRATED_FROM and not name.startswith((PATCH, "natural.e")):
+        return changed, calibration
+    if calibrate is not None:
+        return changed, calibrate(changed)
+    if calibration.method not in MAKERS:
+        raise BadInput(
+            f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
+        )
+    own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
+    if (cells := sections_of(changed, calibration.grid, calibration.grading)) is not None:
+        own["cells"] = cells
+    make = MAKERS[calibration.method]
+    grid, material = calibration.grid, changed.material
+    return changed, calibrated_at_rest(changed, lambda sheet: make(sheet, material, grid, **own))

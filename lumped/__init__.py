@@ -13,11 +13,11 @@ from lumped.fitting.fits import ModalTarget, StaticTarget
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.methods import CALIBRATIONS, calibrate
 from lumped.footprint import footprint
-from lumped.gradient import sensitivity
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import require_alike, sections_of
+from lumped.sensitivity import Differentiable, sensitivity
 from lumped.statics.buckling import buckling
 from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
@@ -39,6 +39,7 @@ __all__ = [
     "Balanced",
     "Calibration",
     "Description",
+    "Differentiable",
     "Identifiability",
     "Inertia",
     "Integrator",

@@ -22,7 +22,6 @@ from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from types import MappingProxyType
 
 import numpy as np
 
@@ -83,16 +82,10 @@ class CellFields:
     def _state(self) -> tuple[np.ndarray, np.ndarray]:
         if self.assembly.natural is None:
             return np.zeros((*self.shape, 3)), np.zeros((*self.shape, 3))
-        strain, curvature = (form[..., [0, 1, 0], [0, 1, 1]] for form in self._forms)
+        strain, curvature = (
+            form[..., [0, 1, 0], [0, 1, 1]] for form in self.assembly.natural.made(lambda *forms: forms).at()
+        )
         return strain, curvature
-
-    @cached_property
-    def _forms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Natural strain and curvature (rows, columns, 2, 2)."""
-        if self.assembly.natural is None:
-            return 2 * (np.zeros((*self.shape, 2, 2)),)  # type: ignore[return-value]
-        both: tuple[np.ndarray, np.ndarray] = self.assembly.natural.made(lambda *forms: forms).at()
-        return both
 
     def changed_section(self, fields: Fields) -> CellSection:
         """Return the sections of cells with other fields."""
@@ -178,8 +171,8 @@ class CellFields:
             assembly.cells = self.changed_section(fields)
         return assembly
 
-    def _grown(self, families: AllFamilies, fields: Fields = MappingProxyType({})) -> Assembly:
-        """Return the lattice with these springs in its natural state, or in that of fields."""
+    def _grown(self, families: AllFamilies, fields: Fields) -> Assembly:
+        """Return the lattice with these springs in the natural state of fields."""
         assembly, natural = copy(self.assembly), self.assembly.natural
         assembly.natural = None
         assembly._take(families)
@@ -190,49 +183,52 @@ class CellFields:
             assembly.grow(natural.made(lambda *forms: forms))
         return assembly
 
-    def powers(self, name: str, u: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Return the derivatives of the power v·(f − f_int) at u (n, 3) by a field."""
+    def powers(
+        self, name: str, fields: Fields, assembly: Assembly, u: np.ndarray, v: np.ndarray
+    ) -> np.ndarray:
+        """Return the derivatives by a field of the power v·(f − f_int) at u (n, 3), of the lattice of these
+        fields."""
         if name in STATE:
-            which = STATE.index(name)
-            flat, by = (
-                self.families_of(self.calibration.constants).families,
-                self.assembly.all_families.powers_by_constants(u, v),
-            )
-            return -pulled(self.assembly.lattice, flat, self._forms, by)[which]
-        found = np.zeros(self.shape)
+            state = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
+            springs = self.springs(fields) if fields.keys() & {*OF_SECTION} else self.calibration.constants
+            flat, by = self.families_of(springs).families, assembly.all_families.powers_by_constants(u, v)
+            return -pulled(assembly.lattice, flat, tuple(state), by)[STATE.index(name)]
+        found, base = np.zeros(self.shape), fields.get(name, self.base[name])
         if name in OF_SECTION:
-            found -= self._of_springs(name, u, v)
+            found -= self._of_springs(name, base, fields, assembly, u, v)
         if name in ("density", "thickness") and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
-            per_area = self.section.per_area / np.where(self.base[name] > 0.0, self.base[name], 1.0)
-            found += per_area * self._of_masses(v[: self.assembly.lattice.mass_count] @ acceleration)
+            per_area = self.changed_section(fields).per_area / np.where(base > 0.0, base, 1.0)
+            found += per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
         return found
 
-    def _of_springs(self, name: str, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def _of_springs(
+        self, name: str, base: np.ndarray, fields: Fields, assembly: Assembly, u: np.ndarray, v: np.ndarray
+    ) -> np.ndarray:
         """Return those of the springs' power, by a difference of what each cell gives to its springs."""
-        by, base = self.assembly.all_families.powers_by_constants(u, v), self.base[name]
+        by = assembly.all_families.powers_by_constants(u, v)
         step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
         step, found = np.where(step > 0.0, step, 1.0), np.zeros(base.size)
         for end, sign in ((base + step, 1.0), (base - step, -1.0)):
-            for (cells, constants), power in zip(self._of_cells({name: end}), by, strict=True):
+            of_cells = self._of_cells({**fields, name: end}, assembly)
+            for (cells, constants), power in zip(of_cells, by, strict=True):
                 work = sign * np.einsum("qmn,mn->qm", constants, power[:, : constants.shape[2]])
                 found += np.bincount(cells.ravel(), work.ravel(), found.size)
         return found.reshape(base.shape) / (2.0 * step)
 
-    def _of_cells(self, fields: Fields) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    def _of_cells(self, fields: Fields, assembly: Assembly) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield of each kind of springs the cells beside each, (q, m), and what they give to its constants,
         (q, m, n)."""
-        lattice, springs = self.assembly.lattice, self.springs(fields)
-        links = self.assembly.links
+        lattice, springs, links = assembly.lattice, self.springs(fields), assembly.links
         every, own = (nodes @ [lattice.mass_count, 1] for nodes in (lattice.links.nodes, links.nodes))
         these = np.isin(every, own)
         yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
         kept = np.arange(lattice.cell_areas.size)[lattice.kept]
-        grown = self._grown(self.families_of(springs)).springs
-        for family, now in zip(self.assembly.springs[1:3], grown[1:3], strict=True):
+        grown = self._grown(self.families_of(springs), fields).springs
+        for family, now in zip(assembly.springs[1:3], grown[1:3], strict=True):
             constants = now.constants if len(family) else np.empty((0, 1))
             yield np.tile(kept, max(1, len(family) // len(kept)))[None, : len(family)], constants[None]
-        if len(self.assembly.springs[3]):
+        if len(assembly.springs[3]):
             stored = faces_by_cells(lattice, springs)
             constants = np.zeros((*stored.shape, FACE.count))
             constants[..., -1] = stored / lattice.faces.at_rest.area**2

@@ -20,9 +20,10 @@ its own), layer_distance; "cells.young", … over all cells; "forces" (n, 3) [N]
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from copy import copy
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -34,12 +35,12 @@ from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import sections_of
+from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
-from lumped.statics.solver import build_problem, stable_equilibrium
-from sheetbench.errors import BadInput
-from sheetbench.numerics.direct import DirectSolver, Factor
+from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import Scene, require_static
+from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
@@ -50,60 +51,67 @@ STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
 PATCH = "patch"  # with which names of a patch's constants begin
 FIELD = "cells."
 FORCES = "forces"
+OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
 
 
-@dataclass(frozen=True)
-class Sensitivity:
-    """displacement: (n, 3) [m] at the points; derivatives: parameter → (n, 3) [m per unit of the
-    parameter]."""
-
-    displacement: np.ndarray
-    derivatives: dict[str, np.ndarray]
-
-
 Calibrate = Callable[[Scene], Calibration]
-
-
-def sensitivity(
-    scene: Scene,
-    calibration: Calibration,
-    parameters: Sequence[str],
-    points: np.ndarray | None = None,
-    calibrate: Calibrate | None = None,
-) -> Sensitivity:
-    """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
-
-    calibrate: how springs of a changed scene are found; by the same method without options unless given.
-
-    Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
-    """
-    require_static(scene)
-    with one_blas_thread():
-        problem = build_problem(scene, calibration)
-        u = stable_equilibrium(problem).u
-        found = Equilibrium(problem, calibration, u, calibrate)
-        at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
-        return Sensitivity(at.of(u), {name: at.of(found.pushforward({name: 1.0})) for name in parameters})
+Values = Mapping[str, np.ndarray]
 
 
 class Equilibrium:
-    """Derivatives at a stable equilibrium u (n, 3) [m] of a problem; calibrate: as of `sensitivity`."""
+    """Derivatives at a stable equilibrium u (n, 3) [m] of a problem. calibrate: how springs of a changed
+    scene are found; by the same method without options unless given; values: of fields over the cells and
+    forces, by name, in place of the scene's own."""
 
     def __init__(
-        self, problem: Problem, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
+        self,
+        plain: Problem,
+        calibration: Calibration,
+        u: np.ndarray,
+        calibrate: Calibrate | None = None,
+        values: Values = MappingProxyType({}),
     ):
-        self.problem, self.calibration, self.u, self.calibrate = problem, calibration, u, calibrate
+        self.plain, self.calibration, self.u, self.calibrate = plain, calibration, u, calibrate
+        self.cells = CellFields(plain.scene, calibration, plain.assembly)
+        self.values = values
+        self.problem = self.with_values({}) if values else plain
 
-    @cached_property
-    def cells(self) -> CellFields:
-        """What the cells are made of."""
-        return CellFields(self.problem.scene, self.calibration, self.problem.assembly)
+    @classmethod
+    def of(
+        cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
+    ) -> Equilibrium:
+        """Return those of a scene's lattice with these springs."""
+        return cls(build_problem(scene, calibration), calibration, u, calibrate)
+
+    @property
+    def fields(self) -> dict[str, np.ndarray]:
+        """The fields over the cells that are not the scene's own."""
+        return _fields(self.values)
+
+    def with_values(self, values: Values) -> Problem:
+        """Return the problem with more values."""
+        plain, assembly, both = self.plain, self.plain.assembly, {**self.values, **values}
+        if fields := _fields(both):
+            assembly = self.cells.assembly_of(fields)
+        loads = plain.loads
+        if assembly.cells is not plain.assembly.cells:
+            loads = Loads(plain.scene, assembly)
+        if FORCES in both:
+            loads = copy(loads)
+            loads.last_dead = loads.last_dead + both[FORCES]
+        return Problem(plain.scene, assembly, plain.constraints, loads, plain.items)
 
     @cached_property
     def _factor(self) -> Factor:
-        with one_blas_thread():  # that of the path's end may be older
-            return self.problem.system.factor(self.problem.tangent(self.u, 1.0))
+        try:
+            with one_blas_thread():  # that of the path's end may be older
+                found = self.problem.system.factor(self.problem.tangent(self.u, 1.0))
+        except SingularMatrixError as error:
+            raise NoEquilibrium(f"lumped: singular: it has no derivatives: {error}") from None
+        if self.problem.descends and found.negative > 0:
+            raise NoEquilibrium("lumped: unstable: its derivatives are of another branch")
+        return found
 
     @cached_property
     def _transposed(self) -> Factor:
@@ -144,28 +152,24 @@ class Equilibrium:
         if name == FORCES:
             return self.problem.reduce(np.asarray(change)), np.zeros_like(self.u)
         if not name.startswith(FIELD):
-            _, moved, rows = rates(self.calibration, self.problem, self.u, name, self.calibrate)
+            _, moved, rows = rates(self.calibration, self.plain, self.u, name, self.calibrate, self.values)
             return change * rows, change * moved
-        field = name.removeprefix(FIELD)
-        base, way = self.base(field), np.asarray(change, dtype=float)
-        step = FIELD_STEP.get(field, 1e-5 * np.abs(base).max() or 1e-5) / (np.abs(way).max() or 1.0)
-        up, down = (self.with_fields({field: base + h * way}).residual(self.u, 1.0) for h in (step, -step))
+        base, way = self.base(name), np.asarray(change, dtype=float)
+        usual = 1e-5 * np.abs(base).max() or 1e-5
+        step = FIELD_STEP.get(name.removeprefix(FIELD), usual) / (np.abs(way).max() or 1.0)
+        up, down = (self.with_values({name: base + h * way}).residual(self.u, 1.0) for h in (step, -step))
         return (up.reduced - down.reduced) / (2.0 * step), np.zeros_like(self.u)
 
-    def base(self, field: str) -> np.ndarray:
+    def base(self, name: str) -> np.ndarray:
         """Return a field over the cells as it is."""
-        if field not in (*NUMBERS, *STATE):
-            known = ", ".join(FIELD + one for one in (*NUMBERS, *STATE))
-            raise BadInput(f"{FIELD}{field}: choose from {known}")
-        return self.cells.base[field]
+        known = [FIELD + one for one in (*NUMBERS, *STATE)]
+        if name not in known:
+            raise BadInput(f"{name}: choose from {', '.join(known)}")
+        return np.asarray(self.values.get(name, self.cells.base[name.removeprefix(FIELD)]))
 
-    def with_fields(self, fields: Mapping[str, np.ndarray]) -> Problem:
-        """Return the problem with other fields over the cells."""
-        problem, assembly = self.problem, self.cells.assembly_of(fields)
-        loads = problem.loads
-        if assembly.cells is not problem.assembly.cells:
-            loads = Loads(problem.scene, assembly)
-        return Problem(problem.scene, assembly, problem.constraints, loads, problem.items)
+
+def _fields(values: Values) -> dict[str, np.ndarray]:
+    return {name.removeprefix(FIELD): of for name, of in values.items() if name.startswith(FIELD)}
 
 
 class Gradient(Mapping[str, Any]):
@@ -180,8 +184,10 @@ class Gradient(Mapping[str, Any]):
             return by_forces
         with one_blas_thread():
             if name.startswith(FIELD):
-                self._of.base(field := name.removeprefix(FIELD))
-                return self._of.cells.powers(field, self._of.u, by_forces)
+                of = self._of
+                of.base(name)
+                at = of.fields, of.problem.assembly, of.u, by_forces
+                return of.cells.powers(name.removeprefix(FIELD), *at)
             rows, moved = self._of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))
 
@@ -193,7 +199,12 @@ class Gradient(Mapping[str, Any]):
 
 
 def rates(
-    calibration: Calibration, problem: Problem, u: np.ndarray, name: str, calibrate: Calibrate | None = None
+    calibration: Calibration,
+    problem: Problem,
+    u: np.ndarray,
+    name: str,
+    calibrate: Calibrate | None = None,
+    values: Values = MappingProxyType({}),
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
     force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]."""
@@ -211,9 +222,13 @@ def rates(
     sides, ends = [], np.clip([value + step, value - step], low, high)
     for end in ends.tolist():
         if of_springs:
-            changed = build_problem(scene, calibration.with_constant(name, end), same=problem)
+            side, springs = scene, calibration.with_constant(name, end)
+            changed = build_problem(side, springs, same=problem)
         else:
-            changed = build_problem(*_changed(scene, calibration, name, end, calibrate))
+            side, springs = of_changed(scene, calibration, name, end, calibrate)
+            changed = build_problem(side, springs)
+        if values:
+            changed = Equilibrium(changed, springs, u, values=values).problem
         placed = changed.expand(unknowns) + changed.prescribed(1.0)
         left = changed.residual(placed, 1.0)
         sides.append((left.force, placed, left.reduced))
@@ -221,11 +236,11 @@ def rates(
     return force, moved, rows
 
 
-def _changed(
+def of_changed(
     scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
 ) -> tuple[Scene, Calibration]:
-    """The scene with another value, and its springs: by the same method where what they are found from has
-    changed, unless `calibrate` finds them."""
+    """Return the scene with another value, and its springs: by the same method where what they are found from
+    has changed, unless `calibrate` finds them."""
     changed = put(scene, name, value)
     if name not in CALIBRATED_FROM and not name.startswith((PATCH, "natural.e")):
         return changed, calibration

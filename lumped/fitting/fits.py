@@ -26,8 +26,8 @@ from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.consistent import consistent
 from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
-from lumped.gradient import sensitivity
 from lumped.lattice import Grid
+from lumped.sensitivity import sensitivity
 from lumped.spring_constants import EDGES_OWN, RIMS_OWN
 from lumped.vibration import frequency_slopes
 from sheetbench.answers.table import PERCENT, Table

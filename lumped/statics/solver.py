@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache, partial
 from typing import Literal
 
 import numpy as np
 
-from lumped.actuators import Coupling
-from lumped.assembly import Assembly
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.contact import Contact
+from lumped.gradient import Calibrate, Equilibrium
 from lumped.lattice import Weights
-from lumped.loads import Loads
-from lumped.pretension import stretched
-from lumped.sections import require_alike
 from lumped.statics import validity
 from lumped.statics.answer import solution
+from lumped.statics.build import build_problem
 from lumped.statics.coarse_start import FROM, halved, refined
 from lumped.statics.energy_descent import settle
 from lumped.statics.fields import SMALL
 from lumped.statics.problem import STRETCH, LatticePath, LatticeState, Problem
-from lumped.supports import constrain
 from sheetbench.answers.solution import Iteration, Solution, Status
 from sheetbench.clock import now
 from sheetbench.errors import BadInput, require_effect
@@ -43,9 +39,7 @@ from sheetbench.scenes import (
     require_static,
     scene_of,
 )
-from sheetbench.scenes.meaning.natural_state import natural_of_cells
 from sheetbench.scenes.objects.material import limit_note
-from sheetbench.scenes.objects.orthotropy import FIBRES
 
 Branch = Literal["path", "stable"]
 
@@ -59,6 +53,7 @@ def solve(
     linear: bool = False,
     near: np.ndarray | None = None,
     progress: Callable[[Iteration], None] | None = None,
+    calibrate: Calibrate | None = None,
 ) -> Solution:
     """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
 
@@ -69,7 +64,8 @@ def solve(
     boundary links and masses full shares, as Habibi et al. have them. linear: the answer for small
     displacements, one step with the flat sheet's tangent. near: the masses' displacement (n, 3) [m] in an
     equilibrium of a scene much like this one on this grid, to be sought from first; where that leads to no
-    stable one, and with actuators, from flat. progress: called once an iteration.
+    stable one, and with actuators, from flat. progress: called once an iteration. calibrate: how the answer's
+    `gradient` finds the springs of a changed scene, by the same method without options unless given.
 
     Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators, for `near`
     of another grid, and for options that have no effect beside linear or near. Every other outcome is a
@@ -101,7 +97,10 @@ def solve(
     done = now()
     options = {"branch": (branch, "path"), "weights": (weights, "tributary"), "linear": (linear, False)}
     requested = {name: value for name, (value, usual) in options.items() if value != usual}
-    return solution(problem, path, calibration, (ready - began, done - ready), requested)
+    found = solution(problem, path, calibration, (ready - began, done - ready), requested)
+    if linear or weights != "tributary":
+        return found
+    return replace(found, derivatives=partial(Equilibrium.of, scene, calibration, path.state.u, calibrate))
 
 
 @cache
@@ -113,35 +112,6 @@ def compile_kernels() -> None:
     held = (Clamped(edge="x0"),)
     scene = Scene(name="small", sheet=sheet, material=material, gravity=gravity, supports=held)
     solve_path(build_problem(scene, consistent(sheet, material, (3, 7, 2))))
-
-
-def build_problem(
-    scene: Scene,
-    calibration: Calibration,
-    weights: Weights = "tributary",
-    same: Problem | None = None,
-) -> Problem:
-    """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
-    supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
-    move, and for springs of cells that are all alike where the scene's are not."""
-    fibres_alone = calibration.of_material and scene.varied_by == FIBRES and not scene.shaped_by
-    if (calibration.cells is None or calibration.of_material) and not fibres_alone:
-        instead = "calibrate with cells=lumped.sections_of(scene, grid)"
-        require_alike(scene, f"the calibration {calibration.method}", instead)
-    couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges())
-    lines = assembly.lattice.lines
-    if (state := natural_of_cells(stretched(scene, assembly), *(line.at for line in lines))) is not None:
-        assembly.grow(state)
-    alike = same is not None and same.assembly.lattice is assembly.lattice
-    if same is not None and alike and couple is None and assembly.natural is None:
-        return Problem(scene, assembly, same.constraints, same.loads, same.items)
-    constraints = constrain(scene, assembly.lattice, assembly.coupling)
-    if not constraints.transform.shape[1]:
-        grid = "×".join(str(n) for n in assembly.lattice.grid)
-        raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    items = tuple(Contact(scene, assembly, *each) for each in scene.named_obstacles().items())
-    return Problem(scene, assembly, constraints, Loads(scene, assembly), items)
 
 
 def flat_step(problem: Problem) -> LatticePath:

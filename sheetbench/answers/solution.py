@@ -5,7 +5,8 @@ Part of the question's language: it holds no mechanics, so both solvers and any 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -63,6 +64,15 @@ class Status(StrEnum):
     )
     REFUSED = "refused", "the model does not support what the scene asks"
     FAILED = "failed", "a program or a mesh failed: there is no answer"
+
+
+COMPONENTS = ("ux", "uy", "uz")
+STEP = 1e-5  # of the largest displacement, for differences of a function of displacements
+
+
+def _parameter_name(key: str) -> str:
+    """Return the name of a number of a scene by its key: "material.young" is young."""
+    return key.removeprefix("material.").removeprefix("sheet.")
 
 
 def comparable(status: str, load_factor: float) -> bool:
@@ -230,6 +240,56 @@ class Solution(Answer):
                 raise BadInput(f"displacement('{points}'): no probe of this name; known are {known}")
             return self.probes[points]
         return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))
+
+    def gradient(
+        self,
+        of: str | np.ndarray | Callable[[np.ndarray], float],
+        by: Sequence[str] | None = None,
+        at: np.ndarray | None = None,
+    ) -> dict[str, Any]:
+        """Return the derivatives of a number J of this equilibrium, by one more solve: of a number of the
+        scene as young, patch1.thickness or load1.force.z a number, of a field over the cells (elements) of
+        the model, as cells.young (elements.young), an array; what touches an obstacle goes on touching it.
+
+        of: a component at a probe, as "P4.uz"; an array (n, 3), J's derivatives by the displacements at the
+        probes in their order; or a smooth function of these, (n, 3) [m], that returns J, differentiated by
+        central differences. at: plan points (n, 2) [m] in place of the probes. by: names; all
+        that there are without it.
+
+        Raises NoEquilibrium where this is no stable equilibrium under the whole load, BadInput for a model
+        without derivatives and an unknown name.
+        """
+        if self.derivatives is None:
+            raise BadInput(f"gradient: {self.label} has no derivatives; lumped, plate and shell have")
+        self.require_stable()
+        points = np.array([*self.points.values()]) if at is None else np.reshape(at, (-1, 2))
+        found = self.derivatives().at_points(points, self._by_displacements(of, points))
+        if by is not None:
+            return {name: found[_parameter_name(name)] for name in by}
+        every = {}
+        for name in found:
+            with suppress(BadInput):  # as a clamp's tilt is where another one shares its corner
+                every[name] = found[name]
+        return every
+
+    def _by_displacements(self, of: Any, points: np.ndarray) -> np.ndarray:
+        """Return ∂J/∂u (n, 3) at plan points."""
+        if isinstance(of, str):
+            probe, _, component = of.rpartition(".")
+            if probe not in self.points or component not in COMPONENTS:
+                raise BadInput(f"gradient: of = '{of}': a probe and ux, uy or uz, as 'P4.uz', is needed")
+            out = np.zeros((len(points), 3))
+            out[[*self.points].index(probe), COMPONENTS.index(component)] = 1.0
+            return out
+        if callable(of):
+            u = self.displacement(points)
+            h = STEP * np.abs(u).max()
+            units = h * np.eye(u.size).reshape(-1, *u.shape)
+            return np.array([(of(u + e) - of(u - e)) / (2.0 * h) for e in units]).reshape(u.shape)
+        given = np.asarray(of, dtype=float)
+        if given.shape != (len(points), 3):
+            raise BadInput(f"gradient: of: shape {given.shape}, and there are {len(points)} points: (n, 3)")
+        return given
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
         """The undeformed mesh with its fields, `displacement` as the active vectors, for pyvista:

@@ -1,0 +1,117 @@
+"""How displacements depend on numbers of a scene, and a lattice as a function that is differentiated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lumped.calibration import Calibration, default
+from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, of_changed
+from lumped.mid_surface import MidSurface
+from lumped.statics.build import build_problem
+from lumped.statics.problem import Problem
+from lumped.statics.solver import solve_path, stable_equilibrium
+from sheetbench.answers.solution import Status
+from sheetbench.numerics.continuation.stability import require_stable
+from sheetbench.numerics.threads import one_blas_thread
+from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """displacement: (n, 3) [m] at the points; derivatives: parameter → (n, 3) [m per unit of the
+    parameter]."""
+
+    displacement: np.ndarray
+    derivatives: dict[str, np.ndarray]
+
+
+def sensitivity(
+    scene: Scene,
+    calibration: Calibration,
+    parameters: Sequence[str],
+    points: np.ndarray | None = None,
+    calibrate: Calibrate | None = None,
+) -> Sensitivity:
+    """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
+
+    calibrate: how springs of a changed scene are found; by the same method without options unless given.
+
+    Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
+    """
+    require_static(scene)
+    with one_blas_thread():
+        problem = build_problem(scene, calibration)
+        u = stable_equilibrium(problem).u
+        found = Equilibrium(problem, calibration, u, calibrate)
+        at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
+        return Sensitivity(at.of(u), {name: at.of(found.pushforward({name: 1.0})) for name in parameters})
+
+
+class Differentiable:
+    """The displacement of a scene's masses as a function of values by name (`lumped.gradient`): of its
+    parameters, of fields over its cells, of forces beside its own.
+
+    >>> import lumped, numpy as np
+    >>> sheet = lumped.Differentiable("one-edge-clamped")
+    >>> young = np.full(sheet.base["cells.young"].shape, 5e7)
+    >>> u = sheet.solve({"cells.young": young})
+    >>> sheet.pullback(np.ones_like(u))["cells.young"].shape
+    (8, 8)
+    """
+
+    def __init__(
+        self, scene: AnyScene, calibration: Calibration | None = None, calibrate: Calibrate | None = None
+    ):
+        self.scene = scene_of(scene)
+        require_static(self.scene)
+        self.calibration, self._calibrate = calibration or default(self.scene), calibrate
+        self._plain = self._at(self.scene, self.calibration)
+        self._last = self._plain
+
+    def _at(self, scene: Scene, calibration: Calibration) -> Equilibrium:
+        problem = build_problem(scene, calibration)
+        return Equilibrium(problem, calibration, np.zeros_like(problem.loads.dead), self._calibrate)
+
+    @property
+    def base(self) -> dict[str, np.ndarray]:
+        """The fields over the cells as the scene has them, and no forces."""
+        fields = {FIELD + name: field for name, field in self._plain.cells.base.items()}
+        return {**fields, FORCES: np.zeros_like(self._plain.u)}
+
+    def at(self, points: np.ndarray) -> Any:
+        """Return the map of displacements to those at plan points (p, 2), sparse (3 p, 3 n), both flat."""
+        return MidSurface(self._plain.problem.assembly.lattice, points).matrix(len(self._plain.u))
+
+    def solve(self, values: Mapping[str, Any]) -> np.ndarray:
+        """Return the displacement (n, 3) [m] of the stable equilibrium with these values, sought from the
+        last one first. Raises NoEquilibrium where there is none, BadInput for other names."""
+        scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
+        fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
+        for name in values.keys() - fields.keys():
+            scene, calibration = of_changed(scene, calibration, name, float(values[name]), self._calibrate)
+        plain = self._plain.plain if scene is self.scene else build_problem(scene, calibration)
+        at = Equilibrium(plain, calibration, self._plain.u, self._calibrate, fields)
+        with one_blas_thread():
+            path = self._path(at.problem)
+        require_stable("lumped", path.status, path.notes)
+        at.u, self._last = path.state.u, at
+        return path.state.u
+
+    def _path(self, problem: Problem) -> Any:
+        near = self._last.u if self._last is not self._plain and problem.assembly.coupling is None else None
+        path = solve_path(problem, near=near)
+        if near is not None and path.status is not Status.CONVERGED:
+            path = solve_path(problem)
+        return path
+
+    def pullback(self, by_displacement: np.ndarray) -> Gradient:
+        """Return the derivatives by name, at the last solve's values, of a J that has these by u, (n, 3)."""
+        return self._last.pullback(by_displacement)
+
+    def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
+        """Return how u moves with changes of values, at those of the last solve."""
+        return self._last.pushforward(changes)

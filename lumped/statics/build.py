@@ -1,0 +1,49 @@
+"""A scene's lattice under its supports and loads, from its springs."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from lumped.actuators import Coupling
+from lumped.assembly import Assembly
+from lumped.calibration import Calibration
+from lumped.contact import Contact
+from lumped.lattice import Weights
+from lumped.loads import Loads
+from lumped.pretension import stretched
+from lumped.sections import require_alike
+from lumped.statics.problem import Problem
+from lumped.supports import constrain
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.natural_state import natural_of_cells
+from sheetbench.scenes.objects.orthotropy import FIBRES
+
+
+def build_problem(
+    scene: Scene,
+    calibration: Calibration,
+    weights: Weights = "tributary",
+    same: Problem | None = None,
+) -> Problem:
+    """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
+    supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
+    move, and for springs of cells that are all alike where the scene's are not."""
+    fibres_alone = calibration.of_material and scene.varied_by == FIBRES and not scene.shaped_by
+    if (calibration.cells is None or calibration.of_material) and not fibres_alone:
+        instead = "calibrate with cells=lumped.sections_of(scene, grid)"
+        require_alike(scene, f"the calibration {calibration.method}", instead)
+    couple = partial(Coupling, scene) if scene.actuators else None
+    assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges())
+    lines = assembly.lattice.lines
+    if (state := natural_of_cells(stretched(scene, assembly), *(line.at for line in lines))) is not None:
+        assembly.grow(state)
+    alike = same is not None and same.assembly.lattice is assembly.lattice
+    if same is not None and alike and couple is None and assembly.natural is None:
+        return Problem(scene, assembly, same.constraints, same.loads, same.items)
+    constraints = constrain(scene, assembly.lattice, assembly.coupling)
+    if not constraints.transform.shape[1]:
+        grid = "×".join(str(n) for n in assembly.lattice.grid)
+        raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
+    items = tuple(Contact(scene, assembly, *each) for each in scene.named_obstacles().items())
+    return Problem(scene, assembly, constraints, Loads(scene, assembly), items)

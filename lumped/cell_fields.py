@@ -30,11 +30,18 @@ from lumped.calibration import Calibration
 from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.closed_form import springs_of_cells
 from lumped.masses import shares_of_layers
-from lumped.natural import pulled
+from lumped.natural import grown, pulled
 from lumped.sections import CellSection, of_cells, twisting
 from lumped.spring_constants import EDGES_OWN, NEAR_EDGES, NONE, RIMS_OWN, Springs
-from lumped.springs.all_families import AllFamilies, faces_by_cells, families_of, stiffness_by_cells
-from lumped.springs.law_table import FACE
+from lumped.springs.all_families import (
+    AllFamilies,
+    cell_springs,
+    faces_by_cells,
+    families_of,
+    stiffness_by_cells,
+)
+from lumped.springs.families import Family
+from lumped.springs.law_table import FACE, RUBBER
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cells, Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, sheet_at_rest
@@ -42,6 +49,8 @@ from sheetbench.scenes.meaning.natural_state import NaturalState, sheet_at_rest
 OF_SECTION = ("young", "poisson", "thickness")
 NUMBERS = (*OF_SECTION, "density")
 STATE = ("strain", "curvature")
+NOTHING = 1e-300  # N/m, a stiffness of springs that are there
+LIMIT = 9  # among the constants of rubber
 STEP = 1e-5  # of a field, for differences of springs, whose error is of its square
 CLOSED = {"consistent-membrane": {"gradients": True}, "consistent-oblique": {"waves": True}}
 CLOSED |= {"consistent": {}, "consistent-interior": {}}
@@ -101,12 +110,12 @@ class CellFields:
             if self.scene.material.kind == "orthotropic" or self.scene.layers:
                 raise BadInput("cells.poisson: of isotropic sheets only")
             was, now = (nu[..., None, None] for nu in (base["poisson"], fields["poisson"]))
-            form = np.zeros_like(membrane)
-            form[..., 0, 0] = form[..., 1, 1] = 1.0
-            form[..., 0, 1] = form[..., 1, 0] = now[..., 0, 0]
-            form[..., 2, 2] = 0.5 * (1.0 - now[..., 0, 0])
-            by = (1.0 - was**2) / (1.0 - now**2) * form
-            membrane, bending = membrane[..., :1, :1] * by, bending[..., :1, :1] * by
+            by = (1.0 - was**2) / (1.0 - now**2) * np.ones_like(membrane)
+            by[..., 2, 2] *= ((1.0 - now) / (1.0 - was))[..., 0, 0]
+            coupling = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+            membrane, bending = (
+                by * (form + (now - was) * form[..., 1:2, 1:2] * coupling) for form in (membrane, bending)
+            )
             shear = shear * (1.0 + was) / (1.0 + now)
         mixed, per_area = section.mixed * e * t**2, section.per_area * (t * ratio("density"))[..., 0, 0]
         parts = {"membrane": membrane, "bending": bending, "shear": shear, "mixed": mixed}
@@ -189,10 +198,10 @@ class CellFields:
         """Return the derivatives by a field of the power v·(f − f_int) at u (n, 3), of the lattice of these
         fields."""
         if name in STATE:
-            state = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
+            state = tuple(fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
             springs = self.springs(fields) if fields.keys() & {*OF_SECTION} else self.calibration.constants
             flat, by = self.families_of(springs).families, assembly.all_families.powers_by_constants(u, v)
-            return -pulled(assembly.lattice, flat, tuple(state), by)[STATE.index(name)]
+            return -pulled(assembly.lattice, flat[:3], state, by, name == "curvature")
         found, base = np.zeros(self.shape), fields.get(name, self.base[name])
         if name in OF_SECTION:
             found -= self._of_springs(name, base, fields, assembly, u, v)
@@ -205,28 +214,40 @@ class CellFields:
     def _of_springs(
         self, name: str, base: np.ndarray, fields: Fields, assembly: Assembly, u: np.ndarray, v: np.ndarray
     ) -> np.ndarray:
-        """Return those of the springs' power, by a difference of what each cell gives to its springs."""
-        by = assembly.all_families.powers_by_constants(u, v)
-        step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
-        step, found = np.where(step > 0.0, step, 1.0), np.zeros(base.size)
-        for end, sign in ((base + step, 1.0), (base - step, -1.0)):
+        """Return those of the springs' power: linear in E, else by a difference of what each cell gives to
+        its springs."""
+        if name != "young" and not len(assembly.springs[2]):  # at other values the mid-surface has some
+            own = self.springs(fields)
+            own = replace(own, of={**own.of, "mid_area": (np.full(self.shape, NOTHING),)})
+            assembly = self._grown(self.families_of(own), fields)
+        by, found = assembly.all_families.powers_by_constants(u, v), np.zeros(base.size)
+        if name == "young":
+            sides, over = [(base, 1.0)], base
+        else:
+            step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
+            sides, over = [(base + step, 1.0), (base - step, -1.0)], 2.0 * step
+        for end, sign in sides:
             of_cells = self._of_cells({**fields, name: end}, assembly)
             for (cells, constants), power in zip(of_cells, by, strict=True):
+                if constants.shape[2] == RUBBER.count:
+                    power[:, LIMIT] = 0.0  # a strain
                 work = sign * np.einsum("qmn,mn->qm", constants, power[:, : constants.shape[2]])
                 found += np.bincount(cells.ravel(), work.ravel(), found.size)
-        return found.reshape(base.shape) / (2.0 * step)
+        return found.reshape(base.shape) / np.where(over > 0.0, over, 1.0)
 
     def _of_cells(self, fields: Fields, assembly: Assembly) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield of each kind of springs the cells beside each, (q, m), and what they give to its constants,
         (q, m, n)."""
-        lattice, springs, links = assembly.lattice, self.springs(fields), assembly.links
-        every, own = (nodes @ [lattice.mass_count, 1] for nodes in (lattice.links.nodes, links.nodes))
-        these = np.isin(every, own)
+        lattice, springs = assembly.lattice, self.springs(fields)
+        these = lattice.links_of(assembly.links.nodes)
         yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
         kept = np.arange(lattice.cell_areas.size)[lattice.kept]
-        grown = self._grown(self.families_of(springs), fields).springs
-        for family, now in zip(assembly.springs[1:3], grown[1:3], strict=True):
-            constants = now.constants if len(family) else np.empty((0, 1))
+        plain: list[Family] = [*cell_springs(lattice, assembly.pattern, springs)]
+        strain = fields.get("strain", self.base["strain"])
+        if strain.any():
+            plain = grown(lattice, plain, strain[..., [[0, 2], [2, 1]]])
+        for family, now in zip(assembly.springs[1:3], plain, strict=True):
+            constants = now.constants if len(family) else np.empty((0, 1))  # type: ignore[attr-defined]
             yield np.tile(kept, max(1, len(family) // len(kept)))[None, : len(family)], constants[None]
         if len(assembly.springs[3]):
             stored = faces_by_cells(lattice, springs)

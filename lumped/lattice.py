@@ -151,6 +151,13 @@ class Lattice:
         nx, ny, layers = self.grid
         return np.arange(nx * ny * layers).reshape(ny, nx, layers)
 
+    def links_of(self, nodes: np.ndarray) -> np.ndarray | slice:
+        """Return which of the lattice's links have these nodes (m, 2), in the order of the lattice's."""
+        if len(nodes) == len(self.links.nodes):
+            return slice(None)
+        every, own = (ends @ [self.mass_count, 1] for ends in (self.links.nodes, nodes))
+        return np.isin(every, own)
+
     def edge_columns(self, edge: str) -> np.ndarray:
         """Mass numbers along an edge in the direction of its axis, (m, layers)."""
         columns = self.columns()

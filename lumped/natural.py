@@ -29,6 +29,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.natural_state import NaturalState
 
 XX_YY_XY = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
+COMPONENTS = (0, 0), (1, 1), (0, 1), (1, 0)
 STEP = 1e-5  # of a strain, for a difference of stiffnesses
 
 
@@ -44,18 +45,28 @@ def with_natural(
     ]
 
 
+def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> list[Family]:
+    """Return springs of a flat sheet with the stiffness that they have where it has this natural strain."""
+    found = zip(families, _natural(lattice, families), strict=True)
+    return [(one and replace(one.family, stiffness=one.grown(strain))) or family for family, one in found]
+
+
 def pulled(
-    lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray], by: list[np.ndarray]
+    lattice: Lattice,
+    families: Sequence[Family],
+    state: tuple[np.ndarray, np.ndarray],
+    by: list[np.ndarray],
+    curvature: bool,
 ) -> np.ndarray:
-    """Return the derivatives (strain or curvature, rows, columns, 3) by every cell's natural strain xx, yy
-    and xy and curvature [m] of what has those `by` the constants and the natural δg₀ of the families
-    (`AllFamilies.powers_by_constants`), which are those of a flat sheet; state: both, (rows, columns, 2, 2).
-    """
-    found = np.zeros((2, lattice.cell_areas.size, 3))
+    """Return the derivatives (rows, columns, 3) by every cell's natural strain xx, yy and xy, or curvature,
+    of what has those `by` the constants and the natural δg₀ of the families
+    (`AllFamilies.powers_by_constants`), which are those of a flat sheet; state: strain and curvature, (rows,
+    columns, 2, 2)."""
+    found = np.zeros((lattice.cell_areas.size, 3))
     for one, power in zip(_natural(lattice, families), by, strict=False):
         if one is not None:
-            found += one.pulled(*state, power, lattice.cell_areas.size)
-    return found.reshape(2, *lattice.cell_areas.shape, 3)
+            found += one.pulled(*state, power, len(found), curvature)
+    return found.reshape(*lattice.cell_areas.shape, 3)
 
 
 @dataclass(frozen=True)
@@ -85,7 +96,10 @@ class _Natural:
         """Return the sides in the plan (2, m, 1, p, 2), and what strain and curvature add to them."""
         e, k = (form.reshape(-1, 2, 2)[self.cells] for form in forms)
         plan, ends = self.sides[:, :, None, :, :2], self.heights.T
-        return plan, [side @ (e - z[:, None, None, None] * k) for side, z in zip(plan, ends, strict=True)]
+        stretch = [(e - z[:, None, None, None] * k)[:, :, None] for z in ends]
+        # of so many matrices of 2 × 2 products cost less than their product
+        each = zip(plan, stretch, strict=True)
+        return plan, [a[..., :1] * of[..., 0, :] + a[..., 1:] * of[..., 1, :] for a, of in each]
 
     def of(self, *forms: np.ndarray) -> Family:
         """Return the family with √g₀ of links or √det g₀ of cells and δg₀ (1 + p, m)."""
@@ -98,27 +112,29 @@ class _Natural:
             return replace(self.family, rest_length=natural[0], natural=natural[1])
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    def pulled(self, strain: np.ndarray, curvature: np.ndarray, by: np.ndarray, count: int) -> np.ndarray:
-        """Return derivatives (2, cells, 3), as `pulled` above."""
-        plan, moved = self._moved(strain, curvature)
-        weight = by[:, -self.sides.shape[2] :]
-        sides = zip(plan, moved, plan[::-1], moved[::-1], self.heights.T, strict=True)
-        out = np.zeros((2, *self.cells.shape, 3))
-        for side, _, other, other_moved, z in sides:
-            of_side = np.einsum(
-                "mp,mqpj,mqpi->mqji", weight, np.broadcast_to(side, other_moved.shape), other + other_moved
+    def pulled(
+        self, strain: np.ndarray, k: np.ndarray, by: np.ndarray, count: int, curvature: bool
+    ) -> np.ndarray:
+        """Return derivatives (cells, 3), as `pulled` above."""
+        plan, moved = self._moved(strain, k)
+        weight = by[:, -self.sides.shape[2] :, None]
+        sides = zip(plan, plan[::-1], moved[::-1], self.heights.T, strict=True)
+        out = np.zeros((*self.cells.shape, 3))
+        for a, other, other_moved, z in sides:
+            b, of_spring = other + other_moved, -z[:, None] if curvature else 1.0
+            xx, yy, xy, yx = (
+                (weight[:, None] * a[..., [i]] * b[..., [j]]).sum(axis=(2, 3)) for i, j in COMPONENTS
             )
-            of_side = np.einsum("cji,mqji->mqc", XX_YY_XY, of_side) * self.shares[..., None]
-            out += np.stack([of_side, -z[:, None, None] * of_side])
-        if isinstance(self.family, SpringCells):
+            out += np.stack([xx, yy, xy + yx], axis=-1) * (self.shares * of_spring)[..., None]
+        if isinstance(self.family, SpringCells) and not curvature:
             for c, way in enumerate(STEP * XX_YY_XY):
                 up, down = (
                     replace(self.family, stiffness=self.grown(strain + h)).constants for h in (way, -way)
                 )
-                out[0, :, 0, c] += (by[:, : up.shape[1]] * (up - down)).sum(axis=1) / (2.0 * STEP)
+                out[:, 0, c] += (by[:, : up.shape[1]] * (up - down)).sum(axis=1) / (2.0 * STEP)
         flat = self.cells.ravel()
-        sums = [np.bincount(flat, values.ravel(), count) for values in np.moveaxis(out, 3, 1).reshape(6, -1)]
-        return np.stack(sums).reshape(2, 3, count).swapaxes(1, 2)
+        sums = [np.bincount(flat, values.ravel(), count) for values in np.moveaxis(out, 2, 0)]
+        return np.stack(sums, axis=1)
 
 
 def _natural(lattice: Lattice, families: Sequence[Family]) -> list[_Natural | None]:
@@ -131,9 +147,8 @@ def _of_cells(lattice: Lattice, family: Family) -> _Natural | None:
         raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
     if isinstance(family, Links):
         sides = np.stack(2 * [family.offset[:, None]])
-        links = lattice.links
-        every, own = (nodes @ [lattice.mass_count, 1] for nodes in (links.nodes, family.nodes))
-        cells, shares = (part[:, np.isin(every, own)].T for part in (links.cells, links.shares))
+        these = lattice.links_of(family.nodes)
+        cells, shares = (part[:, these].T for part in (lattice.links.cells, lattice.links.shares))
         shares = shares / shares.sum(axis=1, keepdims=True)
     elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and len(family):
         sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)

@@ -70,7 +70,7 @@ class Differentiable:
         require_static(self.scene)
         self.calibration, self._calibrate = calibration or default(self.scene), calibrate
         self._plain = self._at(self.scene, self.calibration)
-        self._last = self._plain
+        self._last, self._values = self._plain, dict[str, np.ndarray]()
 
     def _at(self, scene: Scene, calibration: Calibration) -> Equilibrium:
         problem = build_problem(scene, calibration)
@@ -99,6 +99,7 @@ class Differentiable:
             path = self._path(at.problem)
         require_stable("lumped", path.status, path.notes)
         at.u, self._last = path.state.u, at
+        self._values = {name: np.array(value, float) for name, value in values.items()}
         return path.state.u
 
     def _path(self, problem: Problem) -> Any:
@@ -111,6 +112,16 @@ class Differentiable:
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives by name, at the last solve's values, of a J that has these by u, (n, 3)."""
         return self._last.pullback(by_displacement)
+
+    def vjp(self, values: Mapping[str, Any], by_displacement: np.ndarray) -> dict[str, np.ndarray]:
+        """Return the derivatives by each of these values, of its shape, of a J that has these by u, (n, 3);
+        with a solve where these are not the last one's."""
+        last = self._values
+        same = last.keys() == values.keys() and self._last is not self._plain
+        if not (same and all(np.array_equal(value, last[name]) for name, value in values.items())):
+            self.solve(values)
+        found = self.pullback(by_displacement)
+        return {name: np.reshape(found[name], np.shape(value)) for name, value in values.items()}
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
         """Return how u moves with changes of values, at those of the last solve."""

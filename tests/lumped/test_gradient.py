@@ -1,14 +1,26 @@
-"""Sensitivities of the lattice against differences of whole solutions, and the adjoint against them."""
+"""Derivatives of the lattice, forward and adjoint, against differences of whole solutions."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from cases import calibrated, with_material
+from cases import calibrated, sheet, with_material
+from contact_cases import bent_over
 
 import lumped
+from lumped.calibration import default
+from lumped.gradient import Equilibrium
+from lumped.statics.build import build_problem
+from lumped.statics.solver import solve_path
 from sheetbench import scenes
-from sheetbench.scenes import Clamped, EdgeLoad, Mass
+from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.scenes import Clamped, EdgeLoad, Mass, Material, PointLoad, Pressure
+from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.meaning.parameters import parameter, put
+from sheetbench.scenes.objects.cutouts import Cutout
+from sheetbench.scenes.objects.natural import Natural
 from sheetbench.scenes.objects.patches import Patch
+from sheetbench.scenes.objects.supports import Motion
 
 GRID = (7, 7)
 DRAWN = {
@@ -88,3 +100,186 @@ def test_the_tilt_of_one_of_two_clamps_that_share_a_corner_is_refused():
     scene = scene_of("two-edges-clamped")
     with pytest.raises(ValueError, match=r"tilt_x0.*corner"):
         lumped.sensitivity(scene, calibrated(scene, GRID), ["tilt_x0"])
+
+
+FIBRES = {"young_1": 2e7, "young_2": 1e6, "poisson_12": 0.3, "density": 1000.0, "angle": 0.4}
+FIBRES |= dict.fromkeys(("shear_12", "shear_13", "shear_23"), 5e5)
+HOLE = {"circle": {"centre": (0.1, 0.1), "radius": 0.031}}
+MOVED = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.01, 0.0, 0.02)))
+STRETCHED = (EdgeLoad(edge="x1", force_per_length=(4000.0, 0.0, 100.0)),)
+
+
+def oblong(**material):
+    return sheet(0.2, 0.1, 0.002, material=Material(poisson=0.45, density=1e3, **material), loads=STRETCHED)
+
+
+def curled(**natural):
+    return scene_of("one-edge-clamped", natural=Natural(**natural))
+
+
+# scene, grid, its scalars
+TWELVE = {
+    "fibres": (
+        lambda: scene_of("one-edge-clamped", material=Material(kind="orthotropic", **FIBRES)),
+        "shear_12 angle",
+    ),
+    "laminate": (lambda: scene_of("bimetal-strip"), "thickness layer1.young temperature.change"),
+    "hole": (
+        lambda: scene_of("one-edge-clamped", cutouts=(Cutout(shape=HOLE),), probes={}),
+        "young gravity.z",
+    ),
+    "patches": (lambda: scene_of("one-edge-clamped", **DRAWN), "patch1.young patch2.poisson"),
+    "chain": (lambda: scene_of("actuated-edge"), "thickness poisson actuator1.bending_stiffness"),
+    "natural": (
+        lambda: curled(strain=(0.02, 0.01, 0.005), curvature=(3.0, 1.0, 0.5)),
+        "natural.exx natural.kxy poisson",
+    ),
+    "rubber": (lambda: oblong(law="neo-hookean", young=5e6), "young load1.force_per_length.x"),
+    "gent": (lambda: oblong(law="gent", shear=2e6, limit=30.0), "density load1.force_per_length.z"),
+    "contact": (lambda: bent_over(), "young obstacle1.z"),
+    "pressure": (
+        lambda: scene_of("one-edge-clamped", loads=(Pressure(value=30.0),)),
+        "load1.value thickness",
+    ),
+    "moved supports": (
+        lambda: scene_of(
+            "two-edges-clamped", supports=(Clamped(edge="x0"), Clamped(edge="x1", motion=MOVED))
+        ),
+        "support2.z young",
+    ),
+    "payload": (
+        lambda: scene_of(
+            "one-edge-clamped", masses=(BODY,), loads=(PointLoad(at=(0.15, 0.05), force=(0.0, 0.02, 0.1)),)
+        ),
+        "mass1 load1.force.z load1.at.x",
+    ),
+    "graded, tilted": (
+        lambda: scene_of("one-edge-clamped", supports=(Clamped(edge="x0", tilt=0.4),)),
+        "tilt_x0 poisson",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TWELVE)
+def test_gradients_of_twelve_scenes_are_those_of_differences(name):
+    make, scalars = TWELVE[name]
+    scene = make()
+    known = name in ("laminate", "chain", "contact") or scene.material.law is not None
+    graded = 0.5 if name.startswith("graded") else 0.0
+    springs = default(scene) if known else calibrated(scene.replace(sheet=sheet_at_rest(scene)), GRID, graded)
+    problem = build_problem(scene, springs)
+    of = lumped.Differentiable(scene, springs)
+    rng = np.random.default_rng(0)
+    masses = problem.assembly.lattice.mass_count
+    of.solve({})
+    weights = np.zeros_like(problem.loads.dead)
+    weights[:masses] = rng.standard_normal((masses, 3))
+    found, before = of.pullback(weights), of.base
+    moved = {"cells.strain": 1e-6, "cells.curvature": 1e-3, "forces": 1e-6}
+    refused = ["cells.thickness", "cells.poisson"] if scene.material.law else []
+    refused += ["cells.poisson"] if scene.material.kind == "orthotropic" or scene.layers else []
+
+    def slope(key, base, way, h):
+        ends = [of.solve({key: base + n * h * way}) for n in (1, -1, 2, -2)]
+        one, two = (np.sum(weights * (up - down)) for up, down in (ends[:2], ends[2:]))
+        return (8.0 * one - two) / (12.0 * h)
+
+    of.solve({})  # where others begin
+    for key, base in before.items():
+        if key in refused:
+            with pytest.raises(BadInput, match=r"cells\.poisson"):
+                found[key]
+            continue
+        way = np.zeros(base.shape)
+        way.flat[rng.permutation(base.size)[:5]] = 1.0
+        way = way * base / np.abs(base).max() if key.endswith(("young", "thickness", "density")) else way
+        way[masses:] *= key != "forces"
+        expected = slope(key, base, way, moved.get(key, 1e-4 * np.abs(base).max()))
+        largest = np.abs(found[key]).max() * np.abs(way).max()
+        assert np.sum(found[key] * way) == pytest.approx(expected, rel=1e-6, abs=1e-6 * largest), key
+        assert np.sum(weights * forward_of(of, {key: way})) == pytest.approx(
+            expected, rel=1e-5, abs=1e-6 * largest
+        )
+    for key in scalars.split():
+        value = parameter(scene, key).value
+        h = 1e-6 if ".e" in key else 1e-4 * (abs(value) or 1e-2)
+        assert found[key] == pytest.approx(slope(key, value, 1.0, h), rel=2e-6), key
+
+
+def forward_of(of, changes):
+    """At the scene's own values."""
+    of.solve({})
+    return of.pushforward(changes)
+
+
+def test_values_of_a_design_go_together():
+    """Fields, forces and numbers of the scene at once, of which each has its derivative there."""
+    of = lumped.Differentiable("one-edge-clamped")
+    rng = np.random.default_rng(1)
+    base = of.base
+    values = {
+        "cells.young": base["cells.young"] * np.exp(0.2 * rng.standard_normal((8, 8))),
+        "cells.strain": 0.01 * rng.standard_normal((8, 8, 3)),
+        "cells.curvature": 3.0 * rng.standard_normal((8, 8, 3)),
+        "forces": 1e-3 * rng.standard_normal(base["forces"].shape),
+        "density": 1500.0,
+    }
+    weights = rng.standard_normal(base["forces"].shape)
+    of.solve(values)
+    found = of.pullback(weights)
+    step = {"cells.young": 1e3, "cells.strain": 1e-6, "cells.curvature": 1e-3, "forces": 1e-6, "density": 0.1}
+    for key, h in step.items():
+        way = rng.standard_normal(np.shape(values[key]))
+        up, down = (of.solve({**values, key: values[key] + n * h * way}) for n in (1, -1))
+        expected = np.sum(weights * (up - down)) / (2.0 * h)
+        assert np.sum(found[key] * way) == pytest.approx(expected, rel=1e-6), key
+
+
+def test_a_field_is_that_of_the_scene_that_has_it():
+    """The E of every cell times one factor is the scene's, and what the sum of the derivatives says."""
+    scene = scene_of("one-edge-clamped")
+    of = lumped.Differentiable(scene, calibrated(scene, 9))
+    stiffer = of.solve({"cells.young": 1.1 * of.base["cells.young"]})
+    assert np.allclose(stiffer, of.solve({"young": 1.1 * scene.material.young}), rtol=0, atol=1e-12)
+    of.solve({})
+    found = of.pullback(np.ones_like(stiffer))
+    assert found["cells.young"].sum() == pytest.approx(found["young"], rel=1e-9)
+    assert found["cells.density"].sum() == pytest.approx(found["density"], rel=1e-9)
+    thicker = found["cells.thickness"].sum()  # of layers as far apart as they are
+    assert thicker == pytest.approx(found["thickness"], rel=2e-2)
+
+
+def test_an_equilibrium_that_is_none_or_unstable_has_no_derivatives():
+    flat = scene_of(
+        "one-edge-clamped", gravity=None, loads=(EdgeLoad(edge="x1", force_per_length=(-60.0, 0, 0)),)
+    )
+    with pytest.raises(NoEquilibrium, match="unstable"):
+        lumped.Differentiable(flat).solve({})
+    answer = lumped.solve(flat)
+    with pytest.raises(NoEquilibrium):
+        answer.gradient(of=np.zeros((1, 3)), at=[[0.1, 0.1]])
+    of = Equilibrium.of(flat, default(flat), solve_path(build_problem(flat, default(flat))).state.u)
+    with pytest.raises(NoEquilibrium, match="another branch"):
+        of.pullback(np.ones((162, 3)))
+
+
+def test_an_answer_has_the_gradient_of_a_component_an_array_and_a_function():
+    answer = lumped.solve(scene := scene_of("one-edge-clamped"))
+    answer = replace(answer, points=dict(scene.probes))
+    weights = np.zeros((4, 3))
+    weights[3, 2] = 1.0
+    by = ["material.young", "sheet.thickness", "cells.young"]
+    each = [answer.gradient(of=of, by=by) for of in ("P4.uz", weights, lambda u: u[3, 2])]
+    for found in each[1:]:
+        for name in by:
+            assert np.allclose(found[name], each[0][name], rtol=1e-9)
+    slope = lumped.sensitivity(scene, default(scene), ["young"]).derivatives["young"]
+    assert each[0]["material.young"] == pytest.approx(slope[3, 2], rel=1e-12)
+    assert {"young", "tilt_x0", "gravity.z", "cells.curvature", "forces"} <= answer.gradient(
+        of="P4.uz"
+    ).keys()
+    for of in ("P9.uz", "P4", np.zeros((2, 3))):
+        with pytest.raises(BadInput, match="gradient: of"):
+            answer.gradient(of=of)
+    with pytest.raises(BadInput, match="no derivatives"):
+        lumped.solve(scene, linear=True).gradient(of="P4.uz")

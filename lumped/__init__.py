@@ -13,6 +13,7 @@ from lumped.fitting.fits import ModalTarget, StaticTarget
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.fitting.methods import CALIBRATIONS, calibrate
 from lumped.footprint import footprint
+from lumped.many import Designs, solve_many
 from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.pretension import calibrated_at_rest
@@ -39,6 +40,7 @@ __all__ = [
     "Balanced",
     "Calibration",
     "Description",
+    "Designs",
     "Differentiable",
     "Identifiability",
     "Inertia",
@@ -71,6 +73,7 @@ __all__ = [
     "shortest_period",
     "simulate",
     "solve",
+    "solve_many",
     "step_limit",
     "usual_masses",
     "with_shares",

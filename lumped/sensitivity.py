@@ -12,7 +12,7 @@ from lumped.calibration import Calibration, default
 from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, of_changed
 from lumped.mid_surface import MidSurface
 from lumped.statics.build import build_problem
-from lumped.statics.problem import Problem
+from lumped.statics.problem import LatticePath, Problem
 from lumped.statics.solver import solve_path, stable_equilibrium
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.stability import require_stable
@@ -82,6 +82,11 @@ class Differentiable:
         fields = {FIELD + name: field for name, field in self._plain.cells.base.items()}
         return {**fields, FORCES: np.zeros_like(self._plain.u)}
 
+    @property
+    def problem(self) -> Problem:
+        """The scene's lattice under its supports and loads, with its own values."""
+        return self._plain.plain
+
     def at(self, points: np.ndarray) -> Any:
         """Return the map of displacements to those at plan points (p, 2), sparse (3 p, 3 n), both flat."""
         return MidSurface(self._plain.problem.assembly.lattice, points).matrix(len(self._plain.u))
@@ -89,25 +94,27 @@ class Differentiable:
     def solve(self, values: Mapping[str, Any]) -> np.ndarray:
         """Return the displacement (n, 3) [m] of the stable equilibrium with these values, sought from the
         last one first. Raises NoEquilibrium where there is none, BadInput for other names."""
+        at, path = self.path(values, None if self._last is self._plain else self._last.u)
+        require_stable("lumped", path.status, path.notes)
+        at.u, self._last = path.state.u, at
+        self._values = {name: np.array(value, float) for name, value in values.items()}
+        return path.state.u
+
+    def path(self, values: Mapping[str, Any], near: np.ndarray | None) -> tuple[Equilibrium, LatticePath]:
+        """Return the path to the equilibrium with these values, sought first from `near` (n, 3), and what has
+        its derivatives once its u is known."""
         scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
             scene, calibration = of_changed(scene, calibration, name, float(values[name]), self._calibrate)
         plain = self._plain.plain if scene is self.scene else build_problem(scene, calibration)
         at = Equilibrium(plain, calibration, self._plain.u, self._calibrate, fields)
+        near = None if at.problem.assembly.coupling is not None else near
         with one_blas_thread():
-            path = self._path(at.problem)
-        require_stable("lumped", path.status, path.notes)
-        at.u, self._last = path.state.u, at
-        self._values = {name: np.array(value, float) for name, value in values.items()}
-        return path.state.u
-
-    def _path(self, problem: Problem) -> Any:
-        near = self._last.u if self._last is not self._plain and problem.assembly.coupling is None else None
-        path = solve_path(problem, near=near)
-        if near is not None and path.status is not Status.CONVERGED:
-            path = solve_path(problem)
-        return path
+            path = solve_path(at.problem, near=near)
+            if near is not None and path.status is not Status.CONVERGED:
+                path = solve_path(at.problem)
+        return at, path
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives by name, at the last solve's values, of a J that has these by u, (n, 3)."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from subprocess import DEVNULL, Popen
 from typing import Any, Literal
 
@@ -82,7 +82,9 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
         import lumped
 
         branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
-        solution = lumped.solve(scene, model.springs, linear=spec.linear, branch=branch, progress=watch)
+        how = {} if model.fitted or spec.calibration is None else {"calibrate": partial(_springs, model)}
+        options = {"linear": spec.linear, "branch": branch, "progress": watch, **how}
+        solution = lumped.solve(scene, model.springs, **options)
         return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference
@@ -96,6 +98,11 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
             )
     outside = plugins.plugin(spec.model)
     return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
+
+
+def _springs(model: Resolved[Any], scene: Scene) -> Any:
+    """Return the springs of a scene with other numbers by the same choices."""
+    return model.on(scene).springs
 
 
 def _unanswered(scene: Scene, spec: Elements, why: str) -> Solution:

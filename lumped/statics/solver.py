@@ -100,7 +100,7 @@ def solve(
     found = solution(problem, path, calibration, (ready - began, done - ready), requested)
     if linear or weights != "tributary":
         return found
-    return replace(found, derivatives=partial(Equilibrium.of, scene, calibration, path.state.u, calibrate))
+    return replace(found, sensitivity=partial(Equilibrium.of, scene, calibration, path.state.u, calibrate))
 
 
 @cache

@@ -259,11 +259,11 @@ class Solution(Answer):
         Raises NoEquilibrium where this is no stable equilibrium under the whole load, BadInput for a model
         without derivatives and an unknown name.
         """
-        if self.derivatives is None:
+        if self.sensitivity is None:
             raise BadInput(f"gradient: {self.label} has no derivatives; lumped, plate and shell have")
         self.require_stable()
         points = np.array([*self.points.values()]) if at is None else np.reshape(at, (-1, 2))
-        found = self.derivatives().at_points(points, self._by_displacements(of, points))
+        found = self.sensitivity().at_points(points, self._by_displacements(of, points))
         if by is not None:
             return {name: found[_parameter_name(name)] for name in by}
         every = {}

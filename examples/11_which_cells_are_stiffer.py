@@ -59,7 +59,7 @@ def misfit(logarithms, smoothing):
     return value, slope.ravel()
 
 
-found, count = np.zeros(64), 3 * markers.size * 3 // 2
+found, count = np.zeros(64), 3 * 3 * len(markers)
 for smoothing in (300.0, 100.0, 30.0):
     end = minimize(misfit, found, (smoothing,), "L-BFGS-B", jac=True, options={"maxiter": 60})
     found = end.x

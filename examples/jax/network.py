@@ -1,4 +1,4 @@
-"""A network learns to command a sheet: `python examples/jax/network.py`, with `pip install 'sheetbench[jax]'`.
+"""A network learns to command a sheet: `python examples/jax/network.py`, extra `jax`.
 
 It is trained through the lattice without any data, from a wave that the free edge of example 12 should have,
 two numbers, to the natural curvatures of 16 patches. The loss is what the sheet answers. Draws network.png.

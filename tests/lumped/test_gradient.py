@@ -190,6 +190,8 @@ def test_gradients_of_twelve_scenes_are_those_of_differences(name):
             with pytest.raises(BadInput, match=r"cells\.poisson"):
                 found[key]
             continue
+        if not base.any() and key not in moved:  # a sheet without a density
+            continue
         way = np.zeros(base.shape)
         way.flat[rng.permutation(base.size)[:5]] = 1.0
         way = way * base / np.abs(base).max() if key.endswith(("young", "thickness", "density")) else way

@@ -49,6 +49,7 @@ from sheetbench.scenes.meaning.natural_state import NaturalState, sheet_at_rest
 OF_SECTION = ("young", "poisson", "thickness")
 NUMBERS = (*OF_SECTION, "density")
 STATE = ("strain", "curvature")
+ROUNDING = 1e-9  # of the largest constant
 NOTHING = 1e-300  # N/m, a stiffness of springs that are there
 LIMIT = 9  # among the constants of rubber
 STEP = 1e-5  # of a field, for differences of springs, whose error is of its square
@@ -132,7 +133,7 @@ class CellFields:
             e = fields.get("young", self.base["young"]) / np.where(there, self.base["young"], 1.0)
             inside = constants.scaled(e)
         else:
-            inside = self._closed(cells)
+            inside = replace(self._own, of=self._closed(cells).of)
         of = dict(inside.of)
         for name in RIMS_OWN:
             if name in constants.of:
@@ -148,25 +149,26 @@ class CellFields:
         return Springs(of, constants.layer_distance)
 
     def _closed(self, cells: CellSection) -> Springs:
+        """Return the springs of the closed form at the lattice's layer distance, some slightly negative."""
         method, grid = self.calibration.method, self.calibration.grid
         if method not in CLOSED:
             raise BadInput(f"cells.poisson, cells.thickness: the calibration '{method}' has no closed form")
-        sheet, material = sheet_at_rest(self.scene), self.scene.material
+        each = each_cell(
+            sheet_at_rest(self.scene), self.scene.material, grid, self.calibration.grading, cells
+        )
+        return springs_of_cells(each, self.calibration.layer_distance, anyhow=True, **CLOSED[method])
 
-        def springs(cells: CellSection) -> Springs:
-            each = each_cell(sheet, material, grid, self.calibration.grading, cells)
-            distance = self.calibration.layer_distance
-            return springs_of_cells(each, distance, anyhow=True, **CLOSED[method])
-
-        own = springs(self.section)
-        for name, parts in self.calibration.constants.of.items():
-            if name not in (*EDGES_OWN, *RIMS_OWN):
-                miss = np.abs(np.asarray(parts) - own[name]).max(initial=0.0)
-                if miss > 1e-9 * max(np.abs(np.asarray(part)).max() for part in own.of.values()):
-                    raise BadInput(
-                        f"cells.poisson, cells.thickness: the springs of '{method}' are not the closed form's"
-                    )
-        return springs(cells)
+    @cached_property
+    def _own(self) -> Springs:
+        """The closed form's springs of the sections as they are. Raises BadInput where the lattice has
+        others."""
+        own, constants = self._closed(self.section), self.calibration.constants
+        largest = max(np.abs(np.asarray(part)).max() for part in own.of.values())
+        for name in constants.of.keys() - {*EDGES_OWN, *RIMS_OWN}:
+            if np.abs(constants[name] - own[name]).max(initial=0.0) > ROUNDING * largest:
+                method = self.calibration.method
+                raise BadInput(f"cells.poisson, cells.thickness: springs of '{method}', not in closed form")
+        return own
 
     def families_of(self, springs: Springs) -> AllFamilies:
         """Return springs without a natural state."""
@@ -199,8 +201,11 @@ class CellFields:
         fields."""
         if name in STATE:
             state = tuple(fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
-            springs = self.springs(fields) if fields.keys() & {*OF_SECTION} else self.calibration.constants
-            flat, by = self.families_of(springs).families, assembly.all_families.powers_by_constants(u, v)
+            flat, by = assembly.springs, assembly.all_families.powers_by_constants(u, v)
+            if assembly.natural is not None:
+                of_section = fields.keys() & {*OF_SECTION}
+                springs = self.springs(fields) if of_section else self.calibration.constants
+                flat = self.families_of(springs).families
             return -pulled(assembly.lattice, flat[:3], state, by, name == "curvature")
         found, base = np.zeros(self.shape), fields.get(name, self.base[name])
         if name in OF_SECTION:

@@ -42,13 +42,14 @@ from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put
+from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
-STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-11}  # m, of what presses in by 1e-8 m
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-9}  # m, of what presses in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
-PATCH = "patch"  # with which names of a patch's constants begin
+PATCH, OBSTACLE = "patch", "obstacle"  # with which names of what these have begin
 FIELD = "cells."
 FORCES = "forces"
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
@@ -241,7 +242,11 @@ def of_changed(
 ) -> tuple[Scene, Calibration]:
     """Return the scene with another value, and its springs: by the same method where what they are found from
     has changed, unless `calibrate` finds them."""
-    changed = put(scene, name, value)
+    if name.startswith(OBSTACLE):  # unchecked: what begins at one begins by so little within it
+        fields = SceneFields.model_construct(**dict(scene))
+        changed = scene.model_copy(update=dict(put(fields, name, value)))
+    else:
+        changed = put(scene, name, value)
     if name not in CALIBRATED_FROM and not name.startswith((PATCH, "natural.e")):
         return changed, calibration
     if calibrate is not None:

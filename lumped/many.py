@@ -1,4 +1,10 @@
-"""Equilibria of many designs of one lattice, side by side on all cores."""
+"""Equilibria of many designs of one lattice, side by side on all cores.
+
+Designs of moduli and forces on springs of the linear laws start at the scene's own equilibrium, and go on in
+one compiled loop that holds no lock: a tangent of their own springs, then steps with the same factors as long
+as each takes nine tenths off the residual. Whatever does not end so, and other designs, follow the load path
+(`Differentiable.path`).
+"""
 
 from __future__ import annotations
 
@@ -6,26 +12,40 @@ import os
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.gradient import Calibrate
+from lumped.gradient import FIELD, FORCES, Calibrate
 from lumped.sensitivity import Differentiable
+from lumped.springs import all_families
+from lumped.springs.all_families import SpringArrays, Stresses, stiffness_by_cells
+from lumped.springs.cells import CellArrays
+from lumped.springs.law_table import AreaAndStrains
+from lumped.springs.links import LinkArrays
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
+from sheetbench.numerics import banded
+from sheetbench.numerics.aliasing import empty
+from sheetbench.numerics.banded import Band
+from sheetbench.numerics.options import njit
+from sheetbench.numerics.sparse_products import Rows, product, transposed_product
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene
+
+TOLERANCE = 1e-11  # of a residual, relative to the loads
+STEPS = 30
+YOUNG = FIELD + "young"
 
 
 @dataclass(frozen=True)
 class Designs:
     """displacement: (designs, n, 3) [m] of the masses, NaN where a design has no stable equilibrium; status:
-    of each; factorisations: of all."""
+    of each."""
 
     displacement: np.ndarray
     status: list[Status]
-    factorisations: int
 
 
 def solve_many(
@@ -42,15 +62,112 @@ def solve_many(
     counts = {len(values) for values in designs.values()}
     if len(counts) != 1:
         raise BadInput(f"designs: {sorted(counts)} values: as many of each are needed")
-    start = sheet.solve({})
-    out = np.full((counts.pop(), *start.shape), np.nan)
+    start, count = sheet.solve({}), counts.pop()
+    out, done = np.full((count, *start.shape), np.nan), np.zeros(count, dtype=bool)
+    together = designs.keys() <= {YOUNG, FORCES} and _plain(sheet)
+    workers = workers or os.cpu_count() or 1
 
-    def solved(number: int) -> tuple[Status, int]:
+    def solved(number: int) -> Status:
+        if done[number]:
+            return Status.CONVERGED
         _, path = sheet.path({name: values[number] for name, values in designs.items()}, start)
         if path.status is Status.CONVERGED:
             out[number] = path.state.u
-        return path.status, path.factorisations
+        return path.status
 
-    with one_blas_thread(), ThreadPoolExecutor(workers or os.cpu_count()) as pool:
-        found = list(pool.map(solved, range(len(out))))
-    return Designs(out, [status for status, _ in found], sum(count for _, count in found))
+    with one_blas_thread(), ThreadPoolExecutor(workers) as pool:
+        if together:
+            parts = [slice(*ends) for ends in _ends(count, workers)]
+            list(pool.map(lambda part: _solve(sheet, start, designs, part, out, done), parts))
+        return Designs(out, list(pool.map(solved, range(count))))
+
+
+def _ends(count: int, parts: int) -> list[tuple[int, int]]:
+    at = np.linspace(0, count, parts + 1).astype(int).tolist()
+    return list(pairwise(at))
+
+
+def _plain(sheet: Differentiable) -> bool:
+    """Whether a lattice has springs of the linear laws alone, dead loads and a small matrix."""
+    problem = sheet.problem
+    others = problem.items or problem.assembly.coupling is not None or problem.loads.follow
+    linear = problem.assembly.conservative and not problem.assembly.any_strain
+    flat = problem.assembly.natural is None and not len(problem.assembly.springs[3])
+    return bool(not others and linear and flat and problem.system.band is not None)
+
+
+def _solve(
+    sheet: Differentiable,
+    start: np.ndarray,
+    designs: Mapping[str, np.ndarray],
+    part: slice,
+    out: np.ndarray,
+    done: np.ndarray,
+) -> None:
+    """Set the displacements of a part of designs, and which are found."""
+    problem, lattice = sheet.problem, sheet.problem.assembly.lattice
+    links, layers, middle, _ = problem.assembly.springs
+    base = sheet.base[YOUNG].ravel()
+    young = np.asarray(designs.get(YOUNG, base[None].repeat(len(out), axis=0)), dtype=float)[part]
+    factor = young.reshape(len(young), -1) / np.where(base > 0.0, base, 1.0)
+    these = lattice.links_of(links.nodes)
+    each = stiffness_by_cells(lattice, sheet.calibration.constants)[:, these, 0]
+    k = np.ascontiguousarray(np.einsum("qm,bqm->bm", each, factor[:, lattice.links.cells[:, these]]))
+    kept = factor[:, np.arange(base.size)[lattice.kept]]
+    constants = (family.constants for family in (layers, middle))  # type: ignore[attr-defined]
+    of_cells = [
+        np.ascontiguousarray(np.tile(kept, (1, len(q) // kept.shape[1]))[:, :, None] * q) for q in constants
+    ]
+    forces = np.asarray(designs.get(FORCES, np.zeros((len(out), *start.shape))), dtype=float)[part]
+    loads = np.ascontiguousarray(forces + problem.loads.last_dead)
+    assert problem.system.band is not None
+    springs = problem.assembly.all_families.springs
+    free = problem.constraints.transform_arrays
+    given = start, springs, k, *of_cells, loads, free, problem.system.band, all_families.NO_STRESSES
+    correct(*given, out[part], done[part])
+
+
+@njit
+def correct(
+    start: np.ndarray,
+    springs: SpringArrays,
+    k: np.ndarray,
+    layers: np.ndarray,
+    middle: np.ndarray,
+    loads: np.ndarray,
+    free: Rows,
+    band: Band,
+    none: Stresses,
+    out: np.ndarray,
+    done: np.ndarray,
+) -> None:
+    """Set displacements (designs, n, 3) [m] in equilibrium under loads (designs, n, 3) [N] with links of
+    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), sought from
+    `start`, and which are found."""
+    n = len(band.order)
+    a, b, c = springs.links, springs.layers, springs.middle
+    for d in range(len(k)):
+        own = SpringArrays(
+            LinkArrays(a.nodes, a.offset, a.rest, k[d], a.slots),
+            CellArrays(b.nodes, b.sides, b.rest, AreaAndStrains(layers[d]), b.slots),
+            CellArrays(c.nodes, c.sides, c.rest, AreaAndStrains(middle[d]), c.slots),
+            springs.faces,
+            springs.blocks,
+            springs.mirror,
+            springs.diagonal,
+        )
+        u, last, size, fresh = start.copy(), np.inf, np.sqrt(np.sum(loads[d] ** 2)), True
+        factors = empty((1, 1))
+        for _ in range(STEPS):
+            rows = transposed_product(free, (loads[d] - all_families.force(u, own)[1]).ravel(), n)
+            left = np.sqrt(np.sum(rows * rows))
+            if left <= TOLERANCE * size and not fresh:
+                out[d], done[d] = u, True
+                break
+            if fresh or not left <= 0.1 * last:
+                blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), own)
+                factors = banded.stored(blocks, band)
+                if not banded.factor(factors, n, band.width):
+                    break
+            last, fresh = left, False
+            u += product(free, banded.solve_unrefined(factors, band.width, band.order, rows)).reshape(u.shape)

@@ -94,8 +94,10 @@ class _Natural:
 
     def _moved(self, *forms: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
         """Return the sides in the plan (2, m, 1, p, 2), and what strain and curvature add to them."""
-        e, k = (form.reshape(-1, 2, 2)[self.cells] for form in forms)
         plan, ends = self.sides[:, :, None, :, :2], self.heights.T
+        if not any(form.any() for form in forms):
+            return plan, [0.0 * side for side in plan]
+        e, k = (form.reshape(-1, 2, 2)[self.cells] for form in forms)
         stretch = [(e - z[:, None, None, None] * k)[:, :, None] for z in ends]
         # of so many matrices of 2 × 2 products cost less than their product
         each = zip(plan, stretch, strict=True)

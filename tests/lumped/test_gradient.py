@@ -136,7 +136,7 @@ TWELVE = {
     ),
     "rubber": (lambda: oblong(law="neo-hookean", young=5e6), "young load1.force_per_length.x"),
     "gent": (lambda: oblong(law="gent", shear=2e6, limit=30.0), "density load1.force_per_length.z"),
-    "contact": (lambda: bent_over(), "young obstacle1.z"),
+    "contact": (lambda: bent_over(), "young obstacle1.x"),
     "pressure": (
         lambda: scene_of("one-edge-clamped", loads=(Pressure(value=30.0),)),
         "load1.value thickness",

@@ -2,8 +2,8 @@
 
 Designs of moduli and forces on springs of the linear laws start at the scene's own equilibrium, and go on in
 one compiled loop that holds no lock: a tangent of their own springs, then steps with the same factors as long
-as each takes nine tenths off the residual. Whatever does not end so, and other designs, follow the load path
-(`Differentiable.path`).
+as each takes nine tenths off the residual, and the tangent where they end, which is to be positive definite.
+Whatever does not end so, and other designs, follow the load path (`Differentiable.path`).
 """
 
 from __future__ import annotations
@@ -70,6 +70,7 @@ def solve_many(
     def solved(number: int) -> Status:
         if done[number]:
             return Status.CONVERGED
+        out[number] = np.nan
         _, path = sheet.path({name: values[number] for name, values in designs.items()}, start)
         if path.status is Status.CONVERGED:
             out[number] = path.state.u
@@ -161,13 +162,13 @@ def correct(
         for _ in range(STEPS):
             rows = transposed_product(free, (loads[d] - all_families.force(u, own)[1]).ravel(), n)
             left = np.sqrt(np.sum(rows * rows))
-            if left <= TOLERANCE * size and not fresh:
-                out[d], done[d] = u, True
-                break
-            if fresh or not left <= 0.1 * last:
+            ended = left <= TOLERANCE * size and not fresh
+            if ended or fresh or not left <= 0.1 * last:
                 blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), own)
                 factors = banded.stored(blocks, band)
-                if not banded.factor(factors, n, band.width):
+                definite = banded.factor(factors, n, band.width)
+                if ended or not definite:  # stable where the tangent there says so
+                    out[d], done[d] = u, definite
                     break
             last, fresh = left, False
             u += product(free, banded.solve_unrefined(factors, band.width, band.order, rows)).reshape(u.shape)

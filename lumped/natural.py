@@ -30,7 +30,10 @@ from sheetbench.scenes.meaning.natural_state import NaturalState
 
 XX_YY_XY = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
 COMPONENTS = (0, 0), (1, 1), (0, 1), (1, 0)
-STEP = 1e-5  # of a strain, for a difference of stiffnesses
+# powers of a cell's area and of its sides' squares that the constants of `laws.of_stiffness` have
+OF_SIZE = np.array(
+    [[-1, 0, 0], [1, -2, 0], [1, 0, -2], [1, -1, -1], [1, -1, -1], [1, -1.5, -0.5], [1, -0.5, -1.5]]
+)
 
 
 def with_natural(
@@ -129,14 +132,21 @@ class _Natural:
             )
             out += np.stack([xx, yy, xy + yx], axis=-1) * (self.shares * of_spring)[..., None]
         if isinstance(self.family, SpringCells) and not curvature:
-            for c, way in enumerate(STEP * XX_YY_XY):
-                up, down = (
-                    replace(self.family, stiffness=self.grown(strain + h)).constants for h in (way, -way)
-                )
-                out[:, 0, c] += (by[:, : up.shape[1]] * (up - down)).sum(axis=1) / (2.0 * STEP)
+            out[:, 0] += self._of_stiffness(strain, by)
         flat = self.cells.ravel()
         sums = [np.bincount(flat, values.ravel(), count) for values in np.moveaxis(out, 2, 0)]
         return np.stack(sums, axis=1)
+
+    def _of_stiffness(self, strain: np.ndarray, by: np.ndarray) -> np.ndarray:
+        """Return those of cells (c, 3) by the constants that are of the natural sides."""
+        drawn = self.family.sides[..., :2]  # type: ignore[union-attr]
+        now = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
+        work = (by[:, : now.shape[1]] * now) @ OF_SIZE
+        sides = drawn + drawn @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]
+        moved = np.einsum("cij,wjk->wcik", drawn, XX_YY_XY)
+        of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), moved)
+        of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, moved) / (sides**2).sum(axis=2)[:, :, None]
+        return np.asarray(work[:, :1] * of_area + np.einsum("ci,ciw->cw", work[:, 1:], of_sides))
 
 
 def _natural(lattice: Lattice, families: Sequence[Family]) -> list[_Natural | None]:

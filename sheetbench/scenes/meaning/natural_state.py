@@ -55,8 +55,8 @@ class NaturalState:
     @classmethod
     def given(cls, fields: np.ndarray) -> Self:
         """Return the state of a strain and a curvature of every cell, (rows, columns, 6), xx, yy and xy."""
-        units = np.eye(6).reshape(6, 2, 3)
-        state = cls([Source("cells", Natural(), *unit) for unit in units], fields.shape[:-1], shares_of)
+        units, shape = np.eye(6).reshape(6, 2, 3), fields.shape[:-1]
+        state = cls([Source("cells", Natural(), *u) for u in units], shape, lambda _: np.ones(shape))
         state._weights = np.moveaxis(fields, -1, 0)
         return state
 

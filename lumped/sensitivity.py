@@ -13,7 +13,7 @@ from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, of_
 from lumped.mid_surface import MidSurface
 from lumped.statics.build import build_problem
 from lumped.statics.problem import LatticePath, Problem
-from lumped.statics.solver import solve_path, stable_equilibrium
+from lumped.statics.solver import solve_path
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.threads import one_blas_thread
@@ -42,13 +42,10 @@ def sensitivity(
 
     Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
     """
-    require_static(scene)
-    with one_blas_thread():
-        problem = build_problem(scene, calibration)
-        u = stable_equilibrium(problem).u
-        found = Equilibrium(problem, calibration, u, calibrate)
-        at = MidSurface(problem.assembly.lattice, scene.probe_points() if points is None else points)
-        return Sensitivity(at.of(u), {name: at.of(found.pushforward({name: 1.0})) for name in parameters})
+    of = Differentiable(scene, calibration, calibrate)
+    u = of.solve({})
+    at = MidSurface(of.problem.assembly.lattice, scene.probe_points() if points is None else points)
+    return Sensitivity(at.of(u), {name: at.of(of.pushforward({name: 1.0})) for name in parameters})
 
 
 class Differentiable:

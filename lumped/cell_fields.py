@@ -200,13 +200,13 @@ class CellFields:
         """Return the derivatives by a field of the power v·(f − f_int) at u (n, 3), of the lattice of these
         fields."""
         if name in STATE:
-            state = tuple(fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
+            strain, bent = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
             flat, by = assembly.springs, assembly.all_families.powers_by_constants(u, v)
             if assembly.natural is not None:
                 of_section = fields.keys() & {*OF_SECTION}
                 springs = self.springs(fields) if of_section else self.calibration.constants
                 flat = self.families_of(springs).families
-            return -pulled(assembly.lattice, flat[:3], state, by, name == "curvature")
+            return -pulled(assembly.lattice, flat[:3], (strain, bent), by, name == "curvature")
         found, base = np.zeros(self.shape), fields.get(name, self.base[name])
         if name in OF_SECTION:
             found -= self._of_springs(name, base, fields, assembly, u, v)

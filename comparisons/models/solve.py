@@ -82,9 +82,10 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
         import lumped
 
         branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
-        how = {} if model.fitted or spec.calibration is None else {"calibrate": partial(_springs, model)}
-        options = {"linear": spec.linear, "branch": branch, "progress": watch, **how}
-        solution = lumped.solve(scene, model.springs, **options)
+        calibrate = None if model.fitted or spec.calibration is None else partial(_springs, model)
+        solution = lumped.solve(
+            scene, model.springs, linear=spec.linear, branch=branch, progress=watch, calibrate=calibrate
+        )
         return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference

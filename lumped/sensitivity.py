@@ -115,7 +115,7 @@ class Differentiable:
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives by name, at the last solve's values, of a J that has these by u, (n, 3)."""
-        return self._last.pullback(by_displacement)
+        return self._solved().pullback(by_displacement)
 
     def vjp(self, values: Mapping[str, Any], by_displacement: np.ndarray) -> dict[str, np.ndarray]:
         """Return the derivatives by each of these values, of its shape, of a J that has these by u, (n, 3);
@@ -129,4 +129,9 @@ class Differentiable:
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
         """Return how u moves with changes of values, at those of the last solve."""
-        return self._last.pushforward(changes)
+        return self._solved().pushforward(changes)
+
+    def _solved(self) -> Equilibrium:
+        if self._last is self._plain:
+            self.solve({})
+        return self._last

@@ -243,10 +243,12 @@ def test_a_field_is_that_of_the_scene_that_has_it():
     """The E of every cell times one factor is the scene's, and what the sum of the derivatives says."""
     scene = scene_of("one-edge-clamped")
     of = lumped.Differentiable(scene, calibrated(scene, 9))
+    unsolved = of.pullback(np.ones(of.base["forces"].shape))["cells.young"]  # at the scene's own values
     stiffer = of.solve({"cells.young": 1.1 * of.base["cells.young"]})
     assert np.allclose(stiffer, of.solve({"young": 1.1 * scene.material.young}), rtol=0, atol=1e-12)
     of.solve({})
     found = of.pullback(np.ones_like(stiffer))
+    assert np.allclose(found["cells.young"], unsolved, rtol=1e-9)
     assert found["cells.young"].sum() == pytest.approx(found["young"], rel=1e-9)
     assert found["cells.density"].sum() == pytest.approx(found["density"], rel=1e-9)
     thicker = found["cells.thickness"].sum()  # of layers as far apart as they are

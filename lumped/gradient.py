@@ -192,6 +192,10 @@ class Gradient(Mapping[str, Any]):
             rows, moved = self._of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))
 
+    def at_rest(self) -> Gradient:
+        """Return those of J by the free unknowns alone, where supports do not move."""
+        return Gradient(self._of, np.zeros_like(self._by), self._adjoint)
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._of.names())
 
@@ -209,6 +213,23 @@ def rates(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
     force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]."""
+    unknowns = problem.constraints.nearest(u - problem.prescribed(1.0))
+    sides, over = both_sides(calibration, problem, name, calibrate)
+    found = []
+    for changed, springs in sides:
+        if values:
+            changed = Equilibrium(changed, springs, u, values=values).problem
+        placed = changed.expand(unknowns) + changed.prescribed(1.0)
+        left = changed.residual(placed, 1.0)
+        found.append((left.force, placed, left.reduced))
+    force, moved, rows = ((up - down) / over for down, up in zip(*found, strict=True))
+    return force, moved, rows
+
+
+def both_sides(
+    calibration: Calibration, problem: Problem, name: str, calibrate: Calibrate | None = None
+) -> tuple[list[tuple[Problem, Calibration]], float]:
+    """Return the problem with its springs a little below and above a parameter, and how far apart."""
     scene, name = problem.scene, name.removeprefix("material.").removeprefix("sheet.")
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
@@ -219,22 +240,15 @@ def rates(
     step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
-    unknowns = problem.constraints.nearest(u - problem.prescribed(1.0))
-    sides, ends = [], np.clip([value + step, value - step], low, high)
-    for end in ends.tolist():
+    sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
+    for end in ends:
         if of_springs:
-            side, springs = scene, calibration.with_constant(name, end)
-            changed = build_problem(side, springs, same=problem)
+            springs = calibration.with_constant(name, end)
+            sides.append((build_problem(scene, springs, same=problem), springs))
         else:
             side, springs = of_changed(scene, calibration, name, end, calibrate)
-            changed = build_problem(side, springs)
-        if values:
-            changed = Equilibrium(changed, springs, u, values=values).problem
-        placed = changed.expand(unknowns) + changed.prescribed(1.0)
-        left = changed.residual(placed, 1.0)
-        sides.append((left.force, placed, left.reduced))
-    force, moved, rows = ((up - down) / (ends[0] - ends[1]) for up, down in zip(*sides, strict=True))
-    return force, moved, rows
+            sides.append((build_problem(side, springs), springs))
+    return sides, ends[1] - ends[0]
 
 
 def of_changed(

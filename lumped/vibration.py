@@ -6,25 +6,32 @@ motions free has zero frequencies: they are found with a small shift, counted, a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 
 from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
+from lumped.gradient import Equilibrium
 from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
-from lumped.statics.solver import build_problem, stable_equilibrium
+from lumped.mode_sensitivity import FrequencyGradient
+from lumped.statics.build import build_problem
+from lumped.statics.problem import Problem
+from lumped.statics.solver import stable_equilibrium
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, Impossible
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, require_static, scene_of
+
+ALIKE = 1e-6  # of a frequency, up to which another is the same
 
 
 @dataclass(frozen=True, repr=False)
@@ -32,6 +39,22 @@ class Modes(NaturalModes):
     """Shapes are of the masses of `lattice`, their largest component 1."""
 
     lattice: Lattice
+    gradient_of: Callable[[int], Any] | None = None
+
+    def sensitivity(self, number: int) -> Any:
+        """Return df/dθ [Hz per unit] by name of the mode of a number, the first being 1 (`mode_sensitivity`).
+        Raises Impossible where two frequencies coincide, for the last mode found and where it has none."""
+        if self.gradient_of is None:
+            raise Impossible("derivatives of frequencies: not about a flat sheet with a natural state")
+        if not 1 <= number < len(self.frequencies):
+            raise Impossible(f"mode {number}: its neighbours must be known: 1 to {len(self.frequencies) - 1}")
+        near = np.abs(self.frequencies / self.frequencies[number - 1] - 1.0) <= ALIKE
+        if near.sum() > 1:
+            which = " and ".join(str(n + 1) for n in np.flatnonzero(near))
+            raise Impossible(
+                f"modes {which} coincide: each of their frequencies has no derivative of its own"
+            )
+        return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
@@ -81,15 +104,12 @@ def modes(
                 "of a per-direction law have none"
             )
         at = stable_equilibrium(problem).u
-    transform = problem.constraints.transform
     rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # obstacles stop those of an equilibrium
     unknowns = problem.system.unknowns
     if not 1 <= count <= unknowns - rigid:
         raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")
     shared = distribution or usual_masses(calibration)
-    inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
-    bodies = rotary_masses(scene, problem.assembly.lattice)
-    mass = sp.csc_array(transform.T @ (sp.kron(inertia, sp.eye_array(3)) + bodies) @ transform)
+    inertia, bodies, mass = _masses(problem, shared, calibration)
     blocks = problem.tangent(at, float(about == "deformed"))
     stiffness = problem.system.matrix(blocks)
     wanted, shift = count + rigid, _shift(scene)
@@ -106,7 +126,28 @@ def modes(
     shapes = np.stack([problem.expand(vectors[:, k]) for k in order])
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
-    return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice)
+    loaded = about == "deformed"
+    bare = scene if loaded else scene.replace(loads=(), gravity=None)
+
+    def gradient_of(number: int) -> FrequencyGradient:
+        mode, of = vectors[:, rigid + number - 1], Equilibrium.of(bare, calibration, at)
+        mode = mode / np.sqrt(mode @ (mass @ mode))
+        squared = float(values[rigid + number - 1])
+        return FrequencyGradient(
+            of, mode, squared, loaded, lambda *side: _masses(side[0], shared, side[1])[2]
+        )
+
+    found = None if problem.prestrained and not loaded else gradient_of
+    return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice, found)
+
+
+def _masses(problem: Problem, shared: Inertia, calibration: Calibration) -> tuple[Any, Any, Any]:
+    """Return the masses and bodies of a lattice, and Tᵀ M T."""
+    scene, transform = problem.scene, problem.constraints.transform
+    inertia = mass_matrix(scene, problem.assembly.lattice, shared, calibration.cells)
+    bodies = rotary_masses(scene, problem.assembly.lattice)
+    mass = transform.T @ (sp.kron(inertia, sp.eye_array(3)) + bodies) @ transform
+    return inertia, bodies, sp.csc_array(mass)
 
 
 def usual_masses(calibration: Calibration) -> Inertia:

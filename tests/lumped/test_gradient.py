@@ -13,7 +13,7 @@ from lumped.gradient import Equilibrium
 from lumped.statics.build import build_problem
 from lumped.statics.solver import solve_path
 from sheetbench import scenes
-from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.errors import BadInput, Impossible, NoEquilibrium
 from sheetbench.scenes import Clamped, EdgeLoad, Mass, Material, PointLoad, Pressure
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.meaning.parameters import parameter, put
@@ -289,3 +289,26 @@ def test_an_answer_has_the_gradient_of_a_component_an_array_and_a_function():
             answer.gradient(of=of)
     with pytest.raises(BadInput, match="no derivatives"):
         lumped.solve(scene, linear=True).gradient(of="P4.uz")
+
+
+@pytest.mark.parametrize("about", ["flat", "deformed"])
+def test_derivatives_of_a_frequency_are_those_of_differences(about):
+    scene = sheet(0.2, 0.13, 0.003, 5e6, 0.35, 1100.0, weight=9.81)
+
+    def modes(scene):
+        return lumped.modes(scene, calibrated(scene, GRID), 3, about=about)
+
+    found = modes(scene).sensitivity(2)
+    loaded = ("gravity.z", "tilt_x0") if about == "deformed" else ()
+    for name in ("young", "poisson", "density", "thickness", *loaded):
+        value = parameter(scene, name).value
+        h = 1e-4 * (abs(value) or 1.0)
+        up, down = (modes(put(scene, name, at)).frequencies[1] for at in (value + h, value - h))
+        assert found[name] == pytest.approx((up - down) / (2.0 * h), rel=1e-5), name
+    assert found["cells.young"].sum() == pytest.approx(found["young"], rel=1e-6)
+    assert "cells.curvature" in [*found] and "cells.density" not in [*found]
+    square = scene_of("one-edge-clamped", supports=tuple(Clamped(edge=e) for e in ("x0", "x1", "y0", "y1")))
+    with pytest.raises(Impossible, match="modes 2 and 3 coincide"):
+        lumped.modes(square, calibrated(square, 5), 4).sensitivity(2)
+    with pytest.raises(Impossible, match="neighbours"):
+        modes(scene).sensitivity(3)

@@ -1,0 +1,67 @@
+"""Derivatives of a natural frequency of a lattice by numbers of its scene and fields over its cells.
+
+Of K φ = ω² M φ with φᵀ M φ = 1, K the tangent at an equilibrium u,
+
+    dω² = φᵀ (∂K/∂θ − ω² ∂M/∂θ) φ + (∂/∂u φᵀ K φ) · du.
+
+As derivatives of an energy are symmetric, φᵀ ∂K/∂θ φ is that of −φ·∂R/∂θ along φ and ∂/∂u φᵀ K φ that of
+K φ: differences between both sides of u. du is the equilibrium's own (`lumped.gradient`); about the flat
+sheet there is none. Source: Fox and Kapoor, AIAA Journal 6 (1968) 2426, for a constant K.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from lumped.calibration import Calibration
+from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient, both_sides
+from lumped.statics.problem import Problem
+from sheetbench.errors import BadInput
+from sheetbench.numerics.threads import one_blas_thread
+
+SMALL = 2e-4  # of the thickness, that a mode moves the sheet for a difference
+INERT = (FIELD + "density", FIELD + "thickness", FORCES)
+
+
+class FrequencyGradient(Mapping[str, Any]):
+    """df/dθ [Hz per unit] by name, of the mode (m,) of an equilibrium; squared: ω² [1/s²]; loaded: whether
+    about its shape under load, which changes too; inertia: makes Tᵀ M T (m, m) of a problem with springs."""
+
+    def __init__(
+        self,
+        of: Equilibrium,
+        mode: np.ndarray,
+        squared: float,
+        loaded: bool,
+        inertia: Callable[[Problem, Calibration], Any],
+    ):
+        problem, u, shape, none = of.problem, of.u, of.problem.expand(mode), np.zeros_like(of.u)
+        step = SMALL * problem.scene.sheet.thickness / np.abs(shape).max()
+        ends = [(u + end * shape, 1.0 / (2.0 * end)) for end in (step, -step)]
+        sides = (Equilibrium(of.plain, of.calibration, at, of.calibrate) for at, _ in ends)
+        self._terms = [(Gradient(side, none, mode), -by) for side, (_, by) in zip(sides, ends, strict=True)]
+        if loaded:
+            with one_blas_thread():
+                third = sum(by * problem.system.apply(problem.tangent(at, 1.0), shape) for at, by in ends)
+            self._terms.append((of.pullback(np.asarray(third)).at_rest(), 1.0))
+        self._of, self._mode, self._squared, self._inertia = of, mode, squared, inertia
+
+    def __getitem__(self, name: str) -> Any:
+        if name in INERT:
+            raise BadInput(f"{name}: none of a frequency; the scene's density and thickness have one")
+        found = sum(by * term[name] for term, by in self._terms)
+        if not name.startswith(FIELD):
+            of = self._of
+            (low, high), over = both_sides(of.calibration, of.plain, name, of.calibrate)
+            masses = [self._mode @ (self._inertia(*side) @ self._mode) for side in (low, high)]
+            found -= self._squared * (masses[1] - masses[0]) / over
+        return found / (4.0 * np.pi * np.sqrt(self._squared))
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name in self._of.names() if name not in INERT)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)

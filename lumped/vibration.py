@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -128,17 +129,30 @@ def modes(
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
     loaded = about == "deformed"
     bare = scene if loaded else scene.replace(loads=(), gravity=None)
-
-    def gradient_of(number: int) -> FrequencyGradient:
-        mode, of = vectors[:, rigid + number - 1], Equilibrium.of(bare, calibration, at)
-        mode = mode / np.sqrt(mode @ (mass @ mode))
-        squared = float(values[rigid + number - 1])
-        return FrequencyGradient(
-            of, mode, squared, loaded, lambda *side: _masses(side[0], shared, side[1])[2]
-        )
-
-    found = None if problem.prestrained and not loaded else gradient_of
+    elastic = values[rigid:], vectors[:, rigid:]
+    gradient = partial(_gradient, bare, calibration, at, loaded, shared, *elastic)
+    found = None if problem.prestrained and not loaded else gradient
     return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice, found)
+
+
+def _gradient(
+    scene: Scene,
+    calibration: Calibration,
+    u: np.ndarray,
+    loaded: bool,
+    shared: Inertia,
+    squares: np.ndarray,
+    vectors: np.ndarray,
+    number: int,
+) -> FrequencyGradient:
+    """Return df/dθ of a mode about an equilibrium u (n, 3)."""
+
+    def inertia(problem: Problem, springs: Calibration) -> Any:
+        return _masses(problem, shared, springs)[2]
+
+    of, mode = Equilibrium.of(scene, calibration, u), vectors[:, number - 1]
+    mode = mode / np.sqrt(mode @ (inertia(of.plain, calibration) @ mode))
+    return FrequencyGradient(of, mode, float(squares[number - 1]), loaded, inertia)
 
 
 def _masses(problem: Problem, shared: Inertia, calibration: Calibration) -> tuple[Any, Any, Any]:

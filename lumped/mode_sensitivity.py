@@ -26,7 +26,7 @@ SMALL = 2e-4  # of the thickness, that a mode moves the sheet for a difference
 INERT = (FIELD + "density", FIELD + "thickness", FORCES)
 
 
-class FrequencyGradient(Mapping[str, Any]):
+class ModeGradient(Mapping[str, Any]):
     """df/dθ [Hz per unit] by name, of the mode (m,) of an equilibrium; squared: ω² [1/s²]; loaded: whether
     about its shape under load, which changes too; inertia: makes Tᵀ M T (m, m) of a problem with springs."""
 

@@ -20,7 +20,7 @@ from lumped.gradient import Equilibrium
 from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix, masses
 from lumped.mid_surface import MidSurface
-from lumped.mode_sensitivity import FrequencyGradient
+from lumped.mode_sensitivity import ModeGradient
 from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
 from lumped.statics.solver import stable_equilibrium
@@ -144,7 +144,7 @@ def _gradient(
     squares: np.ndarray,
     vectors: np.ndarray,
     number: int,
-) -> FrequencyGradient:
+) -> ModeGradient:
     """Return df/dθ of a mode about an equilibrium u (n, 3)."""
 
     def inertia(problem: Problem, springs: Calibration) -> Any:
@@ -152,7 +152,7 @@ def _gradient(
 
     of, mode = Equilibrium.of(scene, calibration, u), vectors[:, number - 1]
     mode = mode / np.sqrt(mode @ (inertia(of.plain, calibration) @ mode))
-    return FrequencyGradient(of, mode, float(squares[number - 1]), loaded, inertia)
+    return ModeGradient(of, mode, float(squares[number - 1]), loaded, inertia)
 
 
 def _masses(problem: Problem, shared: Inertia, calibration: Calibration) -> tuple[Any, Any, Any]:

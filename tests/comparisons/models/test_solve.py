@@ -7,7 +7,7 @@ import pytest
 import lumped
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
-from comparisons.models.spec import Lattice
+from comparisons.models.spec import Elements, Lattice
 from sheetbench.errors import BadInput
 from sheetbench.scenes import load
 from sheetbench.scenes.meaning.parameters import put
@@ -27,3 +27,14 @@ def test_a_gradient_finds_springs_again_by_the_same_choices():
     fitted = replace(lumped.calibrate(scene.sheet, scene.material, 3), method="fit-static")
     with pytest.raises(BadInput, match="calibration 'fit-static' do not follow"):
         lumped.solve(scene, fitted).gradient(of=[[0.0, 0.0, 1.0]], at=[[0.1, 0.1]], by=["young"])
+
+
+def test_lattice_and_shell_have_the_same_gradients():
+    """Each of its own mechanics, both to about what their displacements differ by."""
+    scene, by = load("one-edge-clamped"), ["material.young", "sheet.thickness", "density", "gravity.z"]
+    lattice, shell = (
+        solve(resolve(scene, spec)).gradient(of="P4.uz", by=by)
+        for spec in (Lattice((9, 9, 2)), Elements("shell", 6))
+    )
+    for name in by:
+        assert lattice[name] == pytest.approx(shell[name], rel=0.01), name

@@ -47,7 +47,7 @@ from sheetbench.scenes.objects.fields import SceneFields
 STEP = 1e-5  # of a parameter, for the difference of residuals
 CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
-STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-9}  # m, of what presses in by 1e-8 m
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of what presses in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
 PATCH, OBSTACLE = "patch", "obstacle"  # with which names of what these have begin
 FIELD = "cells."

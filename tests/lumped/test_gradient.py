@@ -205,9 +205,7 @@ def test_gradients_of_twelve_scenes_are_those_of_differences(name):
     for key in scalars.split():
         value = parameter(scene, key).value
         h = 1e-6 if ".e" in key or key.startswith("obstacle") else 1e-4 * (abs(value) or 1e-2)
-        # the border of what touches moves too, by differences of 1e-6 m and more
-        within = 1e-5 if key.startswith("obstacle") else 2e-6
-        assert found[key] == pytest.approx(slope(key, value, 1.0, h), rel=within), key
+        assert found[key] == pytest.approx(slope(key, value, 1.0, h), rel=2e-6), key
 
 
 def forward_of(of, changes):

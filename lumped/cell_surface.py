@@ -27,7 +27,7 @@ def shapes(r: np.ndarray, s: np.ndarray) -> np.ndarray:
     """Return the shares (p, 12) of corners in turn, and of b and e of each side, in places at r, s (p,) of
     [0, 1]."""
     corners = [(1.0 - r) * (1.0 - s), r * (1.0 - s), r * s, (1.0 - r) * s]
-    curves = []
+    curves: list[np.ndarray] = []
     for x, y in ((r, s), (s, 1.0 - r), (r, 1.0 - s), (s, r)):
         fades = np.where(y < 0.5, 1.0 - 2.0 * y * y, 2.0 * (1.0 - y) ** 2)
         curves += [4.0 * x * (1.0 - x) * fades, np.minimum(x, 1.0 - x) * (1.0 - 2.0 * x) * (1.0 - y)]

@@ -256,9 +256,9 @@ class Contact(LatticeItem):
         self.rounded = ROUNDED
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
-    def rounding(self) -> float:
-        largest = float(np.abs(self._rest).max())
-        return self._eps * largest * float(np.linalg.norm(self.area * self.share * self.full))
+    def rounding(self, at: Placed) -> float:
+        touched = self._pressed(at, tangent=True).slope.sum(axis=(2, 3))
+        return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it at an equilibrium, and its pressure (n,) [Pa] at the masses."""

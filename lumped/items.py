@@ -60,6 +60,6 @@ class LatticeItem(Protocol):
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
         """Take what stiffness it has in motion, beside springs whose highest frequency has this ω²."""
 
-    def rounding(self) -> float:
-        """Return what rounding of displacements leaves of its forces, as a norm [N]."""
+    def rounding(self, at: Placed) -> float:
+        """Return what rounding of displacements leaves of its forces there, as a norm [N]."""
         return 0.0

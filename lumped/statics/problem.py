@@ -229,7 +229,8 @@ class Problem(Structure[LatticeState, Residual]):
         if assembly.coupling is not None:
             each = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
             carried = float(np.linalg.norm(each))
-        return assembly.rounding * carried + sum(item.rounding() for item in self.items)
+        at = self.placed(state, state.load_factor)
+        return assembly.rounding * carried + sum(item.rounding(at) for item in self.items)
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
         moved, lattice = self._moved(state, load_factor), self.assembly.lattice

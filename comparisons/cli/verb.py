@@ -287,7 +287,8 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
                 elif held["progress"] is None and "ipykernel" in sys.modules:
                     from comparisons.cli import console  # with rich
 
-                    held["progress"] = stack.enter_context(console.progress())
+                    if console.err.is_jupyter:
+                        held["progress"] = stack.enter_context(console.progress())
                 stack.enter_context(running(**{key: value for key, value in held.items() if value}))
                 return command(**declared.grouped(found, **of_output))
         except BadInput as error:

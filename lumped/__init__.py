@@ -24,9 +24,10 @@ from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
-    from lumped.dynamics.explicit.step_limit import step_limit
+    from lumped.dynamics.explicit.step_limit import measured_limit, step_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
+    from lumped.dynamics.runs.initial import in_motion
     from lumped.dynamics.runs.plan import explicit_limit, shortest_period
     from lumped.dynamics.runs.simulation import simulate
     from lumped.dynamics.system import State, System
@@ -60,7 +61,9 @@ __all__ = [
     "footprint",
     "given",
     "identifiability",
+    "in_motion",
     "linearise",
+    "measured_limit",
     "modes",
     "moduli",
     "require_alike",

@@ -53,8 +53,9 @@ def command(
         toml: Print the [springs] table for a scene file.
         for_ (CODE): Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis:
             its own sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a
-            program that reads it; c: one C file that steps it, with a check.
-        precision (NAME): With --for c: double or single numbers. Default: double.
+            program that reads it; c: one C file that steps it, with a check;
+            fmu: that as an FMI 3.0 unit.
+        precision (NAME): With --for c or fmu: double or single numbers. Default: double.
         cell (CELL): Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer
             mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with
             hinges), bricks, or a TOML file with periods, nodes and elements.

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.codes.files import script, to_sofa
+from comparisons.codes.fmu import fmu_files
 from comparisons.codes.onefile import c_files
 from comparisons.codes.tables import NAMES, arrays, contacts, natural, tables
 from comparisons.pictures.array_files import write_mat, write_npz
@@ -148,7 +149,7 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
 
 SOFA = "sofa"  # has links alone
 READERS = {"numpy": "read_lattice.py", "cpp": "read_lattice.cpp", "matlab": "read_lattice.m"}
-IN_MOTION = ("c",)  # programs that step it
+IN_MOTION = ("c", "fmu")  # programs that step it
 CODES = (SOFA, *READERS, *IN_MOTION)
 
 
@@ -164,6 +165,8 @@ def lattice_files(
     import lumped
 
     if code in IN_MOTION:
+        if code == "fmu":
+            return fmu_files(scene, calibration, precision)
         return c_files(scene, calibration, precision), []
     if code == SOFA:
         require_flat_at_rest(scene, "--for sofa")

@@ -1,14 +1,16 @@
 """The lattice in motion as one C file: against `lumped`'s own steps, under compilers, on boards; inputs."""
 
 import ctypes
+import re
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import numpy as np
 import pytest
 from cases import CLAMP, GRAVITY, OBLONG, SILICONE, calibrated
-from commands import run
+from commands import python, run
 from exported import BLOWN, MOMENT, PULL, SCENES
 from rubbers import rubber
 
@@ -263,3 +265,34 @@ def test_the_verb_writes_it(tmp_path, capsys):
     assert "typedef float sheet_real" in (tmp_path / "sheet.h").read_text()
     assert run("calibrate", "two-edges-settling", "--precision", "single") == 2
     assert "--precision" in capsys.readouterr().err
+
+
+def test_an_fmi_unit_is_without_fault_and_held_by_a_controller(tmp_path):
+    """FMPy's validator, its run against the program's own steps, and the controller of the manual."""
+    fmpy = pytest.importorskip("fmpy", reason="no FMPy in this environment")
+    from fmpy.validation import validate_fmu
+
+    assert run("calibrate", "docs/tip.toml", "--grid", "5", "--for", "fmu", "--out", str(tmp_path)) == 0
+    path = str(tmp_path / "sheet.fmu")
+    assert validate_fmu(path) == []
+    if not any(name.startswith("binaries/") for name in zipfile.ZipFile(path).namelist()):
+        pytest.skip("no compiler on this machine")
+    found = fmpy.simulate_fmu(path, stop_time=0.05, step_size=1e-3, output_interval=1e-3)
+    scene = scenes.load("docs/tip.toml")
+    springs = calibrated(scene, 5, method="consistent")
+    step = 1e-3 / np.ceil(1e-3 / program(scene, springs, "double", 20).step - 1e-9)
+    known = lumped.simulate(scene, springs, 0.05, step=step, every=1e-3, integrator="verlet")
+    tip, energy = known.probes["tip"], known.energies["elastic"]
+    assert np.abs(found["tip.uz"] - tip[:, 2]).max() < 1e-12 * np.abs(tip).max()
+    assert np.abs(found["energy.elastic"] - energy).max() < 1e-12 * energy.max()
+    held = python("docs/hold_tip.py", path)
+    tip = float(re.search(r"tip at (\S+) mm", held.stdout)[1])
+    assert abs(tip + 10.0) < 0.1, held.stdout + held.stderr
+
+
+def test_without_a_compiler_a_unit_has_its_sources_alone(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    assert run("calibrate", "two-edges-clamped", "--grid", "3", "--for", "fmu", "--out", str(tmp_path)) == 0
+    names = zipfile.ZipFile(tmp_path / "sheet.fmu").namelist()
+    assert "sources/sheet.c" in names and not any("binaries" in name for name in names)
+    assert "sources alone" in " ".join(capsys.readouterr().out.split())

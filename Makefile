@@ -173,6 +173,6 @@ lint: $(VENV)/testing
 	@$(BIN)/mypy
 
 clean:
-	rm -rf $(VENV) $(OUT) build *.egg-info docs/_build docs/verbs docs/tables docs/scene.md docs/examples
+	rm -rf $(VENV) $(OUT) build *.egg-info docs/_build docs/_try docs/verbs docs/tables docs/scene.md docs/examples
 
 include studies/Makefile

@@ -14,6 +14,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parent))
 from plain_docstrings import as_restructured
 from study_pages import write_study_pages
+from try_page import build as build_try_page
 from verb_pages import write_verb_pages
 from version_page import write_version_page
 
@@ -27,7 +28,10 @@ copyright = "the sheetbench developers, MIT licence"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.viewcode", "sphinx_gallery.gen_gallery"]
 extensions += ["run_directive"]  # of this folder
 source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb", ".rst": "restructuredtext"}
-exclude_patterns = ["_build", "examples/*.ipynb"]  # of the gallery: downloads
+TRY = Path(__file__).parent / "_try"  # the page that steps lattices in the browser, as it is copied
+TRY.mkdir(exist_ok=True)
+html_extra_path = ["_try"]
+exclude_patterns = ["_build", "_try", "try", "examples/*.ipynb"]  # of the gallery: downloads
 html_theme = "furo"
 html_title = "sheetbench"
 smartquotes_action = "qe"  # quotes and ellipses; an option's two dashes stay
@@ -64,4 +68,5 @@ def setup(app: Any) -> None:
     app.connect("builder-inited", lambda built: write_verb_pages(Path(built.srcdir) / "verbs"))
     app.connect("builder-inited", lambda built: write_study_pages(Path(built.srcdir)))
     app.connect("builder-inited", lambda built: write_version_page(Path(built.srcdir) / "versions.md"))
+    app.connect("builder-inited", lambda built: print(f"docs/try: {build_try_page(TRY / 'try')}"))
     app.connect("autodoc-process-docstring", _plain)

@@ -25,9 +25,10 @@ from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
     from lumped.description import Description, describe
-    from lumped.dynamics.explicit.step_limit import step_limit
+    from lumped.dynamics.explicit.step_limit import measured_limit, step_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
+    from lumped.dynamics.runs.initial import in_motion
     from lumped.dynamics.runs.plan import explicit_limit, shortest_period
     from lumped.dynamics.runs.simulation import simulate
     from lumped.dynamics.system import State, System
@@ -63,7 +64,9 @@ __all__ = [
     "footprint",
     "given",
     "identifiability",
+    "in_motion",
     "linearise",
+    "measured_limit",
     "modes",
     "moduli",
     "require_alike",

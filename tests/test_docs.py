@@ -1,13 +1,18 @@
 """Pages run as written; commands, options, scenes, links, targets, pictures and their numbers are there."""
 
+import functools
+import http.server
+import json
 import pkgutil
 import re
 import runpy
 import shlex
+import threading
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from browser import browser, opened  # noqa: F401
 from commands import run
 from PIL import Image
 
@@ -198,3 +203,44 @@ def test_every_picture_is_drawn_by_a_make_target_and_shown_somewhere():
             assert f"images/{path.name}" in MAKE or path.stem in scripts, (
                 f"{path.name}: no make target draws it"
             )
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("size", [(1440, 900), (390, 844)])
+def test_the_page_in_the_browser_steps_a_lattice_beside_the_shells_answer(size, browser, tmp_path):  # noqa: F811
+    """It has its programs in little room, moves, settles at its own answer, and gives way to a finger."""
+    if find_spec("ziglang") is None:
+        pytest.skip("no ziglang in this environment")
+    runpy.run_path(str(ROOT / "docs" / "try_page.py"))["build"](tmp_path)
+    assert sum(path.stat().st_size for path in tmp_path.iterdir()) < 700_000
+    serve = functools.partial(http.server.SimpleHTTPRequestHandler, directory=tmp_path)
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), serve)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    address = f"http://127.0.0.1:{server.server_port}/index.html"
+    look = {"width": size[0], "height": size[1]}
+    with opened(browser, address, offline=False, viewport=look) as (page, _):
+        page.wait_for_function("window.measured && measured.time > 4", timeout=60_000)
+        rest = page.evaluate("measured")
+        assert rest["corner"] == pytest.approx(rest["known"], rel=0.02)
+        assert page.evaluate("document.documentElement.scrollWidth") == size[0]
+        box = page.locator("#sheet").bounding_box()
+        x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x, y - 0.3 * box["height"], steps=5)
+        page.wait_for_function(f"measured.corner - {rest['corner']} > 2e-3", timeout=60_000)
+        page.mouse.up()
+        page.locator("#gravity").fill("0")
+        page.wait_for_function("measured.known === 0 && Math.abs(measured.corner) < 2e-3", timeout=60_000)
+    server.shutdown()
+
+
+def test_the_shells_stored_answers_are_the_shells():
+    made = runpy.run_path(str(ROOT / "docs" / "try_page.py"))
+    stored = json.loads((ROOT / "docs" / "try" / "answers.json").read_text(encoding="utf-8"))
+    assert stored.keys() == {f"{name} {1e3 * h:g}" for name in made["SCENES"] for h in made["THICKNESSES"]}
+    shell = sb.solve(made["scene_of"]("one-edge-clamped", 0.004), "shell", elements=8)
+    found = list(shell.probes.values())[-1][2]
+    assert stored["one-edge-clamped 4"][made["LOADS"].index(1.0)] == pytest.approx(found, rel=1e-6)
+    script = (ROOT / "docs" / "try" / "try.js").read_text(encoding="utf-8")
+    assert str(list(made["LOADS"])).replace(".0", "") in script

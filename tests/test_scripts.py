@@ -68,6 +68,7 @@ ALONE = {
     "contact.py": (),
     "live.py": ("--grid", "3", "--elements", "2", "--drags", "2"),
     "natural.py": ("arc",),
+    "one_file.py": ("3", "--seconds", "0.01"),
     "versions.py": ("tried",),
 }
 SMALL = "help studies sizes tests-of catalogue docs-scene archive clean"

@@ -33,6 +33,7 @@ def command(
     toml: bool = False,
     export: str | None = None,
     for_: str | None = None,
+    precision: str | None = None,
     cell: str | None = None,
     spacing: Metres = None,
     hinge: str | None = None,
@@ -61,7 +62,9 @@ def command(
         toml: Print the [springs] table for a scene file.
         for_ (CODE): Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis:
             its own sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a
-            program that reads it.
+            program that reads it; c: one C file that steps it, with a check;
+            fmu: that as an FMI 3.0 unit.
+        precision (NAME): With --for c or fmu: double or single numbers. Default: double.
         cell (CELL): Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer
             mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with
             hinges), bricks, or a TOML file with periods, nodes and elements.
@@ -108,6 +111,8 @@ def command(
             return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
     if for_ is not None:
         require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *exchange.CODES])))
+    if for_ not in exchange.IN_MOTION:
+        require_effect(f"without --for {' or '.join(exchange.IN_MOTION)}", {"--precision": precision})
     if for_ is not None and for_ in WRITERS:
         of_springs = wanted.but(grid=None).settings
         options = {f"--{name.replace('_', '-')}": value for name, value in of_springs.items()}
@@ -129,6 +134,6 @@ def command(
             line = command_line(output.verb, output.terminal)
             out.notes.append(exchange.export(export, of, springs, line, output.overwrite))
         own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
-        files = ({}, []) if for_ is None else exchange.lattice_files(of, springs, for_)
+        files = ({}, []) if for_ is None else exchange.lattice_files(of, springs, for_, precision or "double")
         answer = SheetCalibration(**own, found=springs, scene=of, expected=off, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)

@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.codes.files import script, to_sofa
+from comparisons.codes.fmu import fmu_files
+from comparisons.codes.onefile import c_files
 from comparisons.codes.tables import NAMES, arrays, contacts, natural, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
@@ -159,19 +161,25 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
 
 SOFA = "sofa"  # has links alone
 READERS = {"numpy": "read_lattice.py", "cpp": "read_lattice.cpp", "matlab": "read_lattice.m"}
-CODES = (SOFA, *READERS)
+IN_MOTION = ("c", "fmu")  # programs that step it
+CODES = (SOFA, *READERS, *IN_MOTION)
 
 
 def lattice_files(
-    scene: Scene, calibration: Calibration, code: str | None = None
+    scene: Scene, calibration: Calibration, code: str | None = None, precision: str = "double"
 ) -> tuple[dict[str, Write], list[str]]:
     """Return the files of a scene's lattice with these springs, and what is not in them, in sentences.
 
-    code: of `CODES`, whose file comes beside them. Raises BadInput for lattices that files cannot say
+    code: of `CODES`, whose file comes beside them, or that has files of its own; precision: of those that
+    step it. Raises BadInput for lattices that files cannot say
     (`lumped.describe`), and for what the code does not have.
     """
     import lumped
 
+    if code in IN_MOTION:
+        if code == "fmu":
+            return fmu_files(scene, calibration, precision)
+        return c_files(scene, calibration, precision), []
     if code == SOFA:
         require_flat_at_rest(scene, "--for sofa")
     if code in (SOFA, "cpp", "matlab"):

@@ -7,12 +7,22 @@ import scipy.linalg
 import scipy.sparse as sp
 
 from lumped.calibration import Calibration
+from lumped.dynamics.explicit.step_limit import soften_items
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat
+from sheetbench.scenes.meaning.motion import NO_START, at_start, let_go, starts_flat
+
+
+def in_motion(scene: Scene, calibration: Calibration, weights: Weights = "tributary") -> tuple[System, State]:
+    """Return the equations of a scene in motion, without the loads that it lets go, and the state to begin
+    in. Raises as `initial_state`."""
+    moving = let_go(scene)
+    system = System(moving, build_problem(moving, calibration, weights))
+    soften_items(system)
+    return system, initial_state(system, calibration, weights, scene)
 
 
 def initial_state(

@@ -13,23 +13,19 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import Calibration, default
-from lumped.dynamics.explicit.step_limit import soften_items
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
-from lumped.dynamics.runs.initial import initial_state
+from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.runs.observer import LatticeObserver
 from lumped.dynamics.runs.plan import plan_run
-from lumped.dynamics.system import System
 from lumped.lattice import Weights
 from lumped.mid_surface import MidSurface
 from lumped.statics.fields import field_mesh
-from lumped.statics.solver import build_problem
 from sheetbench.answers.history import History
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
 from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.record import Recipe, parted, record
 from sheetbench.scenes import AnyScene, scene_of
-from sheetbench.scenes.meaning.motion import let_go
 from sheetbench.scenes.objects.quantities import require_positive
 
 
@@ -74,11 +70,8 @@ def simulate(
     began = now()
     scene = scene_of(scene)
     calibration = calibration or default(scene)
-    moving = let_go(scene)
-    system = System(moving, build_problem(moving, calibration, weights))
-    soften_items(system)
+    system, start = in_motion(scene, calibration, weights)
     integrator, why = resolve_integrator(integrator, system, options)
-    start = initial_state(system, calibration, weights, scene)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
     settings = calibration.settings | {"layer_distance": calibration.layer_distance} | options

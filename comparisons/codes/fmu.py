@@ -1,0 +1,123 @@
+"""A lattice in motion as an FMI 3.0 co-simulation unit: the program in C, a description of its values, and a
+library for the machine that writes it where it has a compiler.
+
+Source: Functional Mock-up Interface 3.0.1, sections 2.4, 2.5 and 4.
+"""
+
+from __future__ import annotations
+
+import functools
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import uuid
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+from xml.sax.saxutils import quoteattr
+
+from comparisons.codes.files import script
+from comparisons.codes.onefile import Program, program
+from sheetbench.answers.report import Write
+from sheetbench.files import whole
+from sheetbench.scenes import Scene
+
+if TYPE_CHECKING:
+    from lumped import Calibration
+
+UNITS = {
+    "N": 'kg="1" m="1" s="-2"',
+    "m": 'm="1"',
+    "m/s2": 'm="1" s="-2"',
+    "J": 'kg="1" m="2" s="-2"',
+    "s": 's="1"',
+}
+SOURCES = ("sheet.c", "fmi3.c")
+BUILD = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiBuildDescription fmiVersion="3.0"><BuildConfiguration modelIdentifier="sheet">
+<SourceFileSet language="C99"><SourceFile name="sheet.c"/><SourceFile name="fmi3.c"/></SourceFileSet>
+</BuildConfiguration></fmiBuildDescription>
+"""
+MODEL = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="3.0" modelName={name} instantiationToken="{{{token}}}"
+ generationTool="sheetbench">
+<CoSimulation modelIdentifier="sheet" canHandleVariableCommunicationStepSize="true"/>
+<UnitDefinitions>{units}</UnitDefinitions>
+<DefaultExperiment startTime="0" stopTime="1" stepSize="0.005"/>
+<ModelVariables>
+{variables}
+</ModelVariables>
+<ModelStructure>{structure}</ModelStructure>
+</fmiModelDescription>
+"""
+VARIABLE = '<Float64 name={name} valueReference="{number}" {kind} unit="{unit}"/>'
+
+
+def description(scene: Scene, of: Program) -> str:
+    """Return the unit's modelDescription.xml, with values numbered as `scripts/fmi3.c` has them."""
+    still = scene.gravity is not None and scene.gravity.history is None
+    gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
+
+    def plain(name: str) -> str:
+        return re.sub(r"\W+", "_", name)
+
+    inputs = [(f"{plain(p)}.F{axis}", "N", 0.0) for p in of.points for axis in "xyz"]
+    inputs += [(f"gravity.{axis}", "m/s2", value) for axis, value in zip("xyz", gravity, strict=True)]
+    inputs += [(f"{plain(name)}.factor", "", 1.0) for name in of.sources]
+    outputs = [(f"{plain(p)}.u{axis}", "m") for p in of.points for axis in "xyz"]
+    outputs += [(f"{plain(body)}.R{axis}", "N") for body in of.bodies for axis in "xyz"]
+    outputs += [(f"energy.{name}", "J") for name in ("kinetic", "elastic", "potential")]
+    rows = [("time", "s", 'causality="independent" variability="continuous"')]
+    rows += [(name, unit, f'causality="input" start="{start!r}"') for name, unit, start in inputs]
+    rows += [(name, unit, 'causality="output" initial="calculated"') for name, unit in outputs]
+    numbers = range(1 + len(inputs), len(rows))
+    variables = [
+        VARIABLE.format(name=quoteattr(name), number=number, kind=kind, unit=unit).replace(' unit=""', "")
+        for number, (name, unit, kind) in enumerate(rows)
+    ]
+    known = [f'<{kind} valueReference="{n}"/>' for kind in ("Output", "InitialUnknown") for n in numbers]
+    return MODEL.format(
+        name=quoteattr(scene.name),
+        token=uuid.uuid5(uuid.NAMESPACE_OID, of.texts["sheet.c"]),
+        units="".join(f'<Unit name="{unit}"><BaseUnit {base}/></Unit>' for unit, base in UNITS.items()),
+        variables="\n".join(variables),
+        structure="".join(known),
+    )
+
+
+def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
+    """Return the place in a unit and the content of a library for this machine; None without a compiler."""
+    compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
+    system = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib")}.get(sys.platform)
+    if compiler is None or system is None:
+        return None
+    machine = {"amd64": "x86_64", "arm64": "aarch64"}.get(platform.machine().lower(), platform.machine())
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in texts.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        flags = ("-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", *SOURCES, "-lm", "-o", "out")
+        if subprocess.run([compiler, *flags], cwd=folder, capture_output=True).returncode:
+            return None
+        return f"binaries/{machine}-{system[0]}/sheet{system[1]}", (Path(folder) / "out").read_bytes()
+
+
+def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[dict[str, Write], list[str]]:
+    """Return the file of `--for fmu`, and what is missing in it. Raises BadInput as `program`."""
+    of = program(scene, calibration, precision)
+    sources = {name: of.texts[name] for name in ("sheet.h", "sheet.c")} | {"fmi3.c": script("fmi3.c")}
+    content: dict[str, str | bytes] = {"modelDescription.xml": description(scene, of)}
+    content |= {f"sources/{name}": text for name, text in (sources | {"buildDescription.xml": BUILD}).items()}
+    built = library(sources)
+    content |= {built[0]: built[1]} if built else {}
+    missing = [] if built else ["no compiler that works: sheet.fmu has its sources alone"]
+    return {"sheet.fmu": functools.partial(write_zip, content=content)}, missing
+
+
+def write_zip(path: Path, content: dict[str, str | bytes]) -> None:
+    """Write files by their names into an archive."""
+    with whole(path) as partial, zipfile.ZipFile(partial, "w") as archive:
+        for name, of in content.items():
+            archive.writestr(zipfile.ZipInfo(name), of, zipfile.ZIP_DEFLATED)

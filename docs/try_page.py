@@ -1,0 +1,93 @@
+"""The page docs/try: lattices in the browser, from `--for c`, beside stored answers of the shell.
+
+`python docs/try_page.py` solves the shell anew for `try/answers.json` (a minute); the site's build compiles
+the lattices to WebAssembly, by the package ziglang.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import sheetbench as sb
+from sheetbench import scenes
+from sheetbench.scenes import Scene
+
+HERE = Path(__file__).parent / "try"
+SCENES = ("two-edges-clamped", "one-edge-clamped")
+THICKNESSES = (0.002, 0.003, 0.004, 0.006)  # m
+LOADS = (0.25, 0.5, 1.0, 2.0, 4.0)  # g/E over the scene's
+POINTS = 5  # along a side, that can be dragged
+
+
+def scene_of(name: str, thickness: float) -> Scene:
+    """Return a scene of the catalogue of this thickness, with points all over it, the last of them its P4."""
+    scene = scenes.load(name)
+    x, y = scene.sheet.lengths
+    share = [n / (POINTS - 1) for n in range(POINTS)]
+    probes = {f"n{j}{i}": (i * x, j * y) for j in share for i in share}
+    return scene.replace(sheet=scene.sheet.replace(thickness=thickness), probes=probes)
+
+
+def answers() -> dict[str, list[float]]:
+    """Return the shell's u_z [m] of the last point by scene and thickness, at every load; null without an
+    equilibrium."""
+    found = {}
+    for name in SCENES:
+        for thickness in THICKNESSES:
+            scene, heights = scene_of(name, thickness), []
+            for load in LOADS:
+                weight = tuple(load * g for g in scene.gravity.acceleration)
+                shell = sb.solve(scene.replace(gravity={"acceleration": weight}), "shell", elements=8)
+                good = str(shell.status) == "converged"
+                heights.append(float(list(shell.probes.values())[-1][2]) if good else None)
+            found[f"{name} {1e3 * thickness:g}"] = heights
+    return found
+
+
+def build(folder: Path) -> str:
+    """Write the page with its programs to a folder; return how many, or why there are none."""
+    from comparisons.codes.onefile import program
+    from comparisons.models.resolve import resolve
+    from comparisons.models.spec import Lattice
+
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ("index.html", "try.js", "answers.json"):
+        shutil.copy(HERE / name, folder)
+    if find_spec("ziglang") is None:
+        return "no compiler: pip install ziglang, then make docs"
+    for name in SCENES:
+        for thickness in THICKNESSES:
+            scene = scene_of(name, thickness)
+            springs = resolve(scene, Lattice(9), "springs", own=False).calibrated([scene])
+            texts = program(scene, springs, steps=20).texts | {
+                "glue.c": (HERE / "glue.c").read_text(encoding="utf-8")
+            }
+            for file in ("sheet.h", "sheet.c", "glue.c"):
+                (folder / file).write_text(texts[file], encoding="utf-8")
+            out = folder / f"{name}-{1e3 * thickness:g}.wasm"
+            flags = (
+                "-target",
+                "wasm32-freestanding",
+                "-O3",
+                "-Dsqrt=__builtin_sqrt",
+                "-nostdlib",
+                "-Wl,--no-entry",
+                "-s",
+            )
+            command = [sys.executable, "-m", "ziglang", "cc", *flags, "sheet.c", "glue.c", "-o", out.name]
+            subprocess.run(command, cwd=folder, check=True)
+            for file in ("sheet.h", "sheet.c", "glue.c"):
+                (folder / file).unlink()
+    return f"{len(SCENES) * len(THICKNESSES)} lattices"
+
+
+if __name__ == "__main__":
+    if sys.argv[1:]:
+        print(build(Path(sys.argv[1])))
+    else:
+        (HERE / "answers.json").write_text(json.dumps(answers(), indent=1) + "\n")

@@ -1,0 +1,298 @@
+"""The lattice in motion as one C file: against `lumped`'s own steps, under compilers, on boards; inputs."""
+
+import ctypes
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+
+import numpy as np
+import pytest
+from cases import CLAMP, GRAVITY, OBLONG, SILICONE, calibrated
+from commands import python, run
+from exported import BLOWN, MOMENT, PULL, SCENES
+from rubbers import rubber
+
+import lumped
+from comparisons.codes.onefile import program
+from sheetbench import scenes
+from sheetbench.errors import BadInput
+from sheetbench.scenes import Clamped, Held, Hinged, PointLoad, Pressure, Scene
+from sheetbench.scenes.objects.springs import DamperSet
+
+STRICT = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-O2")
+needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc on this machine")
+SETTLING = scenes.load("two-edges-settling").replace(probes={"P4": (0.188, 0.188), "middle": (0.1, 0.09)})
+STRIP = Scene("strip", OBLONG, SILICONE.replace(damping_rate=5.0), GRAVITY, (CLAMP,))
+RISE = {"time": (0.0, 0.004, 0.02), "displacement": ((0, 0, 0), (0, 0, 0.001), (0.001, 0, 0.003))}
+RAMP = {"time": (0.0, 0.01), "factor": (0.0, 1.0)}
+LEVEL = scenes.Plane(position=(0.0, 0.0, -0.0026), friction=0.3, contact_damping=0.1)
+MOVED = LEVEL.replace(motion={"time": (0.0, 0.02), "displacement": ((0, 0, 0), (0.001, 0, -0.002))})
+HINGES = (Hinged(edge="x0", motion=RISE), Held(edge="x1", components=("z",)))
+TIED = DamperSet(axial=0.02, diagonal=0.01, vertical=0.1, cross=0.01)
+OWN = {
+    "settling": (SETTLING, {}),
+    "rate": (STRIP, {}),
+    "moved": (STRIP.replace(supports=(Clamped(edge="x0", motion=RISE),)), {}),
+    "linear": (STRIP.replace(supports=(Clamped(edge="x0", motion=RISE | {"interpolation": "linear"}),)), {}),
+    "hinges": (STRIP.replace(supports=HINGES), {}),
+    "table of dampers": (STRIP.replace(dampers=TIED), {}),
+    "lies down": (STRIP.replace(obstacles=(LEVEL,)), {}),
+    "lifted": (STRIP.replace(obstacles=(MOVED,)), {}),
+    "blown over time": (BLOWN.replace(loads=(Pressure(value=40.0, history=RAMP), MOMENT, PULL)), {}),
+    "weight over time": (STRIP.replace(gravity=GRAVITY.replace(history=RAMP)), {}),
+    "payload": (STRIP.replace(masses=[{"at": (0.2, 0.1), "mass": 0.003}]), {}),
+    "three layers": (SETTLING, {"grid": (5, 5, 3)}),
+}
+LIKE = ("graded", "half", "uniform", "cut", "woven", "skew", "sheared", "bimetal")
+ALL = OWN | {name: SCENES[name] for name in LIKE}
+
+
+class Sheet:
+    """A compiled program: `call` of its functions, `probe`, `force`, `energies`."""
+
+    def __init__(self, folder, found, *flags):
+        for name, text in found.texts.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        (folder / "size.c").write_text(
+            '#include "sheet.h"\nextern const int SIZE; const int SIZE = sizeof(sheet);\n'
+        )
+        sources = ("sheet.c", "size.c", "-o", "sheet.so", "-lm")
+        subprocess.run(["gcc", *STRICT, *flags, "-shared", "-fPIC", *sources], cwd=folder, check=True)
+        self.library, self.found = ctypes.CDLL(str(folder / "sheet.so")), found
+        single = "float sheet_real" in found.texts["sheet.h"]
+        self.real = ctypes.c_float if single else ctypes.c_double
+        self.library.sheet_energy.restype = self.real
+        self.room = ctypes.create_string_buffer(ctypes.c_int.in_dll(self.library, "SIZE").value)
+        self.call("reset")
+
+    def call(self, name, *given):
+        three = [(self.real * 3)(*one) if np.ndim(one) else one for one in given]
+        return getattr(self.library, f"sheet_{name}")(self.room, *three)
+
+    def three(self, name, number):
+        out = (self.real * 3)()
+        getattr(self.library, f"sheet_{name}")(self.room, number, out)
+        return list(out)
+
+    def row(self):
+        """Return probes, forces and energies, as a row of check.csv has them behind its time."""
+        points, bodies = range(len(self.found.points)), range(len(self.found.bodies))
+        parts = [self.three("probe", n) for n in points] + [self.three("reaction", n) for n in bodies]
+        return np.concatenate([*parts, [self.call("energy", n) for n in range(3)]])
+
+    def length(self):
+        """Return a view of the step's length [s] in the struct."""
+        return (self.real * 2).from_buffer(self.room)
+
+
+def off(sheet, steps=2000):
+    """Return the largest differences from check.csv of displacements, forces and energies, and the peaks."""
+    known = np.array([line.split(",") for line in sheet.found.texts["check.csv"].splitlines()[1:]], float)
+    found = [sheet.row()]
+    for _ in known[1:]:
+        sheet.call("step", steps // (len(known) - 1))
+        found.append(sheet.row())
+    ends = 3 * len(sheet.found.points), known.shape[1] - 4
+    gap, own = (np.split(np.abs(one), ends, axis=1) for one in (found - known[:, 1:], known[:, 1:]))
+    return [one.max() for one in gap], [one.max() for one in own]
+
+
+def made(name, folder, precision="double", *flags):
+    """Return a scene's compiled program, and what rounding leaves of forces [N] for a displacement of 1 m."""
+    scene, settings = ALL[name]
+    springs = calibrated(scene, **({"grid": (5, 3)} | settings))
+    stiffness = lumped.build_problem(scene, springs).assembly.all_families.link_stiffness_norm
+    return Sheet(folder, program(scene, springs, precision), *flags), stiffness
+
+
+@needs_gcc
+@pytest.mark.sweep(4)
+@pytest.mark.parametrize("name", ALL)
+def test_the_program_takes_the_steps_that_lumped_takes(name, tmp_path):
+    sheet, stiffness = made(name, tmp_path)
+    (moved, pulled, stored), (peak, force, energy) = off(sheet)
+    assert moved < 1e-12 * peak and stored < 1e-12 * energy
+    assert pulled < 1e-12 * force + np.finfo(float).eps * stiffness * peak
+
+
+@needs_gcc
+@pytest.mark.parametrize("name", ["settling", "rate", "skew"])
+def test_single_numbers_are_off_by_their_rounding(name, tmp_path):
+    sheet, stiffness = made(name, tmp_path, "single")
+    (moved, pulled, stored), (peak, force, energy) = off(sheet)
+    assert moved < 1e-5 * peak and stored < 1e-5 * energy
+    assert pulled < 1e-5 * force + np.finfo(np.float32).eps * stiffness * peak
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang", "zig"])
+@pytest.mark.parametrize("name", ["lifted", "bimetal", "blown over time", "table of dampers"])
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_compilers_and_sanitizers_find_no_fault(compiler, name, precision, tmp_path):
+    command = zig() if compiler == "zig" else [shutil.which(compiler)]
+    if command[0] is None:
+        pytest.skip(f"no {compiler} on this machine")
+    scene, settings = ALL[name]
+    found = program(scene, calibrated(scene, **({"grid": (5, 3)} | settings)), precision, 400)
+    for file, text in found.texts.items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    checks = [] if compiler == "zig" else ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+    out = ["main.c", "sheet.c", "-lm", "-o", "main"]
+    subprocess.run([*command, *STRICT, *checks, *out], cwd=tmp_path, check=True)
+    run = subprocess.run([tmp_path / "main"], cwd=tmp_path, capture_output=True, text=True)
+    assert run.returncode == 0 and "as check.csv has it" in run.stdout, run.stdout + run.stderr
+    text = (tmp_path / "check.csv").read_text().splitlines()
+    row = text[5].split(",")
+    text[5] = ",".join([*row[:3], repr(float(row[3]) + 1e-3), *row[4:]])
+    (tmp_path / "check.csv").write_text("\n".join(text) + "\n")
+    assert subprocess.run([tmp_path / "main"], cwd=tmp_path, capture_output=True).returncode == 1
+
+
+def zig():
+    """Return the command of zig's compiler, of the package ziglang."""
+    there = subprocess.run([sys.executable, "-c", "import ziglang"], capture_output=True).returncode == 0
+    return [sys.executable, "-m", "ziglang", "cc"] if there else [None]
+
+
+TARGETS = {
+    "x86_64-linux-gnu": (),
+    "aarch64-linux-gnu": (),
+    "thumb-freestanding-eabihf": ("-mcpu=cortex_m7", "-fno-math-errno"),
+}
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_boards_and_other_machines_have_room_for_it(target, tmp_path):
+    if zig()[0] is None:
+        pytest.skip("no ziglang in this environment")
+    for grid in (5, 9):
+        found = program(SETTLING, calibrated(SETTLING, grid, method="consistent"), "single", 20)
+        for name, text in found.texts.items():
+            (tmp_path / name).write_text(text, encoding="utf-8")
+        flags = [*STRICT, "-Os", "-target", target, *TARGETS[target], "-c", "sheet.c", "-o", "sheet.o"]
+        subprocess.run([*zig(), *flags], cwd=tmp_path, check=True)
+        assert (tmp_path / "sheet.o").stat().st_size < {5: 30_000, 9: 60_000}[grid]
+
+
+@needs_gcc
+@pytest.mark.parametrize("name", ["settling", "rate", "table of dampers", "hinges"])
+def test_the_step_is_stable_and_a_fifth_more_is_not(name, tmp_path):
+    sheet, _ = made(name, tmp_path)
+    largest = []
+    for times in (1.0, 1.2):
+        sheet.call("reset")
+        sheet.length()[1] = times * sheet.found.step
+        sheet.call("step", 3000)
+        largest.append(np.abs(sheet.row()[:6]).max())
+    assert largest[0] < 0.3 and not largest[1] < 1.0
+
+
+@needs_gcc
+@pytest.mark.parametrize("what", ["force", "support", "natural"])
+def test_inputs_are_what_a_scene_would_say(what, tmp_path):
+    """What a call sets from the first step on, against a scene in which it comes up within that step; two
+    sheets in one program."""
+    h, rate = 5e-5, (0.0, 0.0, 0.2)
+    strip = STRIP.replace(probes={"tip": (0.2, 0.05)})
+    natural = {"strain": (0.01, 0.0, 0.002), "curvature": (2.0, -1.0, 0.5)}
+    rise = {"time": (0.0, 0.5 * h), "factor": (0.0, 1.0)}
+    way = ((0, 0, 0), (0, 0, 0), tuple(1.0 * v for v in rate))
+    course = {"time": (0.0, 0.5 * h, 0.5 * h + 1.0), "displacement": way, "interpolation": "linear"}
+    calls = {
+        "force": ("set_force", 0, (0.0, 0.1, 0.2)),
+        "support": ("move_support", 0, [0.5 * h * v for v in rate], rate),
+        "natural": ("set_curvature", 0, ctypes.c_double(2.0)),
+    }
+    known = {
+        "force": strip.replace(loads=(PointLoad(at=(0.2, 0.05), force=calls["force"][2], history=rise),)),
+        "support": strip.replace(supports=(Clamped(edge="x0", motion=course),)),
+        "natural": strip.replace(natural=natural | {"history": rise | {"factor": (1.0, 2.0)}}),
+    }[what]
+    later = {"time": (0.0, 1e6), "factor": (1.0, 2.0)}  # springs are those of the last strain
+    plain = strip.replace(natural=natural | {"history": later}) if what == "natural" else strip
+    found = []
+    for number, scene in enumerate((known, plain)):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        sheet = Sheet(folder, program(scene, calibrated(strip, (5, 3)), "double", 20))
+        first = sheet.room
+        for room in (first, ctypes.create_string_buffer(len(first))):
+            sheet.room = room
+            sheet.call("reset")
+            sheet.length()[1] = h
+        sheet.room = first
+        if scene is plain:
+            sheet.call(*calls[what])
+        rows = []
+        for _ in range(300):
+            sheet.call("step", 1)
+            rows.append(sheet.row()[:-1])
+        found.append(np.array(rows))
+    assert np.abs(found[1] - found[0]).max(axis=0).max() < 1e-9 * np.abs(found[0]).max()
+    assert np.abs(found[1] - found[0])[:, :3].max() < 1e-12 * np.abs(found[0][:, :3]).max()
+    left = sheet.row()
+    sheet.room = room
+    assert np.abs(left[:3]).max() > 0.0 and not sheet.row()[:3].any()  # the other has not moved
+
+
+TIP = {"rectangle": {"x": (0.1, 0.2), "y": (0, 0.1)}}
+BODY = {"where": TIP, "mass": 0.01, "inertia": (1e-6, 1e-6, 1e-6)}
+SLOW = [{"time": 0.1, "share": 0.2}]
+REFUSED = {
+    "actuators: x1": (scenes.load("actuated-edge"), {"grid": 3}),
+    "obstacle 1: contact over patches": SCENES["cylinder"],
+    "obstacle 1: contact over": SCENES["ball"],
+    "rubber": (STRIP.replace(material=rubber("yeoh")), {"grid": (5, 3), "method": "hyperelastic"}),
+    "air": (STRIP.replace(air={"density": 1.2, "drag": 1.0}), {"grid": (5, 3)}),
+    "mass.inertia": (STRIP.replace(masses=[BODY]), {"grid": (5, 3)}),
+    "branches": (STRIP.replace(material=SILICONE.replace(relaxation=SLOW)), {"grid": (5, 3)}),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_what_the_program_has_not_is_refused_by_name(words):
+    scene, settings = REFUSED[words]
+    with pytest.raises(BadInput, match=words):
+        program(scene, calibrated(scene, **settings))
+
+
+def test_the_verb_writes_it(tmp_path, capsys):
+    wanted = ["calibrate", "two-edges-settling", "--grid", "3", "--for", "c", "--precision", "single"]
+    assert run(*wanted, "--out", str(tmp_path)) == 0
+    files = {"sheet.h", "sheet.c", "main.c", "check.csv", "README.md"}
+    assert files <= {path.name for path in tmp_path.iterdir()}
+    assert "typedef float sheet_real" in (tmp_path / "sheet.h").read_text()
+    assert run("calibrate", "two-edges-settling", "--precision", "single") == 2
+    assert "--precision" in capsys.readouterr().err
+
+
+def test_an_fmi_unit_is_without_fault_and_held_by_a_controller(tmp_path):
+    """FMPy's validator, its run against the program's own steps, and the controller of the manual."""
+    fmpy = pytest.importorskip("fmpy", reason="no FMPy in this environment")
+    from fmpy.validation import validate_fmu
+
+    assert run("calibrate", "docs/tip.toml", "--grid", "5", "--for", "fmu", "--out", str(tmp_path)) == 0
+    path = str(tmp_path / "sheet.fmu")
+    assert validate_fmu(path) == []
+    if not any(name.startswith("binaries/") for name in zipfile.ZipFile(path).namelist()):
+        pytest.skip("no compiler on this machine")
+    found = fmpy.simulate_fmu(path, stop_time=0.05, step_size=1e-3, output_interval=1e-3)
+    scene = scenes.load("docs/tip.toml")
+    springs = calibrated(scene, 5, method="consistent")
+    step = 1e-3 / np.ceil(1e-3 / program(scene, springs, "double", 20).step - 1e-9)
+    known = lumped.simulate(scene, springs, 0.05, step=step, every=1e-3, integrator="verlet")
+    tip, energy = known.probes["tip"], known.energies["elastic"]
+    assert np.abs(found["tip.uz"] - tip[:, 2]).max() < 1e-12 * np.abs(tip).max()
+    assert np.abs(found["energy.elastic"] - energy).max() < 1e-12 * energy.max()
+    held = python("docs/hold_tip.py", path)
+    tip = float(re.search(r"tip at (\S+) mm", held.stdout)[1])
+    assert abs(tip + 10.0) < 0.1, held.stdout + held.stderr
+
+
+def test_without_a_compiler_a_unit_has_its_sources_alone(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    assert run("calibrate", "two-edges-clamped", "--grid", "3", "--for", "fmu", "--out", str(tmp_path)) == 0
+    names = zipfile.ZipFile(tmp_path / "sheet.fmu").namelist()
+    assert "sources/sheet.c" in names and not any("binaries" in name for name in names)
+    assert "sources alone" in " ".join(capsys.readouterr().out.split())

@@ -12,6 +12,7 @@ from sheetbench.errors import BadInput, SceneError, foreign
 from sheetbench.scenes.language.reading import read_text
 from sheetbench.scenes.language.refusals import did_you_mean, in_one_line
 from sheetbench.scenes.meaning.plausibility import warn_of_slips
+from sheetbench.scenes.objects.sheet import DRAWN
 from sheetbench.scenes.scene import Scene
 
 
@@ -56,8 +57,9 @@ def load(scene: str | Path) -> Scene:
     except ValueError:  # from `int`, which TOMLDecodeError does not cover
         raise SceneError(f"{scene}: not a scene: a number of more digits than can be read") from None
     sheet = data.get("sheet")
-    if isinstance(sheet, dict) and isinstance(sheet.get("mesh"), str):
-        sheet["mesh"] = str(path.parent / sheet["mesh"])
+    for key in DRAWN if isinstance(sheet, dict) else ():
+        if isinstance(sheet.get(key), str):
+            sheet[key] = str(path.parent / sheet[key])
     try:
         loaded = Scene.model_validate(data)
     except ValidationError as error:

@@ -110,6 +110,7 @@ def _outline(scene: SceneFields) -> str:
     corners = "" if outline is None else f", a polygon of {len(outline)} corners in it"
     if scene.sheet.mesh is not None:
         corners = f", a mesh of {len(scene.sheet.mesh.quads)} quadrilaterals in it"
+    corners += f" ({scene.sheet.drawn_from})" if scene.sheet.drawn_from else ""
     return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 

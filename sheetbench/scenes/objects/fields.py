@@ -5,12 +5,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import numpy as np
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.scenes.objects import cutouts
 from sheetbench.scenes.objects.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.objects.air import Air
 from sheetbench.scenes.objects.cutouts import Cutout
+from sheetbench.scenes.objects.drawn import from_file
 from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.loads import AreaLoad, Initial, Load
 from sheetbench.scenes.objects.masses import Mass
@@ -94,6 +95,21 @@ class SceneFields(Frozen, defer_build=True):
     the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
     each a quarter of the sheet inside where it would lie on an edge that is held; where there is no sheet,
     the nearest point of it."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _holes_of_drawing(cls, data: Any) -> Any:
+        """Read the sheet's outline from a drawing, whose holes are cutouts besides the scene's own."""
+        sheet = data.get("sheet") if isinstance(data, dict) else None
+        if not isinstance(sheet, dict) or not isinstance(sheet.get("outline"), str):
+            return data
+        try:
+            read = from_file(sheet)
+        except ValueError as error:
+            raise ValueError(f"sheet.{error}") from None
+        holes = [{"shape": {"polygon": corners}} for corners in read.pop("holes", ())]
+        key = next((key for key in ("cutout", "cutouts") if key in data), "cutout")
+        return {**data, "sheet": read, **({key: [*data.get(key, ()), *holes]} if holes else {})}
 
     def document(self) -> dict[str, Any]:
         """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""

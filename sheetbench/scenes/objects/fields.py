@@ -32,6 +32,7 @@ LISTS = {  # by their keys in Python: those in a file, where each entry is a tab
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
     "masses": "mass", "obstacles": "obstacle", "actuators": "actuator",
 }  # fmt: skip
+POINTS = 'support.kind = "point"'
 SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by the words for what it is that a scene has
     "sheet.outline": lambda scene: scene.sheet.outline,
     "sheet.mesh": lambda scene: scene.sheet.mesh,
@@ -40,7 +41,7 @@ SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by the words for wha
     "load.where": lambda scene: any(getattr(load, "where", None) for load in scene.loads),
     'load.kind = "area"': lambda scene: any(isinstance(load, AreaLoad) for load in scene.loads),
     "mass.where": lambda scene: any(payload.where for payload in scene.masses),
-    'support.kind = "point"': lambda scene: any(isinstance(one, Point) for one in scene.supports),
+    POINTS: lambda scene: any(isinstance(one, Point) for one in scene.supports),
 }
 
 

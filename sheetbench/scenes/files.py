@@ -16,6 +16,9 @@ from sheetbench.scenes.objects.sheet import DRAWN
 from sheetbench.scenes.scene import Scene
 
 
+MANY = 200  # files beside a missing one that are compared with its name
+
+
 def catalogue() -> dict[str, Path]:
     """Names and files of the scenes that come with the package."""
     folder = Path(str(resources.files("sheetbench.scenes") / "catalogue"))
@@ -43,7 +46,8 @@ def load(scene: str | Path) -> Scene:
     try:
         data = tomllib.loads(read_text(path))
     except FileNotFoundError:
-        near = did_you_mean(str(scene), known)
+        beside = [str(one) for one in sorted(path.parent.glob("*.toml"))[:MANY]]
+        near = did_you_mean(str(scene), [*beside, *known])
         hint = f"did you mean {near}?" if near else f"those are {', '.join(known)}"
         raise SceneError(f"{scene}: no such file, and no catalogue scene of that name; {hint}") from None
     except (OSError, UnicodeDecodeError) as error:

@@ -23,6 +23,7 @@ from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.springs import DamperSet, SpringSet
+from sheetbench.scenes.objects.stiffness import as_laminate
 from sheetbench.scenes.objects.supports import Point, Support, place, tilt_axes
 
 if TYPE_CHECKING:
@@ -111,6 +112,18 @@ class SceneFields(Frozen, defer_build=True):
         holes = [{"shape": {"polygon": corners}} for corners in read.pop("holes", ())]
         key = next((key for key in ("cutout", "cutouts") if key in data), "cutout")
         return {**data, "sheet": read, **({key: [*data.get(key, ()), *holes]} if holes else {})}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _layers_of_stiffness(cls, data: Any) -> Any:
+        """Replace a material given by its stiffnesses by the laminate that has them."""
+        given = data.get("material") if isinstance(data, dict) else None
+        kind = given.get("kind") if isinstance(given, dict) else getattr(given, "kind", "")
+        if kind != "stiffness" or not isinstance(data.get("sheet"), dict | Sheet):
+            return data
+        material = Material.model_validate(given)
+        own = given if isinstance(given, dict) else material.model_dump(exclude_defaults=True)
+        return as_laminate({**data, "material": own}, material)
 
     def document(self) -> dict[str, Any]:
         """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""

@@ -205,7 +205,7 @@ RECIPES = [  # codes' own examples: E h [N/m], ν, D11 [N·m], and what is said
     ("newton", "tri_ke=1e3,tri_ka=1e3,edge_ke=10", 2666.7, 1 / 3, 1.398, "of one 74.8 mm thick"),
     ("mujoco", "young=3e5,poisson=0,thickness=1e-2", 3000.0, 0.0, 0.03712, ""),
     ("pybullet", "springElasticStiffness=40", 53.33, 1 / 3, None, "nothing given says how it bends"),
-    ("genesis", "stretch_compliance=1e-7,bending_compliance=1e-5", 1.333e7, 1 / 3, 1.125e6, "of one 949 mm"),
+    ("genesis", "stretch_compliance=1e-7,bending_compliance=1e-5", 1.333e7, 1 / 3, 1.125e5, "of one 300 mm"),
     ("newton", "tri_ke=1e4,tri_ka=1e4,edge_ke=0", 26667.0, 1 / 3, 0.0, "D11 = 0 N·m"),
     ("openusd", "physics:surfaceStretchStiffness=1e3,physics:surfaceShearStiffness=20", 78.4, 0.96, None, "ν ="),
 ]

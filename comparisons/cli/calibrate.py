@@ -17,13 +17,14 @@ if TYPE_CHECKING:
 
 SUMMARIES = "; ".join(f"{name}: {method.summary}" for name, method in CALIBRATIONS.items())
 SPRINGS = "calibration k layer_distance grading toml"
+SHEET = "young poisson thickness side"
 DAMPING = "loss_factor at band prony"
 
 
 @no_effect(
     with_for_="export cell toml",
     with_cell=f"{SPRINGS} {DAMPING} grid export",
-    with_from_=f"{SPRINGS} {DAMPING} calibration grid export for_ hinge coefficient young poisson thickness side",
+    with_from_=f"{SPRINGS} {DAMPING} calibration grid export for_ hinge coefficient {SHEET}",
     without_cell="hinge coefficient",
 )
 def command(
@@ -69,8 +70,8 @@ def command(
         cell (CELL): Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer
             mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with
             hinges), bricks, or a TOML file with periods, nodes and elements.
-        spacing (LENGTH): With --cell or --from: distance of nodes, in m or as 5mm. Default: an eighth of the shorter
-            side.
+        spacing (LENGTH): With --cell or --from: distance of nodes, in m or as 5mm. Default with --cell: an
+            eighth of the shorter side.
         hinge (WEIGHT): With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height,
             w = 3 length² over the area of both triangles. Default: length.
         coefficient (NAME=VALUE): With --cell: use this in place of the one found.

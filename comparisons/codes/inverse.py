@@ -2,8 +2,8 @@
 
 The code's parameters, functions of coefficients C, thickness and density (`comparisons.codes.table`), are
 solved for these. The cell of the code's mesh then has a membrane A, of which ν = A12/A11 and
-E h = A11 (1 − ν²), and its hinges are those of `coefficients.nearest` for one bending stiffness D11 of a sheet
-of that ν. An isotropic sheet that has both is h = √(12 D11/A11) thick.
+E h = A11 (1 − ν²), and its hinges are those of `coefficients.nearest` for one bending stiffness D11 of a
+sheet of that ν. An isotropic sheet that has both is h = √(12 D11/A11) thick.
 """
 
 from __future__ import annotations
@@ -102,7 +102,9 @@ class SheetOfCode(Answer):
         return ", ".join(known) + (f"; no sheet: {self.impossible}" if self.impossible else "")
 
     def notes(self) -> list[str]:
-        notes = ["h: of the isotropic sheet with this A11 and D11, E of that h; E h is of the membrane alone."]
+        notes = [
+            "h: of the isotropic sheet with this A11 and D11, E of that h; E h is of the membrane alone."
+        ]
         if self.code.hinge and self.bending:
             notes.append("D11: of the sheet whose moduli the hinges come nearest to (docs/cells.md).")
         return notes
@@ -157,7 +159,7 @@ def sheet_of(
         like = Material(1e6, min(poisson, MOST_POISSON), 1e3)
         per = nearest(shape, like, 1e-3, {name: 0.0 for name in membrane})["hinge"]
         bending = found["hinge"] * 1e6 * 1e-9 / 12.0 / (1.0 - like.poisson**2) / per
-    elif "thickness" in found and bending is None and not row.hinge == "height":
+    elif "thickness" in found and bending is None and row.hinge != "height":
         bending = stretching * found["thickness"] ** 2 / 12.0
     answer = SheetOfCode(row, given, spacing, stretching, poisson, bending)
     rho, areal = found.get("density", density), found.get("areal")
@@ -209,10 +211,11 @@ def solved(code: Code, given: Mapping[str, float]) -> dict[str, float]:
     _, sizes, directions = np.linalg.svd(found.jac)
     free = directions[np.sum(sizes > UNKNOWN * sizes.max(initial=1.0)) :]
     values, names = numbers(found.x), ("lambda_h", *NAMES)
-    known = {n: values[n] for n, at in zip(names, free.T, strict=True) if np.abs(at).max(initial=0.0) < UNKNOWN}
+    known = {
+        n: values[n] for n, at in zip(names, free.T, strict=True) if np.abs(at).max(initial=0.0) < UNKNOWN
+    }
     areal = np.zeros(len(names))
     areal[[names.index("thickness"), names.index("density")]] = 1.0
     if "density" not in known and np.abs(free @ areal).max(initial=0.0) < UNKNOWN:
         known["areal"] = values["thickness"] * values["density"]
     return known | ({"hinge": 0.0} if limp else {})
-

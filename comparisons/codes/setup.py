@@ -114,8 +114,8 @@ class CodeSetup(CellInScene):
             notes.append(coarse)
         if any(isinstance(support, Point) for support in self.scene.supports):
             notes.append(
-                "A sheet drawn to a single point gives way there without limit as any mesh gets finer: meshes "
-                "of two codes agree where a part of it is held, [[support]] with where = { rectangle = … }."
+                "A sheet drawn to a single point gives way there without limit as any mesh gets finer: "
+                "meshes agree where a part is held, [[support]] with where = { rectangle = … }."
             )
         if left := undamped(self.code, self.scene.material):
             notes.append(f"The scene's damping is left out: {left}.")

@@ -82,7 +82,9 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
         raise BadInput(f"{scene.name}: {why}")
     counts = near_square(scene.sheet, squares)
     spacing = np.array(scene.sheet.lengths) / counts
-    beyond = {edge: 0 for edge in EDGES} | {s.edge: 1 for s in scene.supports if isinstance(s, Clamped) and s.edge}
+    beyond = {edge: 0 for edge in EDGES} | {
+        s.edge: 1 for s in scene.supports if isinstance(s, Clamped) and s.edge
+    }
     i, j = np.meshgrid(
         np.arange(-beyond["x0"], counts[0] + beyond["x1"] + 1),
         np.arange(-beyond["y0"], counts[1] + beyond["y1"] + 1),

@@ -217,15 +217,12 @@ class Comparison(Compared, Answer):
     def complaints(self) -> list[str]:
         """Return a sentence for every model that did not converge: what happened and what can be done; and
         why lattice and reference are far apart though both did."""
-        ended = any(s.status in (Status.STEP_LIMIT, Status.DIVERGED) for s in self.solutions)
-        return [
-            *([self.disagreement] if self.disagreement else []),
-            *(
-                ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
-                for s in self.solutions
-                if s.status is not Status.CONVERGED
-            ),
-            *([settling(self.scene)] if ended else []),
+        unsettled = (Status.STEP_LIMIT, Status.DIVERGED)
+        return [*([self.disagreement] if self.disagreement else [])] + [
+            ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
+            + f"; {settling(self.scene)}" * (s.status in unsettled)
+            for s in self.solutions
+            if s.status is not Status.CONVERGED
         ]
 
     def notes(self) -> list[str]:

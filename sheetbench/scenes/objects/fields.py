@@ -5,7 +5,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, ValidationError, model_validator
 
 from sheetbench.scenes.objects import cutouts
 from sheetbench.scenes.objects.actuators import Actuator, Chain, EdgeMotion
@@ -121,7 +121,10 @@ class SceneFields(Frozen, defer_build=True):
         kind = given.get("kind") if isinstance(given, dict) else getattr(given, "kind", "")
         if kind != "stiffness" or not isinstance(data.get("sheet"), dict | Sheet):
             return data
-        material = Material.model_validate(given)
+        try:
+            material = Material.model_validate(given)
+        except ValidationError:  # which validating the fields says, by their keys
+            return data
         own = given if isinstance(given, dict) else material.model_dump(exclude_defaults=True)
         return as_laminate({**data, "material": own}, material)
 

@@ -52,8 +52,8 @@ from sheetbench.scenes.objects.quantities import (
     Real,
     Unit,
 )
-from sheetbench.scenes.objects.stiffness import Stiffnesses
 from sheetbench.scenes.objects.relaxation import Branches, Relaxation, constant_loss
+from sheetbench.scenes.objects.stiffness import Stiffnesses
 
 Stiffness = Annotated[Positive | Stiffnesses, Forms()]
 RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
@@ -114,7 +114,9 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
     schema.pop("required", None)
     needed = {"if": fibres, "then": {"required": ["density", *NEEDED]}, "else": needed}
     cloth = {"properties": {"kind": {"const": "stiffness"}}, "required": ["kind"]}
-    schema["allOf"] = [{"if": cloth, "then": {"required": ["membrane", "bending", "area_density"]}, "else": needed}]
+    schema["allOf"] = [
+        {"if": cloth, "then": {"required": ["membrane", "bending", "area_density"]}, "else": needed}
+    ]
 
 
 class Material(Fibres):

@@ -114,7 +114,8 @@ class Sheet(Frozen):
                 yield max(abs(min(places)), abs(max(places) - length)) > COINCIDENT * length and (
                     f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
                     f"have to reach from 0 to length_{name} = {length:g} m"
-                    + self._remedy(min(places), max(places) - min(places), length) * bool(self.drawn_from)
+                    + self._remedy(min(places), max(places) - min(places), length)
+                    * bool(self.drawn_from)
                 )
         yield self.outline and crossing("outline", self.outline)
 

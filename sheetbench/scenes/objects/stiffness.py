@@ -16,7 +16,7 @@ that of a sheet of G = max(A11, A22)/h, which thin sheets do not feel.
 """
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
@@ -51,7 +51,9 @@ class Stiffnesses(Frozen):
 def as_laminate(data: Mapping[str, Any], material: Any) -> dict[str, Any]:
     """Return a scene's keys with the sheet's thickness, the orthotropic material and the layers that have the
     stiffnesses of a material. Raises ValueError for what no laminate has."""
-    rest = {key: value for key, value in dict(data["material"]).items() if key not in (*KEYS, "poisson", "kind")}
+    rest = {
+        key: value for key, value in dict(data["material"]).items() if key not in (*KEYS, "poisson", "kind")
+    }
     sheet = dict(data["sheet"]) if isinstance(data.get("sheet"), Mapping) else data["sheet"].model_dump()
     membrane, bending = material.stiffness("membrane"), material.stiffness("bending")
     for key, form in (("membrane", membrane), ("bending", bending)):
@@ -98,5 +100,10 @@ def _thickness(sheet: Mapping[str, Any], ratio: float) -> float:
 def _constants(form: np.ndarray) -> dict[str, float]:
     """Return the constants of a ply with this stiffness (3, 3) [Pa]."""
     compliance = np.linalg.inv(form[:2, :2])
-    values = 1.0 / compliance[0, 0], 1.0 / compliance[1, 1], 0.0 - compliance[0, 1] / compliance[0, 0], form[2, 2]
+    values = (
+        1.0 / compliance[0, 0],
+        1.0 / compliance[1, 1],
+        0.0 - compliance[0, 1] / compliance[0, 0],
+        form[2, 2],
+    )
     return dict(zip(NEEDED, map(float, values), strict=True))

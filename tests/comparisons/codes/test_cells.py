@@ -207,14 +207,19 @@ RECIPES = [  # codes' own examples: E h [N/m], ν, D11 [N·m], and what is said
     ("pybullet", "springElasticStiffness=40", 53.33, 1 / 3, None, "nothing given says how it bends"),
     ("genesis", "stretch_compliance=1e-7,bending_compliance=1e-5", 1.333e7, 1 / 3, 1.125e5, "of one 300 mm"),
     ("newton", "tri_ke=1e4,tri_ka=1e4,edge_ke=0", 26667.0, 1 / 3, 0.0, "D11 = 0 N·m"),
-    ("openusd", "physics:surfaceStretchStiffness=1e3,physics:surfaceShearStiffness=20", 78.4, 0.96, None, "ν ="),
+    (
+        "openusd",
+        "physics:surfaceStretchStiffness=1e3,physics:surfaceShearStiffness=20",
+        78.4,
+        0.96,
+        None,
+        "ν =",
+    ),
 ]
 
 
 @pytest.mark.parametrize(("code", "numbers", "stretching", "poisson", "bending", "said"), RECIPES)
-def test_recipes_are_sheets_or_are_said_to_be_none(
-    capsys, code, numbers, stretching, poisson, bending, said
-):
+def test_recipes_are_sheets_or_are_said_to_be_none(capsys, code, numbers, stretching, poisson, bending, said):
     document = json_of(capsys, "calibrate", numbers, "--from", code, "--spacing", "0.1")
     sheet = document["sheet"]
     assert sheet["poisson"] == pytest.approx(poisson, abs=1e-6)

@@ -117,6 +117,8 @@ class CodeSetup(CellInScene):
                 "A sheet drawn to a single point gives way there without limit as any mesh gets finer: "
                 "meshes agree where a part is held, [[support]] with where = { rectangle = … }."
             )
+        if self.code.mesh == LAYERED and any(isinstance(s, Hinged | Point) for s in self.scene.supports):
+            notes.append("Both layers of springs are held: hinged edges and points cannot turn there.")
         if left := undamped(self.code, self.scene.material):
             notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Coefficients of hinges and springs {chosen}.")
@@ -141,8 +143,6 @@ class CodeSetup(CellInScene):
             return f"mass: {self.code.title} has one density, no vertex a mass of its own"
         if self.scene.obstacles and self.code.name not in OBSTACLES:
             return f"obstacle: {self.code.title} is not given it, {' and '.join(OBSTACLES)} are"
-        if self.code.mesh == LAYERED and any(isinstance(one, Hinged) for one in self.scene.supports):
-            return "hinged edges: held in both layers of springs an edge cannot turn, held in one not freely"
         return refusal(self.scene)
 
     def _too_coarse(self) -> str:

@@ -14,7 +14,7 @@ from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, EdgeLoad, PointLo
 from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape, straight_sides
 from sheetbench.scenes.objects.sheet import EDGES
-from sheetbench.scenes.objects.supports import Point, named, place
+from sheetbench.scenes.objects.supports import AnySupport, Point, named, place
 
 
 def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
@@ -115,6 +115,33 @@ def nearest_on_sheet(scene: SceneFields, points: np.ndarray) -> np.ndarray:
     return np.asarray(shapely.get_coordinates(lines).reshape(-1, 2, 2)[:, 1])
 
 
+def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
+    """Return the supports with shapes, or the edges of a whole rectangle, for what is said of rims. Raises
+    ValueError for a hole that is not there."""
+    found: list[AnySupport] = []
+    for number, support in enumerate(scene.supports, start=1):
+        shape = None if isinstance(support, Point) else place(support)
+        if shape is None or not (shape.rim or shape.hole):
+            found.append(support)
+        elif shape.rim and not scene.pierced:
+            found += [support.replace(where=None, edge=edge) for edge in EDGES]
+        elif shape.rim:
+            found.append(support.replace(where=Shape(beyond=_corners(scene.region.exterior))))
+        elif scene.cutouts and shape.hole <= len(scene.cutouts):
+            found.append(support.replace(where=scene.cutouts[shape.hole - 1].shape))
+        else:
+            holes = sorted(scene.region.interiors, key=lambda ring: ring.centroid.x)
+            if scene.cutouts or shape.hole > len(holes):
+                count = len(scene.cutouts or holes)
+                raise ValueError(f"support {number}.where: hole = {shape.hole}: the sheet has {count}")
+            found.append(support.replace(where=Shape(polygon=_corners(holes[shape.hole - 1]))))
+    return tuple(found)
+
+
+def _corners(ring: Any) -> tuple[PlanPoint, ...]:
+    return tuple((x, y) for x, y in ring.coords[:-1])
+
+
 def misplaced(scene: SceneFields) -> Iterator[object]:
     """Yield why something is held, loaded or probed where no sheet is; what is false where it is not."""
     for key, point in marked(scene).items():
@@ -127,7 +154,10 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
     for name, part in parts.items():
         if (shape := getattr(part, "where", None)) is not None:
             where = f"{name}.where: {shape.in_words()}: no part of"
-            yield area_in(scene, shape) <= least**2 and f"{where} it is on the sheet"
+            on = area_in(scene, shape) > least**2
+            if not on and name in named(scene.supports):  # the line along which it touches the sheet
+                on = common(scene.region, shape.area).length > least
+            yield not on and f"{where} it is on the sheet"
             if isinstance(part, EdgeLoad):
                 inside = edge_length(scene, part.edge, shape) > least
                 yield not inside and f"{where} edge {part.edge} is in it"

@@ -38,6 +38,7 @@ def test_single_vertices_and_corners_are_held(code):
     assert held.tolist() == [[0.0, 0.0], [0.0, 1.5], [1.5, 0.0], [1.5, 1.5]]
     assert pinned.files() and "No files" not in " ".join(pinned.notes())
     assert any("gives way there without limit" in note for note in pinned.notes())
+    assert (code == "pybullet") == any("cannot turn there" in note for note in pinned.notes())
     squares = setup(TRAMPOLINE.replace(supports=corners(0.375)), code, 4, named=False).problem.mesh
     assert len(np.unique(squares.vertices[squares.held][:, :2], axis=0)) == 16
     for supports, why in (
@@ -47,7 +48,7 @@ def test_single_vertices_and_corners_are_held(code):
         with pytest.raises(BadInput, match=why):
             _ = setup(TRAMPOLINE.replace(supports=supports), code, 4, named=False).problem
     for supports, why in (
-        (corners(0.2, "hinged"), "hinged edges: held" if code == "pybullet" else "points and clamped rect"),
+        (corners(0.2, "hinged"), "points and clamped rectangles"),
         ((scenes.Point(at=(0.0, 0.0), components=("z",)), *corners(0.0)[1:]), "not along some of them"),
     ):
         assert why in setup(TRAMPOLINE.replace(supports=supports), code, 4, named=False).notes()[0]

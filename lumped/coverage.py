@@ -15,7 +15,7 @@ from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes, holds
 from sheetbench.scenes.meaning.composition import boxes_of, shares_of
 from sheetbench.scenes.meaning.region import edge_parts
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
-from sheetbench.scenes.objects.supports import Point, place
+from sheetbench.scenes.objects.supports import Point, named, place
 
 if TYPE_CHECKING:
     from shapely import Geometry
@@ -136,9 +136,15 @@ Reach = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
 
 def reached_parts(scene: Scene) -> Reach:
     """From where to where [m] a sheet that is no whole rectangle reaches the edges that hold it, by edge: but
-    for planes of symmetry, on which every mass stays."""
+    for planes of symmetry, on which every mass stays. Raises BadInput for a round or oblique rim that may
+    turn: masses beyond it are held, which clamps it."""
     if not scene.pierced:
         return ()
+    for name, one in named(scene.supports).items():
+        shape = None if isinstance(one, Point) or holds_director(one) else place(one)
+        if shape is not None and shape.rectangle is None and not part_of(scene, shape).area:
+            why = "the lattice holds round and oblique rims clamped alone; plate, shell and solid also hinged"
+            raise BadInput(f"{name}.where: {why}")
     held = [s for s in scene.supports if place(s) is None and not isinstance(s, Symmetric)]
     return tuple((support.edge, tuple(edge_parts(scene, support.edge))) for support in held)
 

@@ -4,7 +4,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from cases import relative, sheet
+from cases import calibrated, relative, sheet
 
 import fem_reference
 import lumped
@@ -249,6 +249,16 @@ def test_a_round_rim_is_held_in_closed_form(kind):
     assert shell.displacement(scene.probe_points())[0, 2] == pytest.approx(exact, rel=0.02)
     assert shell.balance.holds and not free_rigid_motions(scene)
     assert sum(shell.reactions.values())[2] == pytest.approx(-0.01 * np.pi * 0.1**2, rel=1e-3)
+    if kind == "hinged":
+        with pytest.raises(
+            BadInput, match=r"support 1\.where: the lattice holds round and oblique rims clamped"
+        ):
+            lumped.solve(scene, calibrated(scene, 9))
+        return
+    for masses, off in ((9, 0.065), (17, 0.04)):
+        lattice = lumped.solve(scene, calibrated(scene, masses))
+        assert lattice.displacement(scene.probe_points())[0, 2] == pytest.approx(exact, rel=off + 0.005)
+        assert lattice.balance.holds
 
 
 def test_rims_are_edges_or_holes_by_their_numbers():

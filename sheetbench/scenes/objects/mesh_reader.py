@@ -125,6 +125,7 @@ def _dxf(path: Path) -> tuple[list[np.ndarray], float]:
     """Return the lines (n, 2) of a drawing and its unit [m]."""
     from ezdxf import recover, units
     from ezdxf.disassemble import recursive_decompose
+    from ezdxf.enums import InsertUnits
     from ezdxf.path import make_path
 
     document, _ = recover.readfile(path)
@@ -140,8 +141,9 @@ def _dxf(path: Path) -> tuple[list[np.ndarray], float]:
     if size[2] > JOINED * size.max() and len(ends):
         raise ValueError("it does not lie in a plane z = constant")
     lines = [np.array([(at.x, at.y) for at in path.flattening(SAGITTA * size.max())]) for path in paths]
-    code = document.units
-    return lines, 1.0 if code == 0 else units.conversion_factor(code, units.M)
+    unit = InsertUnits(document.units)
+    metres = units.conversion_factor(unit, InsertUnits.Meters) if unit else 1.0
+    return lines, float(metres)
 
 
 def _svg(path: Path) -> tuple[list[np.ndarray], float]:

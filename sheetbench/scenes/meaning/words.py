@@ -179,7 +179,7 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         parts += [f"twisted by {curvature[2]:.3g} 1/m"] if curvature[2] else []
         low, high = (_pascals(float(f"{stress:.3g}")) for stress in _stresses(scene, source))
         parts += [f"held flat, stresses from {low} to {high}"]
-        whole = ", ".join(parts) if len(parts) > 1 else "as it is drawn"
+        whole = ", ".join(parts) if len(parts) > 1 else "flat and free of stress"
         yield source.name, whole + _over_time(source.of.history)
 
 

@@ -117,13 +117,19 @@ def nearest_on_sheet(scene: SceneFields, points: np.ndarray) -> np.ndarray:
 
 def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
     """Return the supports with shapes, or the edges of a whole rectangle, for what is said of rims. Raises
-    ValueError for a hole that is not there."""
+    ValueError for a hole that is not there, and for a rim of what is no support."""
+    others = {"patch": scene.patches, "cutout": scene.cutouts, "load": scene.loads, "mass": scene.masses}
+    for kind, parts in others.items():
+        for number, part in enumerate(parts, start=1):
+            shape = getattr(part, "shape", None) or getattr(part, "where", None)
+            if shape is not None and (shape.rim or shape.hole):
+                raise ValueError(f"{kind} {number}: rim and hole are of a support's where")
     found: list[AnySupport] = []
     for number, support in enumerate(scene.supports, start=1):
         shape = None if isinstance(support, Point) else place(support)
         if shape is None or not (shape.rim or shape.hole):
             found.append(support)
-        elif shape.rim and not scene.pierced:
+        elif shape.rim and not scene.sheet.drawn:
             found += [support.replace(where=None, edge=edge) for edge in EDGES]
         elif shape.rim:
             found.append(support.replace(where=Shape(beyond=_corners(scene.region.exterior))))

@@ -60,8 +60,8 @@ def load(scene: str | Path) -> Scene:
     except ValueError:  # from `int`, which TOMLDecodeError does not cover
         raise SceneError(f"{scene}: not a scene: a number of more digits than can be read") from None
     sheet = data.get("sheet")
-    for key in DRAWN if isinstance(sheet, dict) else ():
-        if isinstance(sheet.get(key), str):
+    for key in DRAWN:
+        if isinstance(sheet, dict) and isinstance(sheet.get(key), str):
             sheet[key] = str(path.parent / sheet[key])
     try:
         loaded = Scene.model_validate(data)

@@ -133,15 +133,20 @@ def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
             found += [support.replace(where=None, edge=edge) for edge in EDGES]
         elif shape.rim:
             found.append(support.replace(where=Shape(beyond=_corners(scene.region.exterior))))
-        elif scene.cutouts and shape.hole <= len(scene.cutouts):
-            found.append(support.replace(where=scene.cutouts[shape.hole - 1].shape))
         else:
-            holes = sorted(scene.region.interiors, key=lambda ring: ring.centroid.x)
-            if scene.cutouts or shape.hole > len(holes):
-                count = len(scene.cutouts or holes)
-                raise ValueError(f"support {number}.where: hole = {shape.hole}: the sheet has {count}")
-            found.append(support.replace(where=Shape(polygon=_corners(holes[shape.hole - 1]))))
+            found.append(support.replace(where=_hole(scene, shape.hole or 0, f"support {number}.where")))
     return tuple(found)
+
+
+def _hole(scene: SceneFields, number: int, key: str) -> Shape:
+    """Return the shape of a hole by its number from 1. Raises ValueError where there is none."""
+    shapes = [cutout.shape for cutout in scene.cutouts]
+    if not shapes:
+        rings = sorted(scene.region.interiors, key=lambda ring: float(ring.centroid.x))
+        shapes = [Shape(polygon=_corners(ring)) for ring in rings]
+    if number > len(shapes):
+        raise ValueError(f"{key}: hole = {number}: the sheet has {len(shapes)}")
+    return shapes[number - 1]
 
 
 def _corners(ring: Any) -> tuple[PlanPoint, ...]:

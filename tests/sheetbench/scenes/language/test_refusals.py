@@ -117,5 +117,10 @@ def test_every_key_says_what_it_is():
         for key, facts in table["properties"].items():
             assert facts.get("description", "").endswith((".", ")")), f"{name}.{key}"
             tables = {"$ref", "oneOf"} & facts.get("items", {}).keys()
-            if facts.get("type") in ("number", "array") and key not in WITHOUT_UNIT and not tables and not of_above:
+            if (
+                facts.get("type") in ("number", "array")
+                and key not in WITHOUT_UNIT
+                and not tables
+                and not of_above
+            ):
                 assert "unit" in facts, f"{name}.{key}"

@@ -100,8 +100,8 @@ def command(
     if from_ is not None:
         given = given_coefficients((scene or "").split(",") if scene else ())
         with output.open(about={"from": from_, "given": given}, variant={"--from": from_}) as out:
-            shape = {"cell": cell, "spacing": spacing, "density": sheet.values.get("density")}
-            return out.show(sheet_of(from_, given, **shape))
+            density = sheet.values["density"]
+            return out.show(sheet_of(from_, given, cell=cell, spacing=spacing, density=density))
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
     damped = damping.keys(loss_factor, at, band, prony)

@@ -79,7 +79,7 @@ class SheetOfCode(Answer):
         return f"{self.code.title} as a sheet", given, self.impossible and f"No sheet: {self.impossible}."
 
     @property
-    def quantities(self) -> dict[str, tuple[float | None, str]]:
+    def quantities(self) -> dict[str, tuple[float, str]]:
         """What is known of the sheet, with units."""
         found = {
             "E": (self.young, "Pa"),
@@ -91,7 +91,7 @@ class SheetOfCode(Answer):
             "ρ": (self.density, "kg/m³"),
             "ρ h": (self.area_density, "kg/m²"),
         }
-        return {name: one for name, one in found.items() if one[0] is not None}
+        return {name: (value, unit) for name, (value, unit) in found.items() if value is not None}
 
     def tables(self) -> tuple[Table, ...]:
         rows = [(name, *one) for name, one in self.quantities.items()]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,11 +11,11 @@ from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes
+from sheetbench.scenes import EDGES, Scene, Support, Symmetric, held_axes, holds_director
 from sheetbench.scenes.meaning.composition import boxes_of, shares_of
 from sheetbench.scenes.meaning.region import edge_parts
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
-from sheetbench.scenes.objects.supports import Point, place
+from sheetbench.scenes.objects.supports import Point, named, place
 
 if TYPE_CHECKING:
     from shapely import Geometry
@@ -61,6 +62,13 @@ def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
     return np.asarray(beside | shape.contains(crossings) | taken)
 
 
+def union_of(supports: Sequence[Support]) -> Geometry:
+    """Return the area [m] that the shapes of supports cover."""
+    import shapely
+
+    return shapely.union_all([shape.area for one in supports if (shape := place(one)) is not None])
+
+
 def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
     """How many times as stiff cells are whose rims a support cuts, (rows, columns).
 
@@ -101,6 +109,9 @@ def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) ->
     ends = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings])
     along = ends[:, 1] - ends[:, 0]
     oblique = np.abs(along).min(axis=1) > COINCIDENT * size
+    firm = union_of([s for s in scene.supports if holds_director(s)])  # they do not let the twist go
+    if not firm.is_empty:
+        oblique &= shapely.distance(firm, shapely.points(ends.mean(axis=1))) > COINCIDENT * size
     if not oblique.any():
         return None
     sides, along = shapely.linestrings(ends[oblique]), along[oblique]
@@ -125,9 +136,15 @@ Reach = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
 
 def reached_parts(scene: Scene) -> Reach:
     """From where to where [m] a sheet that is no whole rectangle reaches the edges that hold it, by edge: but
-    for planes of symmetry, on which every mass stays."""
+    for planes of symmetry, on which every mass stays. Raises BadInput for a round or oblique rim that may
+    turn: masses beyond it are held, which clamps it."""
     if not scene.pierced:
         return ()
+    for name, one in named(scene.supports).items():
+        shape = None if isinstance(one, Point) or holds_director(one) else place(one)
+        if shape is not None and shape.rectangle is None and not part_of(scene, shape).area:
+            why = "the lattice holds round and oblique rims clamped alone; plate, shell and solid also hinged"
+            raise BadInput(f"{name}.where: {why}")
     held = [s for s in scene.supports if place(s) is None and not isinstance(s, Symmetric)]
     return tuple((support.edge, tuple(edge_parts(scene, support.edge))) for support in held)
 

@@ -27,15 +27,16 @@ from typing import Any, Self
 import numpy as np
 
 from lumped import plies
-from lumped.coverage import ObliqueRims, clamped_stiffness, oblique_rims
+from lumped.coverage import ObliqueRims, clamped_stiffness, oblique_rims, union_of
 from lumped.grid_lines import Lines, grid_lines
-from sheetbench.scenes import Cells, Constants, Scene, require_rectangle, require_uniform
+from sheetbench.scenes import Cells, Constants, Scene, held_axes, require_rectangle, require_uniform
 from sheetbench.scenes.meaning.composition import of_sheet, parts_between, shares_of, sides_of
 from sheetbench.scenes.meaning.natural_state import growth_of_cells
 from sheetbench.scenes.objects.cells import NUMBERS
 from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import Grid
 from sheetbench.scenes.objects.shapes import COINCIDENT
+from sheetbench.scenes.objects.supports import Point, place
 
 SHEAR_CORRECTION = 5.0 / 6.0
 FINER = 4
@@ -166,7 +167,15 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> CellSection 
     if not scene.pierced:
         return whole
     share = shares_of(scene.region, lines[0].at, lines[1].at)
-    return replace(_times(whole, share), rims=oblique_rims(scene, lines, share), share=share)
+    # what a support holds beyond the rim bends as part of the cell: `clamped` has what is free of it
+    held = [s for s in scene.supports if place(s) and not isinstance(s, Point) and held_axes(s) == (0, 1, 2)]
+    bent = share
+    if held:
+        with_held = scene.region.union(union_of(held))
+        bent = np.where(share > 0.0, shares_of(with_held, lines[0].at, lines[1].at), 0.0)
+    of_mass = _times(whole, share).per_area
+    rims = oblique_rims(scene, lines, share)
+    return replace(_times(whole, bent), per_area=of_mass, rims=rims, share=share)
 
 
 def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> CellSection | None:

@@ -211,7 +211,8 @@ SLOW = (
     "lumped", "fem_reference", "scipy", "matplotlib", "vtkmodules", "pyvista", "meshio", "pandas", "xarray",
 )  # fmt: skip
 SLOW += ("mujoco", "KratosMultiphysics", "felupe", "distributed", "comparisons.models.training")
-SLOW += ("ezc3d", "shapely", "comparisons.sweep.campaign")  # the last: multiprocessing, sqlite3
+SLOW += ("ezc3d", "ezdxf", "svgelements", "shapely")
+SLOW += ("comparisons.sweep.campaign",)  # multiprocessing, sqlite3
 DRAWS = ("figure", "style", "layout", "motion_figure", "comparison_figure", "animation")
 DRAWS += ("offscreen", "check_figure", "array_files", "toml")
 AT_ONCE = ("comparisons/cli/", *(f"sheetbench/{n}.py" for n in ("face", "__init__", "__main__")))

@@ -4,7 +4,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from cases import relative, sheet
+from cases import calibrated, relative, sheet
 
 import fem_reference
 import lumped
@@ -223,3 +223,55 @@ def test_what_is_missing_or_nowhere_is_said():
         lumped.solve(scene(), lumped.calibrate(scene().sheet, scene().material, (8, 8, 2)))
     with pytest.raises(SceneError, match="off the sheet"):
         scene((Point(at=(0.3, 0.1)), *THREE[1:]))
+
+
+def round_sheet(**support):
+    """A disc of radius 0.1 about (0.1, 0.1), pressed a little."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 129)[:-1]
+    corners = 0.1 + 0.1 * np.column_stack([np.cos(turn), np.sin(turn)])
+    return Scene(
+        name="disc",
+        sheet=Sheet(0.2, 0.2, 0.002, outline=tuple(map(tuple, corners.tolist()))),
+        material={"young": 1e6, "poisson": 0.3, "density": 1e3},
+        supports=({"where": "rim", **support},),
+        loads=({"kind": "pressure", "value": 0.01},),
+        probes={"middle": (0.1, 0.1)},
+    )
+
+
+@pytest.mark.parametrize("kind", ["clamped", "hinged"])
+def test_a_round_rim_is_held_in_closed_form(kind):
+    """w = q a⁴/64 D, and (5 + ν)/(1 + ν) times that with a hinge; a polygon of 128 sides has 0.1 % less."""
+    scene = round_sheet(kind=kind)
+    rigidity = 1e6 * 0.002**3 / 12 / (1 - 0.3**2)
+    exact = 0.01 * 0.1**4 / 64 / rigidity * (5.3 / 1.3 if kind == "hinged" else 1.0)
+    shell = fem_reference.solve(scene, "shell", elements=8)
+    assert shell.displacement(scene.probe_points())[0, 2] == pytest.approx(exact, rel=0.02)
+    assert shell.balance.holds and not free_rigid_motions(scene)
+    assert sum(shell.reactions.values())[2] == pytest.approx(-0.01 * np.pi * 0.1**2, rel=1e-3)
+    if kind == "hinged":
+        with pytest.raises(
+            BadInput, match=r"support 1\.where: the lattice holds round and oblique rims clamped"
+        ):
+            lumped.solve(scene, calibrated(scene, 9))
+        return
+    for masses, off in ((9, 0.065), (17, 0.04)):
+        lattice = lumped.solve(scene, calibrated(scene, masses))
+        assert lattice.displacement(scene.probe_points())[0, 2] == pytest.approx(exact, rel=off + 0.005)
+        assert lattice.balance.holds
+
+
+def test_rims_are_edges_or_holes_by_their_numbers():
+    plain = load("two-edges-clamped")
+    rim = plain.replace(supports=({"kind": "clamped", "where": "rim"},))
+    assert [support.edge for support in rim.supports] == ["x0", "x1", "y0", "y1"]
+    held = {"kind": "clamped", "where": {"hole": 1}}
+    pierced = plain.replace(cutouts=({"shape": DISC},), supports=(held,))
+    assert pierced.supports[0].where == pierced.cutouts[0].shape and not free_rigid_motions(pierced)
+    shell = fem_reference.solve(pierced.replace(probes={"P": (0.1, 0.131)}), "plate", elements=8)
+    assert shell.balance.holds
+    with pytest.raises(SceneError, match=r"support 1\.where: hole = 2: the sheet has 1"):
+        pierced.replace(supports=({"kind": "clamped", "where": {"hole": 2}},))
+    with pytest.raises(SceneError, match="cutout 1: rim and hole are of a support's where"):
+        plain.replace(cutouts=({"shape": {"hole": 1}},))
+    assert Scene.model_validate(pierced.document()) == pierced

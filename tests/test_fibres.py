@@ -9,7 +9,8 @@ import lumped
 import lumped.plies
 from fem_reference.surface import plies
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Material, SceneError, load
+from sheetbench.scenes import Material, Scene, SceneError, load
+from sheetbench.scenes.meaning.composition import of_sheet
 from sheetbench.scenes.objects.orthotropy import Ply
 
 PLAIN = load("two-edges-clamped")
@@ -203,3 +204,74 @@ def test_the_solid_has_a_brick_or_more_for_every_layer():
     uneven = [{"thickness": h, "angle": 0.1 * h} for h in (0.00095, 0.0011, 0.00095)]
     with pytest.raises(ValueError, match="layer: the solid has 12 bricks of one height at most"):
         fem_reference.solve(scene.replace(layers=uneven), "solid", elements=2)
+
+
+FABRIC = {
+    "name": "fabric",
+    "sheet": {"length_x": "30 mm", "length_y": "30 mm"},
+    "material": {
+        "kind": "stiffness",
+        "membrane": {"x": 1e4, "y": 1e4, "shear": 1e3},
+        "bending": {"x": "2 µN·m", "y": 1e-6},
+        "area_density": "150 g/m²",
+        "damping_rate": 2.0,
+    },
+    "gravity": {"acceleration": (0.0, 0.0, -9.81)},
+    "support": [{"kind": "clamped", "edge": "x0"}],
+}
+
+
+SOLID = {"kind": "isotropic", "young": 1e6, "poisson": 0.3, "density": 1e3}
+
+
+def fabric(thickness=None, **material):
+    sheet = FABRIC["sheet"] | ({} if thickness is None else {"thickness": thickness})
+    return Scene(**FABRIC | {"sheet": sheet, "material": FABRIC["material"] | material})
+
+
+@pytest.mark.parametrize(
+    ("thickness", "own"),
+    [
+        (None, {}),
+        ("0.4 mm", {}),
+        (None, {"membrane": 1e4, "bending": 1e-6, "poisson": 0.3}),  # one layer is both
+        ("0.3 mm", {"bending": {"x": 2e-6, "y": 1e-6, "coupling": 4e-7, "shear": 3e-7}}),
+    ],
+)
+def test_a_sheet_has_the_stiffnesses_that_it_is_given_by(thickness, own):
+    """The laminate's A and D by both derivations are those of the file, B is 0 and the mass is right."""
+    scene, material = fabric(thickness, **own), Material(**FABRIC["material"] | own)
+    constants = of_sheet(scene)
+    for derived in (lumped.plies, plies):
+        membrane, bending, _, mixed = derived.section(constants.plies, constants.thickness)
+        for found, key in ((membrane, "membrane"), (bending, "bending")):
+            wanted = material.stiffness(key)
+            assert found == pytest.approx(wanted, rel=1e-9, abs=1e-9 * wanted.max())
+        assert np.abs(mixed).max() < 1e-12 * membrane.max()
+    assert constants.per_area == pytest.approx(0.15, rel=1e-12) and scene.material.damping_rate == 2.0
+    assert len(scene.layers) == (0 if "poisson" in own else 3)
+    assert Scene.model_validate(scene.document()) == scene
+
+
+@pytest.mark.parametrize(
+    ("thickness", "own", "said"),
+    [
+        ("50 µm", {}, "too thin for that bending stiffness.*at least 9.21e-05 m"),
+        (None, {"membrane": {"x": 1e4, "y": 1e4, "coupling": 2e4}}, r"material\.membrane: coupling² must be"),
+        ("1 mm", {"bending": None}, "kind = 'stiffness': bending missing"),
+        ("1 mm", {"bending": "3 N"}, r"material\.bending = '3 N': must be a number"),
+        ("1 mm", SOLID, "membrane, bending, area_density: is of kind"),
+    ],
+)
+def test_stiffnesses_of_no_sheet_are_refused(thickness, own, said):
+    with pytest.raises(SceneError, match=said):
+        fabric(thickness, **own)
+
+
+@pytest.mark.nightly
+def test_a_hanging_fabric_is_alike_in_lattice_and_shell():
+    scene = fabric()
+    points = scene.probe_points()
+    lattice = lumped.solve(scene, calibrated(scene, 17)).displacement(points)
+    shell = fem_reference.solve(scene, "shell", elements=16).displacement(points)
+    assert np.abs(lattice - shell).max() < 0.01 * np.abs(shell).max()

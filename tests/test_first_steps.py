@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from commands import one_line, run
+from terminals import COMMAND, Terminal
 
 from comparisons.models.check import check
 from comparisons.models.keys_page import markdown
@@ -81,6 +82,33 @@ def test_new_writes_a_scene_that_check_explains(tmp_path, capsys):
     for part in ("300 × 200 mm", "E = 100 kPa", "1.29 N along −z", "edge x1", "13 × 9 × 2 masses", "24 × 16"):
         assert part in printed.out
     assert printed.err == ""
+
+
+def test_new_asks_at_a_terminal(tmp_path):
+    """What cannot be understood is asked again; an empty line takes what stands in brackets."""
+    answers = ["100x50mm", "", "soft", "2MPa", "", "", "x0 y1", "20Pa"]
+    asked = Terminal(COMMAND, "new", str(tmp_path / "asked.toml"), columns=120)
+    for question, text in zip(
+        ("Sides", "Thickness", "modulus", "'soft' is no quantity", "ratio", "Density", "edges", "Pressure"),
+        answers,
+        strict=True,
+    ):
+        asked.wait_for(question)
+        asked.press(f"{text}\n".encode())
+    assert asked.end() == 0
+    scene = load(tmp_path / "asked.toml")
+    assert scene.sheet.lengths == (0.1, 0.05) and scene.sheet.thickness == 0.002
+    assert scene.material.young == 2e6 and scene.loads[0].value == 20.0
+    assert [support.edge for support in scene.supports] == ["x0", "y1"]
+
+
+def test_what_new_assumes_and_a_misspelt_name_are_said(tmp_path, capsys):
+    assert run("new", str(tmp_path / "strip.toml"), "--young", "1MPa") == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Assumed, to be changed in it: side along x = 0.3 m" in said and "ρ = 1100 kg/m³" in said
+    assert "E =" not in said and "clamped at x0" in said
+    assert run("check", str(tmp_path / "striip.toml")) == 2
+    assert f"did you mean {tmp_path / 'strip.toml'}?" in one_line(capsys)
 
 
 def test_new_keeps_what_is_there(tmp_path, capsys):

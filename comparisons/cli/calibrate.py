@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 
 SUMMARIES = "; ".join(f"{name}: {method.summary}" for name, method in CALIBRATIONS.items())
 SPRINGS = "calibration k layer_distance grading toml"
+SHEET = "young poisson thickness side"
 DAMPING = "loss_factor at band prony"
 
 
 @no_effect(
     with_for_="export cell toml",
     with_cell=f"{SPRINGS} {DAMPING} grid export",
-    without_cell="spacing hinge coefficient",
+    with_from_=f"{SPRINGS} {DAMPING} calibration grid export for_ hinge coefficient {SHEET}",
+    without_cell="hinge coefficient",
 )
 def command(
     scene: str | None = None,
@@ -34,6 +36,7 @@ def command(
     export: str | None = None,
     for_: str | None = None,
     precision: str | None = None,
+    from_: str | None = None,
     cell: str | None = None,
     spacing: Metres = None,
     hinge: str | None = None,
@@ -57,7 +60,7 @@ def command(
     clamped.
 
     Args:
-        scene ([SCENE], argument): Scene with the sheet and its material.
+        scene ([SCENE], argument): Scene with the sheet and its material; with --from the code's numbers.
         calibration (NAME): {SUMMARIES}; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.
         toml: Print the [springs] table for a scene file.
         for_ (CODE): Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis:
@@ -65,11 +68,13 @@ def command(
             program that reads it; c: one C file that steps it, with a check;
             fmu: that as an FMI 3.0 unit.
         precision (NAME): With --for c or fmu: double or single numbers. Default: double.
+        from_ (CODE): The sheet that another code's numbers are, given in place of the SCENE as
+            tri_ke=1e3,tri_ka=1e3,edge_ke=10; --cell its mesh, --spacing the distance of its vertices.
         cell (CELL): Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer
             mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with
             hinges), bricks, or a TOML file with periods, nodes and elements.
-        spacing (LENGTH): With --cell: distance of nodes, in m or as 5mm. Default: an eighth of the shorter
-            side.
+        spacing (LENGTH): With --cell or --from: distance of nodes, in m or as 5mm. Default with --cell: an
+            eighth of the shorter side.
         hinge (WEIGHT): With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height,
             w = 3 length² over the area of both triangles. Default: length.
         coefficient (NAME=VALUE): With --cell: use this in place of the one found.
@@ -87,12 +92,19 @@ def command(
     from comparisons.codes import lattice as exchange
     from comparisons.codes.cell_moduli import given_coefficients, homogenise, undamped
     from comparisons.codes.files import WRITERS
+    from comparisons.codes.inverse import sheet_of
     from comparisons.codes.setup import setup, squares_of
     from comparisons.codes.table import CODES
     from comparisons.models.sizes import require_room
     from lumped import Calibration
     from sheetbench.errors import BadInput, require_choice, require_effect
 
+    require_effect("without --cell or --from", {"--spacing": (cell or from_) is None and spacing})
+    if from_ is not None:
+        given = given_coefficients((scene or "").split(",") if scene else ())
+        with output.open(about={"from": from_, "given": given}, variant={"--from": from_}) as out:
+            density = sheet.values["density"]
+            return out.show(sheet_of(from_, given, cell=cell, spacing=spacing, density=density))
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
     damped = damping.keys(loss_factor, at, band, prony)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from time import monotonic
@@ -121,6 +122,11 @@ def show(table: Table) -> None:
             out.print(Text(line, style="bold"), soft_wrap=True)
         for line in [terminal(block.rule), *block.rows]:
             out.print(Text(line), soft_wrap=True)
+
+
+def asks() -> bool:
+    """Return whether somebody at a terminal can be asked."""
+    return out.is_terminal and sys.stdin is not None and sys.stdin.isatty()
 
 
 def blank() -> None:

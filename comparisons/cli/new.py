@@ -4,11 +4,24 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from comparisons.cli.options import SheetOptions
 
 SHEET = {"length_x": 0.3, "length_y": 0.2, "thickness": 0.002}  # unless given
 MATERIAL = {"young": 1.2e6, "poisson": 0.45, "density": 1100.0}
+NAMES = {"length_x": "side along x", "length_y": "side along y", "thickness": "thickness"}
+NAMES |= {"young": "E", "poisson": "ν", "density": "ρ"}
+UNITS = dict.fromkeys(SHEET, "m") | {"young": "Pa", "poisson": "", "density": "kg/m³"}
+ASKED = {  # what is asked, and the answer to an empty line
+    "side": ("Sides, x by y", "300x200mm"),
+    "thickness": ("Thickness", "2mm"),
+    "young": ("Young's modulus E", "1.2MPa"),
+    "poisson": ("Poisson's ratio ν (rubber 0.45 to 0.4999)", "0.45"),
+    "density": ("Density ρ", "1100kg/m3"),
+    "clamped": ("Clamped edges, of x0, x1, y0, y1", "x0"),
+    "pressure": ("Pressure besides its weight, 0 for none", "0Pa"),
+}
 
 
 def command(
@@ -20,8 +33,8 @@ def command(
 ) -> Path:
     """Write a commented scene to start from.
 
-    The scene is a sheet under its own weight, with what can be added as comments. The JSON Schema is written
-    beside the file, for editors.
+    The scene is a sheet under its own weight, with what can be added as comments. In a terminal, without
+    options, it asks for them. The JSON Schema is written beside the file, for editors.
 
     Args:
         file (FILE, argument): The TOML file to write.
@@ -44,18 +57,57 @@ def command(
         raise BadInput(f"{file}: exists already; --overwrite replaces it")
     if not file.parent.is_dir():
         raise BadInput(f"{file}: there is no folder {file.parent}")
-    given = {key: value for key, value in sheet.values.items() if value is not None}
+    given, pressure = {key: value for key, value in sheet.values.items() if value is not None}, 0.0
+    if not given and not clamped and console.asks():
+        given, clamped, pressure = _asked()
     of_sheet, of_material = (
         {key: given.get(key, usual[key]) for key in usual} for usual in (SHEET, MATERIAL)
     )
     edges = list(dict.fromkeys(clamped or ["x0"]))
     for edge in edges:
         require_choice("--clamped", edge, EDGES)
-    text = template(file.stem, checked(Sheet, of_sheet), checked(Material, of_material), edges)
+    text = template(file.stem, checked(Sheet, of_sheet), checked(Material, of_material), edges, pressure)
     if found := slips(Scene.model_validate(tomllib.loads(text))):
         raise BadInput(f"{file} is not written: {'; '.join(found)}")
     write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))  # a disk that is full leaves no scene
     write_text(file, text)
     console.note(f"{file} written, and {SCHEMA} beside it for editors")
+    assumed = {key: value for key, value in (of_sheet | of_material).items() if key not in given}
+    told = [f"{NAMES[key]} = {value:g} {UNITS[key]}".rstrip() for key, value in assumed.items()]
+    told += [] if clamped else ["clamped at x0"]
+    if told:
+        console.note(f"Assumed, to be changed in it: {', '.join(told)}; weight along −z.")
     console.note(f"Next:  sheetbench check {file}")
     return file
+
+
+def _asked() -> tuple[dict[str, Any], list[str], float]:
+    """Return what is typed: values by the keys of sheet and material, edges, and a pressure [Pa]; what cannot
+    be understood is asked again."""
+    import typer
+
+    from comparisons.cli import console
+    from comparisons.models.quantities import sides
+    from sheetbench.errors import BadInput, require_choice
+    from sheetbench.scenes import EDGES
+    from sheetbench.scenes.language.units import amount
+
+    def understood(key: str, text: str) -> Any:
+        if key == "side":
+            return sides(text)
+        if key == "clamped":
+            edges = text.replace(",", " ").split()
+            for edge in edges:
+                require_choice("edge", edge, EDGES)
+            return edges
+        return amount(key, text, UNITS.get(key, "Pa"))
+
+    found: dict[str, Any] = {}
+    for key, (question, usual) in ASKED.items():
+        while key not in found:
+            try:
+                found[key] = understood(key, typer.prompt(question, default=usual))
+            except BadInput as error:
+                console.warn(str(error))
+    size, edges, pressure = found.pop("side"), found.pop("clamped"), found.pop("pressure")
+    return {**size, **found}, edges, pressure

@@ -47,6 +47,7 @@ from sheetbench.scenes import (
 )
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.words import sheet_in_words
+from sheetbench.scenes.objects.supports import Hinged, Point
 
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
@@ -108,9 +109,16 @@ class CodeSetup(CellInScene):
         chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
         notes = list[str]()
         if why := self._refused():
-            notes.append(f"No files: {why}.")
+            notes.append(f"No files for {self.code.title}, the numbers alone: {why}.")
         elif coarse := self._too_coarse():
             notes.append(coarse)
+        if any(isinstance(support, Point) for support in self.scene.supports):
+            notes.append(
+                "A sheet drawn to a single point gives way there without limit as any mesh gets finer: "
+                "meshes agree where a part is held, [[support]] with where = { rectangle = … }."
+            )
+        if self.code.mesh == LAYERED and any(isinstance(s, Hinged | Point) for s in self.scene.supports):
+            notes.append("Both layers of springs are held: hinged edges and points cannot turn there.")
         if left := undamped(self.code, self.scene.material):
             notes.append(f"The scene's damping is left out: {left}.")
         notes.append(f"Coefficients of hinges and springs {chosen}.")
@@ -144,12 +152,13 @@ class CodeSetup(CellInScene):
         still its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts
         instead.
         """
-        if self.code.mesh != LAYERED or len(self.scene.supports) < 2:
+        supports = [support for support in self.scene.supports if support.edge]
+        if self.code.mesh != LAYERED or len(supports) < 2:
             return ""
         mesh, sides, layers = self.problem.mesh, self.scene.sheet.lengths, self.coefficients["layers"]
         borne = self.coefficients["k"] * (layers * self.squares / min(sides)) ** 3 / 27.0**0.5
         free = (mesh.masses[:, None] * mesh.gravity + mesh.forces)[~mesh.held].sum(axis=0)
-        held = sum(sides[1 - EDGES[support.edge].normal_axis] for support in self.scene.supports)
+        held = sum(sides[1 - EDGES[support.edge].normal_axis] for support in supports)
         load = float(np.linalg.norm(free)) / held
         enough = 1 + ceil(self.squares * (PEAK * load / borne) ** (1.0 / 3.0))
         turned = f"its load of {load:.2g} N/m of held edge turns springs between the layers over"

@@ -18,8 +18,13 @@ import numpy as np
 from comparisons.codes.coefficients import five
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene
+from sheetbench.scenes.objects.fields import POINTS
 from sheetbench.scenes.objects.grid import near_square
+from sheetbench.scenes.objects.shapes import Shape
+from sheetbench.scenes.objects.supports import Point, named, place
 
+HELD = ("support.where", POINTS)  # what `refusal` looks at for itself
+ON_A_LINE = 1e-6  # of a square
 ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
 
 
@@ -70,14 +75,16 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     """Return the mesh of a scene's sheet, `squares` along its shorter side.
 
     pattern: ONE or ALTERNATE; beyond_share: how far beyond an edge its second row is, over a square's side.
-    Raises BadInput for what these codes do not have: supports but clamped and
-    hinged edges that stay, loads but weight and forces at points and along edges.
+    Raises BadInput for what these codes do not have: supports but points at vertices and clamped and hinged
+    edges that stay, loads but weight and forces at points and along edges.
     """
     if why := refusal(scene):
         raise BadInput(f"{scene.name}: {why}")
     counts = near_square(scene.sheet, squares)
     spacing = np.array(scene.sheet.lengths) / counts
-    beyond = {edge: 0 for edge in EDGES} | {s.edge: 1 for s in scene.supports if isinstance(s, Clamped)}
+    beyond = {edge: 0 for edge in EDGES} | {
+        s.edge: 1 for s in scene.supports if isinstance(s, Clamped) and s.edge
+    }
     i, j = np.meshgrid(
         np.arange(-beyond["x0"], counts[0] + beyond["x1"] + 1),
         np.arange(-beyond["y0"], counts[1] + beyond["y1"] + 1),
@@ -92,6 +99,9 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
         held |= (outwards >= 0) & any(support.edge == edge for support in scene.supports)
         inside &= outwards <= 0
         share[outwards == 0] *= 0.5
+    for name, support in named(scene.supports).items():
+        if (shape := place(support)) is not None:
+            held |= _held_in(shape, name, (i, j), spacing, counts)
     own = inside.ravel()[triangles].all(axis=1)
     plan = [
         (n.ravel() - (1.0 - beyond_share) * (n.ravel() - np.clip(n.ravel(), 0, count))) * side
@@ -134,6 +144,22 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     )
 
 
+def _held_in(
+    shape: Shape, name: str, at: tuple[np.ndarray, np.ndarray], spacing: np.ndarray, counts: tuple[int, int]
+) -> np.ndarray:
+    """Return which vertices a point or a rectangle holds; at: their numbers along x and y. Raises BadInput
+    where the sides of it do not lie on lines of vertices."""
+    assert shape.rectangle is not None  # `refusal` has other shapes
+    held = np.ones(at[0].shape, dtype=bool)
+    for axis, (low, high) in enumerate((shape.rectangle.x, shape.rectangle.y)):
+        first, last = max(low / spacing[axis], 0.0), min(high / spacing[axis], counts[axis])
+        if max(abs(first - round(first)), abs(last - round(last))) > ON_A_LINE:
+            squares = f"{counts[0]} × {counts[1]} squares"
+            raise BadInput(f"{name}: {shape.in_words()}: no vertices of {squares} there; take another --grid")
+        held &= (at[axis] >= round(first)) & (at[axis] <= round(last))
+    return held
+
+
 def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> tuple[SheetMesh, np.ndarray]:
     """Two layers of a flat mesh's vertices, this far apart [m], and the tetrahedra between (m, 4).
 
@@ -167,14 +193,20 @@ def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> t
 
 def refusal(scene: Scene) -> str:
     """Why codes of triangles cannot have a scene; nothing where they can."""
-    if scene.actuators or any(not isinstance(s, Clamped | Hinged) for s in scene.supports):
-        return "these codes hold sheets by clamped and hinged edges only"
+    if scene.actuators or any(not isinstance(s, Clamped | Hinged | Point) for s in scene.supports):
+        return "these codes hold sheets by vertices, clamps and hinged edges only"
+    if any(isinstance(s, Point) and len(s.components) < 3 for s in scene.supports):
+        return "these codes hold a vertex along x, y and z, not along some of them"
+    places = [place(s) for s in scene.supports if not isinstance(s, Clamped | Point)]
+    rectangles = all(shape.rectangle for s in scene.supports if (shape := place(s)))
+    if any(places) or not rectangles:
+        return "support.where: they hold points and clamped rectangles, whose sides are lines of their meshes"
     if any(isinstance(support, Hinged) and support.twist == "held" for support in scene.supports):
         return 'twist = "held": their hinges let the twist of the edge go'
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
         return "their clamps stand upright, and supports stay where they are"
-    if scene.shaped_by:
-        return f"{scene.shaped_by}: their meshes are of whole rectangles"
+    if drawn := ", ".join(word for word in scene.shaped_by.split(", ") if word not in HELD):
+        return f"{drawn}: their meshes are of whole rectangles"
     if any(
         not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
         for load in scene.loads

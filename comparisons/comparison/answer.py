@@ -28,10 +28,12 @@ from sheetbench.answers.table import (
     Column,
     Table,
 )
+from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
 
+SLOW, AT_REST = 2.0, 10.0  # 1/s, a rate where there is none; of 1/rate, after which motion has died down
 BUCKLED = (
     "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
     "mode; what is shown is the stable equilibrium that it comes to, one of several."
@@ -48,6 +50,15 @@ COSTS = (
     Column("status", prose=True),
 )
 FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
+
+
+def settling(scene: Scene) -> str:
+    """Return which motion brings a sheet to rest that statics do not."""
+    material = scene.material
+    damped = material.damping_rate or material.dashpot_time or material.branches.times or scene.dampers
+    rate = material.damping_rate or SLOW
+    before = "" if damped or scene.air else f"with [material] damping_rate = {SLOW:g} "
+    return f"{before}its motion comes to rest: sheetbench simulate SCENE --duration {AT_REST / rate:.2g}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -206,8 +217,10 @@ class Comparison(Compared, Answer):
     def complaints(self) -> list[str]:
         """Return a sentence for every model that did not converge: what happened and what can be done; and
         why lattice and reference are far apart though both did."""
+        unsettled = (Status.STEP_LIMIT, Status.DIVERGED)
         return [*([self.disagreement] if self.disagreement else [])] + [
             ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
+            + f"; {settling(self.scene)}" * (s.status in unsettled)
             for s in self.solutions
             if s.status is not Status.CONVERGED
         ]

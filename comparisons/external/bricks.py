@@ -133,7 +133,7 @@ class Bricks:
     def supported(self, support: AnySupport) -> np.ndarray:
         """Nodes of all columns on a support's edge, or in its shape."""
         shape = place(support)
-        return self.edge(support.edge) if shape is None else self._over(self.faces[self.inside(shape)])
+        return self.edge(support.edge) if shape is None else self._over(plan_of(self.plan).touching(shape))
 
     def _over(self, plan_nodes: np.ndarray) -> np.ndarray:
         return np.flatnonzero(np.isin(self.sites[:, 0], plan_nodes))

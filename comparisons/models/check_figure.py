@@ -93,6 +93,8 @@ def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
 def _part(axis: Axes, scene: Scene, shape: Shape, name: str, **drawn_as: Any) -> None:
     """The part of the sheet in a shape, with its name at the upper left, a patch's at the lower right."""
     area = scene.region.intersection(shape.area)
+    if not area.area:  # a rim, of which the line is drawn
+        return
     axis.add_patch(_filled(area, **drawn_as))
     left, low, right, top = (1e3 * bound for bound in area.bounds)
     if name.startswith("patch"):

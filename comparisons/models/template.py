@@ -12,6 +12,7 @@ from typing import Any
 
 from sheetbench.scenes.language.schema import branches, for_editors, kind
 from sheetbench.scenes.language.toml import keys, line
+from sheetbench.scenes.objects.loads import Pressure
 from sheetbench.scenes.objects.material import Material
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.supports import Clamped
@@ -27,14 +28,17 @@ def template(
     sheet: Sheet,
     material: Material,
     clamped: Sequence[str] = ("x0",),
+    pressure: float = 0.0,
 ) -> str:
-    """A sheet under its own weight, clamped at the named edges, as commented TOML."""
+    """Return a sheet under its own weight and a pressure [Pa], clamped at the named edges, as commented
+    TOML."""
     scene = Scene(
         name=name,
         sheet=sheet,
         material=material,
         gravity=EARTH,
         supports=tuple(Clamped.model_validate({"edge": edge}) for edge in clamped),
+        loads=(Pressure(value=pressure),) if pressure else (),
     )
     given = keys(scene)
     parts = [
@@ -48,6 +52,7 @@ def template(
         _block("[material]", given["material"]),
         _block("[gravity]", given["gravity"]),
         *(_block("[[support]]", one, about=n == 0) for n, one in enumerate(given.get("support", ()))),
+        *(_block("[[load]]", one) for one in given.get("load", ())),
         '# Optional parts: delete the "# " at the start of a block\'s lines to use it.\n'
         "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]

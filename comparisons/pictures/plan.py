@@ -95,10 +95,8 @@ def held_lines(scene: Scene, support: Support) -> list[np.ndarray]:
     shape = place(support)
     if shape is not None:
         part = scene.region.intersection(shape.area)
-        pieces = [piece for piece in getattr(part, "geoms", [part]) if piece.area > 0.0]
-        return [
-            np.array(piece.exterior.segmentize(0.02 * max(scene.sheet.lengths)).coords) for piece in pieces
-        ]
+        rims = (getattr(piece, "exterior", piece) for piece in getattr(part, "geoms", [part]) if piece.length)
+        return [np.array(rim.segmentize(0.02 * max(scene.sheet.lengths)).coords) for rim in rims]
     return [_divided(ends, 60) for ends in edge_ends(scene, support.edge)]
 
 

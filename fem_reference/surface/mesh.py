@@ -28,6 +28,7 @@ from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
 Elements = int | tuple[int, int]
 
 # A nine-node element drawn as four bilinear quadrilaterals; local nodes: 4 corners, 4 mid-sides, centre.
+TOUCHING = 0.05  # of a side's length, that a shape may be off it and touch it still
 BESIDE = 0.03  # of a shape's area, that a round one lacks between straight sides, 16 or more around
 _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 
@@ -96,6 +97,23 @@ class Plan:
         """The elements (k,) in a shape, whose borders lie on their sides, or all."""
         middles = self.nodes[self.elements[:, 8]]
         return np.arange(len(middles)) if shape is None else np.flatnonzero(shape.contains(middles))
+
+    def touching(self, shape: Shape) -> np.ndarray:
+        """The nodes (k,) of the elements in a shape; where there are none of the rim's sides along which the
+        shape touches the sheet, to a share of their length: it may have more corners than the mesh."""
+        inside = self.within(shape)
+        if len(inside):
+            return np.unique(self.elements[inside])
+        import shapely
+
+        facets = self.mesh.boundary_facets()
+        ends = self.mesh.p[:, self.mesh.facets[:, facets]]
+        near = TOUCHING * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=0)
+        off = [
+            shapely.distance(shape.area, shapely.points(at.T)) for at in (*ends.swapaxes(0, 1), ends.mean(1))
+        ]
+        facets = facets[(np.array(off) < near).all(axis=0)]
+        return np.unique(np.concatenate([self.mesh.facets[:, facets].ravel(), self.mesh.nvertices + facets]))
 
     def on_boundary(self, name: str) -> np.ndarray:
         """The nodes (k,) of a boundary, in order."""

@@ -124,7 +124,7 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
         if isinstance(support, Point):
             on_edge[name] = _node_at(nodes, support, name)
         elif (shape := place(support)) is not None:
-            on_edge[name] = np.unique(plan.elements[plan.within(shape)])
+            on_edge[name] = plan.touching(shape)
         else:
             on_edge[name] = plan.on_boundary(support.edge)
     motions, movers = scene.motions(), np.zeros(len(nodes))

@@ -12,7 +12,10 @@ from sheetbench.errors import BadInput, SceneError, foreign
 from sheetbench.scenes.language.reading import read_text
 from sheetbench.scenes.language.refusals import did_you_mean, in_one_line
 from sheetbench.scenes.meaning.plausibility import warn_of_slips
+from sheetbench.scenes.objects.sheet import DRAWN
 from sheetbench.scenes.scene import Scene
+
+MANY = 200  # files beside a missing one that are compared with its name
 
 
 def catalogue() -> dict[str, Path]:
@@ -42,7 +45,8 @@ def load(scene: str | Path) -> Scene:
     try:
         data = tomllib.loads(read_text(path))
     except FileNotFoundError:
-        near = did_you_mean(str(scene), known)
+        beside = [str(one) for one in sorted(path.parent.glob("*.toml"))[:MANY]]
+        near = did_you_mean(str(scene), [*beside, *known])
         hint = f"did you mean {near}?" if near else f"those are {', '.join(known)}"
         raise SceneError(f"{scene}: no such file, and no catalogue scene of that name; {hint}") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -56,8 +60,9 @@ def load(scene: str | Path) -> Scene:
     except ValueError:  # from `int`, which TOMLDecodeError does not cover
         raise SceneError(f"{scene}: not a scene: a number of more digits than can be read") from None
     sheet = data.get("sheet")
-    if isinstance(sheet, dict) and isinstance(sheet.get("mesh"), str):
-        sheet["mesh"] = str(path.parent / sheet["mesh"])
+    for key in DRAWN:
+        if isinstance(sheet, dict) and isinstance(sheet.get(key), str):
+            sheet[key] = str(path.parent / sheet[key])
     try:
         loaded = Scene.model_validate(data)
     except ValidationError as error:

@@ -29,8 +29,9 @@ class Scene(SceneFields, defer_build=False):
     """
 
     def _faults(self) -> Iterator[object]:
+        vars(self)["supports"] = region.with_rims(self)  # the scene is frozen, but not whole yet
         if not self.probes:
-            vars(self)["probes"] = self._usual_probes()  # the scene is frozen, but not whole yet
+            vars(self)["probes"] = self._usual_probes()
         lx, ly = self.sheet.lengths
         for key, (x, y) in region.marked(self).items():
             off = f"{key} = {[x, y]} is off the sheet, which is 0 ≤ x ≤ {lx:g} m, 0 ≤ y ≤ {ly:g} m"

@@ -26,7 +26,7 @@ def test_no_refusal_passes_on_more(tmp_path):
         (lambda: plugin(f"{tmp_path / 'mine.py'}:M"), "cannot be loaded: reason"),
         (lambda: load(tmp_path / "scene.toml"), "not a TOML file"),
         (lambda: columns.read_columns(tmp_path / "m.csv"), "column uz"),
-        (lambda: plan_mesh.read_cells(tmp_path / "m.off"), "meshio cannot read it"),
+        (lambda: plan_mesh.read_file(tmp_path / "m.off"), "meshio cannot read it"),
     ):
         with pytest.raises((BadInput, SceneError, ValueError), match=said) as refused:
             refuse()

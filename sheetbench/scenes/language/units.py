@@ -57,6 +57,8 @@ NAMES: dict[str, tuple[str, str]] = {  # by the SI unit: the quantity, and how o
     "N·m/m": ("moment per length", "2 mN·m/m"),
     "N·m²": ("bending stiffness", "20 N·cm²"),
     "N·s/m": ("damping", "3 mN·s/m"),
+    "N·m": ("bending stiffness of a sheet", "2 µN·m"),
+    "kg/m²": ("mass per area", "150 g/m²"),
     "kg/m": ("mass per length", "50 g/m"),
     "kg": ("mass", "20 g"),
     "kg·m²": ("moment of inertia", "20 g·cm²"),

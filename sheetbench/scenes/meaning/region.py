@@ -14,7 +14,7 @@ from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, EdgeLoad, PointLo
 from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.shapes import COINCIDENT, Shape, straight_sides
 from sheetbench.scenes.objects.sheet import EDGES
-from sheetbench.scenes.objects.supports import Point, named, place
+from sheetbench.scenes.objects.supports import AnySupport, Point, named, place
 
 
 def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
@@ -115,6 +115,44 @@ def nearest_on_sheet(scene: SceneFields, points: np.ndarray) -> np.ndarray:
     return np.asarray(shapely.get_coordinates(lines).reshape(-1, 2, 2)[:, 1])
 
 
+def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
+    """Return the supports with shapes, or the edges of a whole rectangle, for what is said of rims. Raises
+    ValueError for a hole that is not there, and for a rim of what is no support."""
+    others = {"patch": scene.patches, "cutout": scene.cutouts, "load": scene.loads, "mass": scene.masses}
+    for kind, parts in others.items():
+        for number, part in enumerate(parts, start=1):
+            shape = getattr(part, "shape", None) or getattr(part, "where", None)
+            if shape is not None and (shape.rim or shape.hole):
+                raise ValueError(f"{kind} {number}: rim and hole are of a support's where")
+    found: list[AnySupport] = []
+    for number, support in enumerate(scene.supports, start=1):
+        shape = None if isinstance(support, Point) else place(support)
+        if shape is None or not (shape.rim or shape.hole):
+            found.append(support)
+        elif shape.rim and not scene.sheet.drawn:
+            found += [support.replace(where=None, edge=edge) for edge in EDGES]
+        elif shape.rim:
+            found.append(support.replace(where=Shape(beyond=_corners(scene.region.exterior))))
+        else:
+            found.append(support.replace(where=_hole(scene, shape.hole or 0, f"support {number}.where")))
+    return tuple(found)
+
+
+def _hole(scene: SceneFields, number: int, key: str) -> Shape:
+    """Return the shape of a hole by its number from 1. Raises ValueError where there is none."""
+    shapes = [cutout.shape for cutout in scene.cutouts]
+    if not shapes:
+        rings = sorted(scene.region.interiors, key=lambda ring: float(ring.centroid.x))
+        shapes = [Shape(polygon=_corners(ring)) for ring in rings]
+    if number > len(shapes):
+        raise ValueError(f"{key}: hole = {number}: the sheet has {len(shapes)}")
+    return shapes[number - 1]
+
+
+def _corners(ring: Any) -> tuple[PlanPoint, ...]:
+    return tuple((x, y) for x, y in ring.coords[:-1])
+
+
 def misplaced(scene: SceneFields) -> Iterator[object]:
     """Yield why something is held, loaded or probed where no sheet is; what is false where it is not."""
     for key, point in marked(scene).items():
@@ -127,7 +165,10 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
     for name, part in parts.items():
         if (shape := getattr(part, "where", None)) is not None:
             where = f"{name}.where: {shape.in_words()}: no part of"
-            yield area_in(scene, shape) <= least**2 and f"{where} it is on the sheet"
+            on = area_in(scene, shape) > least**2
+            if not on and name in named(scene.supports):  # the line along which it touches the sheet
+                on = common(scene.region, shape.area).length > least
+            yield not on and f"{where} it is on the sheet"
             if isinstance(part, EdgeLoad):
                 inside = edge_length(scene, part.edge, shape) > least
                 yield not inside and f"{where} edge {part.edge} is in it"

@@ -110,6 +110,7 @@ def _outline(scene: SceneFields) -> str:
     corners = "" if outline is None else f", a polygon of {len(outline)} corners in it"
     if scene.sheet.mesh is not None:
         corners = f", a mesh of {len(scene.sheet.mesh.quads)} quadrilaterals in it"
+    corners += f" ({scene.sheet.drawn_from})" if scene.sheet.drawn_from else ""
     return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 
@@ -178,7 +179,7 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         parts += [f"twisted by {curvature[2]:.3g} 1/m"] if curvature[2] else []
         low, high = (_pascals(float(f"{stress:.3g}")) for stress in _stresses(scene, source))
         parts += [f"held flat, stresses from {low} to {high}"]
-        whole = ", ".join(parts) if len(parts) > 1 else "as it is drawn"
+        whole = ", ".join(parts) if len(parts) > 1 else "flat and free of stress"
         yield source.name, whole + _over_time(source.of.history)
 
 

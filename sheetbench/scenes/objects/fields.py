@@ -5,12 +5,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import numpy as np
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, ValidationError, model_validator
 
 from sheetbench.scenes.objects import cutouts
 from sheetbench.scenes.objects.actuators import Actuator, Chain, EdgeMotion
 from sheetbench.scenes.objects.air import Air
 from sheetbench.scenes.objects.cutouts import Cutout
+from sheetbench.scenes.objects.drawn import from_file
 from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.loads import AreaLoad, Initial, Load
 from sheetbench.scenes.objects.masses import Mass
@@ -22,6 +23,7 @@ from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.quantities import Frozen, PlanPoint, Unit
 from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.springs import DamperSet, SpringSet
+from sheetbench.scenes.objects.stiffness import as_laminate
 from sheetbench.scenes.objects.supports import Point, Support, place, tilt_axes
 
 if TYPE_CHECKING:
@@ -31,6 +33,7 @@ LISTS = {  # by their keys in Python: those in a file, where each entry is a tab
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
     "masses": "mass", "obstacles": "obstacle", "actuators": "actuator",
 }  # fmt: skip
+POINTS = 'support.kind = "point"'
 SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by the words for what it is that a scene has
     "sheet.outline": lambda scene: scene.sheet.outline,
     "sheet.mesh": lambda scene: scene.sheet.mesh,
@@ -39,7 +42,7 @@ SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by the words for wha
     "load.where": lambda scene: any(getattr(load, "where", None) for load in scene.loads),
     'load.kind = "area"': lambda scene: any(isinstance(load, AreaLoad) for load in scene.loads),
     "mass.where": lambda scene: any(payload.where for payload in scene.masses),
-    'support.kind = "point"': lambda scene: any(isinstance(one, Point) for one in scene.supports),
+    POINTS: lambda scene: any(isinstance(one, Point) for one in scene.supports),
 }
 
 
@@ -94,6 +97,36 @@ class SceneFields(Frozen, defer_build=True):
     the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,
     each a quarter of the sheet inside where it would lie on an edge that is held; where there is no sheet,
     the nearest point of it."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _holes_of_drawing(cls, data: Any) -> Any:
+        """Read the sheet's outline from a drawing, whose holes are cutouts besides the scene's own."""
+        sheet = data.get("sheet") if isinstance(data, dict) else None
+        if not isinstance(sheet, dict) or not isinstance(sheet.get("outline"), str):
+            return data
+        try:
+            read = from_file(sheet)
+        except ValueError as error:
+            raise ValueError(f"sheet.{error}") from None
+        holes = [{"shape": {"polygon": corners}} for corners in read.pop("holes", ())]
+        key = next((key for key in ("cutout", "cutouts") if key in data), "cutout")
+        return {**data, "sheet": read, **({key: [*data.get(key, ()), *holes]} if holes else {})}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _layers_of_stiffness(cls, data: Any) -> Any:
+        """Replace a material given by its stiffnesses by the laminate that has them."""
+        given = data.get("material") if isinstance(data, dict) else None
+        kind = given.get("kind") if isinstance(given, dict) else getattr(given, "kind", "")
+        if kind != "stiffness" or not isinstance(data.get("sheet"), dict | Sheet):
+            return data
+        try:
+            material = Material.model_validate(given)
+        except ValidationError:  # which validating the fields says, by their keys
+            return data
+        own = given if isinstance(given, dict) else material.model_dump(exclude_defaults=True)
+        return as_laminate({**data, "material": own}, material)
 
     def document(self) -> dict[str, Any]:
         """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""

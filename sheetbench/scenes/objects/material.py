@@ -25,6 +25,7 @@ from itertools import pairwise
 from math import pi
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
+import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
 from sheetbench.errors import BadInput
@@ -42,6 +43,7 @@ from sheetbench.scenes.objects.orthotropy import (
 from sheetbench.scenes.objects.quantities import (
     Angle,
     Density,
+    Forms,
     Modulus,
     NonNegative,
     Number,
@@ -51,7 +53,9 @@ from sheetbench.scenes.objects.quantities import (
     Unit,
 )
 from sheetbench.scenes.objects.relaxation import Branches, Relaxation, constant_loss
+from sheetbench.scenes.objects.stiffness import Stiffnesses
 
+Stiffness = Annotated[Positive | Stiffnesses, Forms()]
 RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
 
 
@@ -102,13 +106,17 @@ LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 def _constants_in_schema(schema: dict[str, Any]) -> None:
     """Write into a JSON Schema which keys a material needs: of fibres, of a law with constants, of others."""
-    needed: dict[str, Any] = {"required": ["young", "poisson"]}
+    needed: dict[str, Any] = {"required": ["young", "poisson", "density"]}
     for law, words in WORDS.items():
         of_law = {"properties": {"law": {"const": law}}, "required": ["law"]}
-        needed = {"if": of_law, "then": {"required": [*words.keys, "poisson"]}, "else": needed}
+        needed = {"if": of_law, "then": {"required": [*words.keys, "poisson", "density"]}, "else": needed}
     fibres = {"properties": {"kind": {"const": "orthotropic"}}, "required": ["kind"]}
-    schema["required"] = ["density"]
-    schema["allOf"] = [{"if": fibres, "then": {"required": [*NEEDED]}, "else": needed}]
+    schema.pop("required", None)
+    needed = {"if": fibres, "then": {"required": ["density", *NEEDED]}, "else": needed}
+    cloth = {"properties": {"kind": {"const": "stiffness"}}, "required": ["kind"]}
+    schema["allOf"] = [
+        {"if": cloth, "then": {"required": ["membrane", "bending", "area_density"]}, "else": needed}
+    ]
 
 
 class Material(Fibres):
@@ -141,9 +149,15 @@ class Material(Fibres):
     """Shear modulus at small strains: gent."""
     limit: Positive | None = Field(default=None, kw_only=True)
     """I1 - 3 that no load reaches: gent."""
-    kind: Literal["isotropic", "orthotropic"] = Field(default="isotropic", kw_only=True)
+    kind: Literal["isotropic", "orthotropic", "stiffness"] = Field(default="isotropic", kw_only=True)
     """Of an orthotropic sheet, one with fibres, the constants along axis 1 and across it are given; young and
-    poisson are left out."""
+    poisson are left out. With "stiffness" membrane, bending and area_density are given in their place."""
+    membrane: Annotated[Stiffness, Unit("N/m")] | None = Field(default=None, kw_only=True)
+    """Membrane stiffness, a number or { x, y, coupling, shear }: of kind = "stiffness"."""
+    bending: Annotated[Stiffness, Unit("N·m")] | None = Field(default=None, kw_only=True)
+    """Bending stiffness likewise."""
+    area_density: Annotated[Positive, Unit("kg/m²")] | None = Field(default=None, kw_only=True)
+    """Mass per area, likewise: 150 g/m² is 0.15."""
     young_3: Modulus | None = Field(default=None, kw_only=True)
     """Young's modulus through the thickness, which solids alone ask for; young_2 unless given."""
     poisson_13: Number | None = Field(default=None, kw_only=True)
@@ -171,6 +185,8 @@ class Material(Fibres):
         Poisson's ratio, as measures of the material's size."""
         if not isinstance(data, dict):
             return data
+        if data.get("kind") == "stiffness":  # which a scene makes layers of
+            return {"young": 1.0, "poisson": 0.0, "density": 1.0, **data}
         if data.get("kind") == "orthotropic":
             given = numbers(data, {key: "" if key == "poisson_12" else "Pa" for key in NEEDED})
             real = given and min(given["young_1"], given["young_2"]) > 0.0
@@ -186,7 +202,19 @@ class Material(Fibres):
         # where it makes no sense `_law_with_its_constants` says why
         return {**data, "young": young if young > 0.0 else 1.0}
 
+    def stiffness(self, key: str) -> np.ndarray:
+        """Return the stiffness (3, 3) over (x, y, xy) of membrane [N/m] or bending [N·m]."""
+        given = getattr(self, key)
+        return (given if isinstance(given, Stiffnesses) else Stiffnesses(given, given)).form(self.poisson)
+
     def _faults(self) -> Iterator[object]:
+        own = self.given(("membrane", "bending", "area_density"))
+        if self.kind == "stiffness":
+            missing = [key for key in ("membrane", "bending", "area_density") if key not in own]
+            yield missing and f"kind = 'stiffness': {', '.join(missing)} missing"
+            yield self.law and f"law = '{self.law}': is of isotropic rubber; leave it out"
+        else:
+            yield own and f"{', '.join(own)}: is of kind = 'stiffness'; say so, or leave it out"
         keys, own = self._keys, self.given(CONSTANTS)
         for key in (key for key in own if key not in keys):
             laws = ", ".join(law for law, words in WORDS.items() if key in words.keys)
@@ -224,7 +252,7 @@ class Material(Fibres):
 
     def _no_fibres(self, own: dict[str, float]) -> Iterator[object]:
         """Yield why the constants of fibres, those that are given, cannot be."""
-        if self.kind == "isotropic":
+        if self.kind != "orthotropic":
             for key, value in own.items():
                 yield f"{key} = {value:g}: is of kind = 'orthotropic'; say so, or leave it out"
             return

@@ -1,6 +1,6 @@
 """A mesh of one's own of a sheet's plan: quadrilaterals, from a file or as numbers.
 
-[sheet] mesh = "fin.msh"     in metres, in the plane z = 0, its path relative to the scene's file
+[sheet] mesh = "fin.msh"     its path relative to the scene's file
 
 Of the file's cells those that cover areas count, by their corners alone: sides are straight. Where there are
 triangles, each is cut into three quadrilaterals and each quadrilateral into four. The outline and the holes
@@ -12,11 +12,11 @@ program of its own (`mesh_reader`) with limits of time and memory.
 """
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from pydantic import Field
@@ -95,25 +95,17 @@ class PlanMesh(Frozen):
         return covered.simplify(ROUNDING * np.ptp(points, axis=0).max())
 
 
-def read_mesh(value: Any) -> Any:
-    """Return the PlanMesh of a file that text names, anything else as it is. Raises ValueError."""
-    if not isinstance(value, str):
-        return value
-    try:
-        return _mesh_of(*read_cells(Path(value)))
-    except ValueError as error:
-        raise ValueError(f"{value}: {error}") from None
+def read_file(path: Path, formats: Mapping[str, str] = FORMATS) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Return points (n, 2 or 3), and what else `mesh_reader` finds: corners of triangles (k, 3) and
+    quadrilaterals (m, 4) by kind, or a drawing's rings and unit.
 
-
-def read_cells(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Return points (n, 2 or 3) [m], and corners of triangles (k, 3) and quadrilaterals (m, 4) by kind.
-
-    Raises ValueError with a clause that says what is wrong.
+    formats: the reader's, by the endings of names. Raises ValueError with a clause that says what is wrong.
     """
-    kind = FORMATS.get(path.suffix.lower())
+    kind = formats.get(path.suffix.lower())
     if kind is None:
-        known = ", ".join(FORMATS)
-        raise ValueError(f"a mesh file's name ends in one of {known}: convert it, as with meshio convert")
+        known, what = ", ".join(formats), "mesh" if formats is FORMATS else "drawing"
+        more = ": convert it, as with meshio convert" * (formats is FORMATS)
+        raise ValueError(f"a {what} file's name ends in one of {known}{more}")
     if not path.is_file():
         raise ValueError("no such file")
     size = path.stat().st_size
@@ -132,11 +124,9 @@ def read_cells(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     return arrays.pop("points"), arrays
 
 
-def _mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
-    """The mesh of points (n, 2 or 3) [m] and of polygons of 3 and of 4 corners. Raises ValueError where these
-    name points that are not there or not finite."""
-    if points.ndim != 2 or points.shape[1] not in (2, 3):
-        raise ValueError("a point has two or three coordinates")
+def mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
+    """Return the mesh of plan points (n, 2) [m] and of polygons of 3 and of 4 corners. Raises ValueError
+    where these name points that are not there or not finite."""
     for kind, corners in cells.items():
         if corners.dtype.kind not in "iu":
             raise ValueError(f"a {kind}'s corners are no whole numbers")
@@ -149,14 +139,10 @@ def _mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
             raise ValueError(f"a corner of a {kind} is no finite number")
     used = np.unique(np.concatenate([one.ravel() for one in cells.values()]))
     points, every = points[used], {kind: np.searchsorted(used, one) for kind, one in cells.items()}
-    size = np.ptp(points, axis=0).max()
-    if points.shape[1] > 2 and (high := np.abs(points[:, 2]).max()) > ROUNDING * size:
-        raise ValueError(f"a point lies {high:g} m off the plane z = 0, in which the flat sheet is")
     corners = every.get(QUADRILATERAL, np.empty((0, 4), int))
-    places = points[:, :2]
     if TRIANGLE in every:
-        places, corners = divided(places, [corners, every[TRIANGLE]])
-    return PlanMesh(points=tuple(map(tuple, places.tolist())), quads=tuple(map(tuple, corners.tolist())))
+        points, corners = divided(points, [corners, every[TRIANGLE]])
+    return PlanMesh(points=tuple(map(tuple, points.tolist())), quads=tuple(map(tuple, corners.tolist())))
 
 
 def divided(points: np.ndarray, polygons: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

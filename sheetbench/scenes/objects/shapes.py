@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
 from math import cos, pi, sin, sqrt
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from pydantic import ConfigDict, Field
@@ -61,10 +61,19 @@ class Shape(Frozen):
     polygon: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = None
     """Corners [x, y] in turn, either way round; its sides do not cross."""
 
+    beyond: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = None
+    """Corners of a polygon, all outside which is meant: of a support what a rim is held in."""
+    hole: Annotated[int, Field(ge=1)] | None = None
+    """Of a support: the number of a hole of the sheet, that is of its cutout, or of a mesh's hole by its
+    middle's x, whose rim is held."""
+    rim: Literal[True] | None = None
+    """Of a support: the whole outline, for which where = "rim" stands too."""
+
     def _faults(self) -> Iterator[object]:
         given = self.given(type(self).model_fields)
         yield len(given) != 1 and f"{' and '.join(given) or 'empty'}: give one of rectangle, circle, polygon"
         yield self.polygon and crossing("polygon", self.polygon)
+        yield self.beyond and crossing("beyond", self.beyond)
 
     @cached_property
     def area(self) -> "Area":
@@ -80,6 +89,9 @@ class Shape(Frozen):
             x, y = self.circle.centre
             turns = [angle * n for n in range(CIRCLE_SIDES)]
             return shapely.polygons(np.array([(x + radius * cos(a), y + radius * sin(a)) for a in turns]))
+        if self.beyond is not None:
+            inside = shapely.Polygon(self.beyond)
+            return inside.envelope.buffer(max(inside.bounds), join_style="mitre").difference(inside)
         return shapely.Polygon(self.polygon)
 
     def contains(self, points: np.ndarray) -> np.ndarray:
@@ -94,6 +106,8 @@ class Shape(Frozen):
 
     def in_words(self) -> str:
         """Kind and place, in millimetres."""
+        if self.beyond is not None:
+            return f"rim, a polygon of {len(self.beyond)} corners, and beyond"
         left, low, right, high = (f"{1e3 * value:.4g}" for value in self.area.bounds)
         if self.circle is not None:
             x, y = (f"{1e3 * value:.4g}" for value in self.circle.centre)

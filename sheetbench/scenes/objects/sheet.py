@@ -5,18 +5,27 @@ An edge is named by the axis it is normal to and the end of that axis: x0, x1, y
 """
 
 from collections.abc import Iterator
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, model_validator
 
-from sheetbench.scenes.objects.plan_mesh import PlanMesh, read_mesh
+from sheetbench.scenes.objects.drawn import from_file
+from sheetbench.scenes.objects.plan_mesh import PlanMesh
 from sheetbench.scenes.objects.quantities import Frozen, Length, PlanPoint, Positive, Unit, Vector3
 from sheetbench.scenes.objects.shapes import COINCIDENT, crossing
 from sheetbench.scenes.objects.tables import Loading
 
 EdgeName = Literal["x0", "x1", "y0", "y1"]
-MeshLike = Annotated[PlanMesh, BeforeValidator(read_mesh, json_schema_input_type=str | PlanMesh)]
+Outline = Annotated[tuple[PlanPoint, ...], Field(min_length=3)]
+
+
+def _or_file(kind: Any) -> BeforeValidator:
+    """Return the mark, for the JSON Schema, of a key that a file's name may stand for."""
+    return BeforeValidator(lambda value: value, json_schema_input_type=str | kind)
+
+
+DRAWN = ("mesh", "outline")  # keys that a file's name may stand for
 Taper = Annotated[tuple[Positive, Positive], Unit("m")]
 
 
@@ -56,15 +65,35 @@ class Sheet(Frozen):
     taper_y: Taper | None = Field(default=None, kw_only=True)
     """Thickness at y0 and at y1 likewise; with taper_x the product of both over `thickness`."""
 
-    outline: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = Field(
+    outline: Annotated[Outline, Unit("m"), _or_file(Outline)] | None = Field(default=None, kw_only=True)
+    """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
+    rectangle around it, which begins at x = 0 and y = 0. Or a drawing, as "fin.dxf" or "fin.svg", relative to
+    the scene's file, whose largest ring is the outline; those within it are cutouts."""
+    mesh: Annotated[PlanMesh, _or_file(PlanMesh)] | None = Field(default=None, kw_only=True)
+    """In place of `outline`: a flat mesh in a file of Gmsh, Wavefront OBJ or another format, as "fin.msh",
+    relative to the scene's file. Its triangles and quadrilaterals are what plate, shell and solid solve on,
+    its boundary is the outline, with its holes."""
+    mesh_scale: Length | None = Field(default=None, kw_only=True)
+    """What a unit of the file of `mesh` or `outline` is, as "1 mm"; 1 m unless given, of a drawing what its
+    file says."""
+    mesh_shift: Literal["corner", "centre"] | Annotated[PlanPoint, Unit("m")] | None = Field(
         default=None, kw_only=True
     )
-    """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
-    rectangle around it, which begins at x = 0 and y = 0."""
-    mesh: MeshLike | None = Field(default=None, kw_only=True)
-    """In place of `outline`: a mesh file of Gmsh or another format (docs/limits.md), as "fin.msh", relative
-    to the scene's file. Its triangles and quadrilaterals [m] in the plane z = 0 are what plate, shell and
-    solid solve on, its boundary is the outline, with its holes."""
+    """What is added to the places of that file [m]: [dx, dy]; "corner" for what begins at x = 0 and y = 0
+    then, as drawings do unless it is given; "centre" where the file's origin is the sheet's middle."""
+    drawn_from: str | None = Field(default=None, kw_only=True)
+    """Written by the reader of that file: its name, and how its places became those here."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, data: Any) -> Any:
+        """Replace the name of a mesh's or an outline's file by what it holds."""
+        if not isinstance(data, dict) or not any(isinstance(data.get(key), str) for key in DRAWN):
+            return data
+        read = from_file(data)
+        if read.pop("holes", ()):
+            raise ValueError("outline: the drawing's holes are cutouts: give the sheet to Scene as a dict")
+        return read
 
     def _faults(self) -> Iterator[object]:
         thickness, shorter = f"thickness = {self.thickness:g} m", min(self.lengths)
@@ -74,6 +103,8 @@ class Sheet(Frozen):
             given, beside = f"{name} = [{ends[0]:g}, {ends[1]:g}] m", f"{thickness} is not between the two"
             yield not min(ends) <= self.thickness <= max(ends) and f"{given}: {beside}"
             yield max(ends) > shorter and f"{given} is more than the shorter side"
+        for key in self.given(("mesh_scale", "mesh_shift")):
+            yield f"{key}: is of a file of mesh or outline; what is given in numbers is in metres already"
         drawn = {"outline": self.outline, "mesh": self.mesh and self.mesh.points}
         one = "outline and mesh: give one of them; the outline of a mesh is its boundary"
         yield all(drawn.values()) and one
@@ -83,8 +114,17 @@ class Sheet(Frozen):
                 yield max(abs(min(places)), abs(max(places) - length)) > COINCIDENT * length and (
                     f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
                     f"have to reach from 0 to length_{name} = {length:g} m"
+                    + self._remedy(min(places), max(places) - min(places), length)
+                    * bool(self.drawn_from)
                 )
         yield self.outline and crossing("outline", self.outline)
+
+    @staticmethod
+    def _remedy(low: float, size: float, length: float) -> str:
+        """Return which key of a file's would help, after the sentence on its corners."""
+        if abs(size - length) > COINCIDENT * length:
+            return f"; mesh_scale = {length / size:.4g} times what it is makes it as long" * (size > 0.0)
+        return '; mesh_shift = "corner" puts them there'
 
     @property
     def drawn(self) -> bool:

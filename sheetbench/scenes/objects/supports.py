@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from math import pi
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, ConfigDict, Field
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field
 
 from sheetbench.scenes.objects.quantities import Angle, Frozen, Number, PlanPoint, Unit, Vector3
 from sheetbench.scenes.objects.shapes import Rectangle, Shape
@@ -50,6 +50,11 @@ class Motion(OverTime):
         return self.over_time("displacement")
 
 
+_or_rim = BeforeValidator(
+    lambda value: {"rim": True} if value == "rim" else value, json_schema_input_type=Shape | Literal["rim"]
+)
+
+
 class _EdgeSupport(Frozen):
     edge: EdgeName
     """The edge that is supported."""
@@ -65,8 +70,9 @@ class _Support(_EdgeSupport):
     # None beside `where` alone, which `require_rectangle` keeps from models that read edges
     edge: Annotated[EdgeName, Field(default=None)]
     """The edge that is supported."""
-    where: Shape | None = Field(default=None, kw_only=True)
-    """In place of `edge`: the part of the sheet that is supported."""
+    where: Annotated[Shape, _or_rim] | None = Field(default=None, kw_only=True)
+    """In place of `edge`: the part of the sheet that is supported; "rim" for all of its outline, { hole = 1 }
+    for the rim of a hole."""
 
     def _faults(self) -> Iterator[object]:
         yield (self.edge is None) == (self.where is None) and "needs one of edge and where"

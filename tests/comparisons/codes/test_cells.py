@@ -12,12 +12,15 @@ import sheetbench as sb
 from comparisons.codes.cell import MESHES, Cell, cell_of
 from comparisons.codes.cell_moduli import parameters_of
 from comparisons.codes.coefficients import limit_error, moduli_of, nearest
+from comparisons.codes.files import WRITERS
+from comparisons.codes.inverse import sheet_of
+from comparisons.codes.setup import setup
 from comparisons.codes.table import CODES
 from comparisons.models.context import running
 from lumped import moduli
 from lumped.lattice import STEPS
 from sheetbench.errors import BadInput
-from sheetbench.scenes import SpringSet
+from sheetbench.scenes import SpringSet, load
 
 SCENE = sb.load("two-edges-clamped")
 MATERIAL, THICKNESS = SCENE.material, SCENE.sheet.thickness
@@ -177,3 +180,64 @@ def test_bending_of_codes_that_are_not_run_is_that_of_their_source():
     ):
         keys = {key.name: key.value for key in parameters_of(CODES[code], own, SCENE)}
         assert keys[name] == pytest.approx(value)
+
+
+@pytest.mark.parametrize("code", [code for code in CODES if code != "discrete-shells"])
+def test_the_numbers_of_a_code_are_the_sheet_that_they_were_made_of(code):
+    """The table read both ways. Two layers of equal springs have no ν to choose: their D11 comes back."""
+    row, thickness, spacing = CODES[code], 0.002, 0.02
+    scene = load("two-edges-clamped").replace(young=1e6, poisson=1 / 3, thickness=thickness, density=1200.0)
+    if code in WRITERS:
+        keys = setup(scene.replace(length_x=0.16, length_y=0.16, probes={}), code, 8, named=False).keys
+    else:
+        cell = cell_of(row.mesh, spacing, hinge=row.hinge)
+        keys = parameters_of(row, nearest(cell, scene.material, thickness), scene)
+    found = sheet_of(code, {key.name: key.value for key in keys}, spacing=spacing)
+    assert found.bending == pytest.approx(1e6 * thickness**3 / 12 / (1 - 1 / 9), rel=1e-6)
+    if code != "pybullet":
+        got = [found.young, found.poisson, found.thickness]
+        assert got == pytest.approx([1e6, 1 / 3, thickness], rel=1e-6) and not found.impossible
+    if any(key.name in ("density", "rho") for key in keys):
+        assert (found.density, found.area_density) == pytest.approx((1200.0, 2.4), rel=1e-6)
+
+
+RECIPES = [  # codes' own examples: E h [N/m], ν, D11 [N·m], and what is said
+    ("newton", "tri_ke=1e3,tri_ka=1e3,edge_ke=10", 2666.7, 1 / 3, 1.398, "of one 74.8 mm thick"),
+    ("mujoco", "young=3e5,poisson=0,thickness=1e-2", 3000.0, 0.0, 0.03712, ""),
+    ("pybullet", "springElasticStiffness=40", 53.33, 1 / 3, None, "nothing given says how it bends"),
+    ("genesis", "stretch_compliance=1e-7,bending_compliance=1e-5", 1.333e7, 1 / 3, 1.125e5, "of one 300 mm"),
+    ("newton", "tri_ke=1e4,tri_ka=1e4,edge_ke=0", 26667.0, 1 / 3, 0.0, "D11 = 0 N·m"),
+    (
+        "openusd",
+        "physics:surfaceStretchStiffness=1e3,physics:surfaceShearStiffness=20",
+        78.4,
+        0.96,
+        None,
+        "ν =",
+    ),
+]
+
+
+@pytest.mark.parametrize(("code", "numbers", "stretching", "poisson", "bending", "said"), RECIPES)
+def test_recipes_are_sheets_or_are_said_to_be_none(capsys, code, numbers, stretching, poisson, bending, said):
+    document = json_of(capsys, "calibrate", numbers, "--from", code, "--spacing", "0.1")
+    sheet = document["sheet"]
+    assert sheet["poisson"] == pytest.approx(poisson, abs=1e-6)
+    assert sheet["membrane"] * (1 - poisson**2) == pytest.approx(stretching, rel=1e-3)
+    assert sheet["bending"] == (bending if bending is None else pytest.approx(bending, rel=1e-3))
+    assert said in document["message"] if said else not document["message"]
+
+
+@pytest.mark.parametrize(
+    ("code", "numbers", "said"),
+    [
+        ("newton", {"tri_ke": 1e3, "edge_k": 1.0}, "edge_k: Newton 1.8, VBD has tri_ke, tri_ka, edge_ke"),
+        ("newton", {"tri_ke": 1e3, "edge_ke": 1.0}, "leaves lambda_h of the membrane open"),
+        ("newton", {"tri_ke": 1e3, "tri_ka": 1e3, "edge_ke": 1.0}, "--spacing: how far apart"),
+        ("arcsim", {f"stretching {n}": 1e3 for n in (1, 2, 3, 4)}, "no isotropic sheet has these"),
+        ("newton", {}, "needs its numbers as NAME=VALUE"),
+    ],
+)
+def test_numbers_that_are_no_sheets_are_refused(code, numbers, said):
+    with pytest.raises(BadInput, match=said):
+        sheet_of(code, numbers)

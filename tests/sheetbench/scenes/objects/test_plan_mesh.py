@@ -1,6 +1,7 @@
 """Meshes of one's own from files: what they cover, what is refused, and that a scene keeps them; files of
 another person: formats that have ends, nothing read but the file, numbers that hold."""
 
+from itertools import pairwise
 from time import perf_counter
 
 import meshio
@@ -10,7 +11,7 @@ import pytest
 from sheetbench.choices import ELEMENTS
 from sheetbench.scenes import Scene, SceneError, Sheet, load
 from sheetbench.scenes.meaning.words import in_words
-from sheetbench.scenes.objects import plan_mesh
+from sheetbench.scenes.objects import mesh_reader, plan_mesh
 from sheetbench.scenes.objects.grid import elements_of
 
 SCENE = """
@@ -65,7 +66,7 @@ def test_the_boundary_of_a_mesh_is_the_outline_with_its_holes(tmp_path, file):
     assert len(scene.region.exterior.coords) == len(scene.region.interiors[0].coords) == 5
     assert len(scene.sheet.mesh.quads) == 7 * 4 + 2 * 3  # one cut into three cuts the others into four
     assert scene.probes["P1"] != (0.15, 0.15) and scene.shaped_by == "sheet.mesh"
-    assert "a mesh of 34 quadrilaterals in it, 800 cm² in all" in dict(in_words(scene))["sheet"]
+    assert f"a mesh of 34 quadrilaterals in it ({file}), 800 cm² in all" in dict(in_words(scene))["sheet"]
     (tmp_path / file).unlink()  # a scene keeps the numbers
     scene.save(tmp_path / "kept.toml")
     assert load(tmp_path / "kept.toml") == scene == Scene.model_validate(scene.document())
@@ -82,7 +83,8 @@ def test_sixteen_elements_are_the_mesh():
 GRID, QUAD = [*square(), *square(0.1)], {"quad": np.array([[0, 1, 2, 3], [4, 5, 6, 7]])}
 WRONG = {
     "lines": (GRID, {"line": np.array([[0, 1]])}, "no triangles and no quadrilaterals; its cells: line"),
-    "off the plane": (*frame(high=0.01), "a point lies 0.01 m off the plane z = 0"),
+    "a body": (frame()[0] + np.eye(17)[0][:, None] * [0, 0, 0.1], frame()[1],
+               "it is no flat sheet: its points reach over 0.3, 0.3, 0.1 along x, y and z"),
     "two pieces": ([*square(), *square(0.2, 0.2)], QUAD, "sheet.mesh: it covers 2 parts"),
     "at a point": ([*square(), *square(0.1, 0.1)], QUAD, "sheet.mesh: it covers 2 parts that are connected"),
     "crossing": (square(), {"quad": np.array([[0, 2, 1, 3]])}, "crosses itself, or is not convex"),
@@ -168,7 +170,8 @@ KNOWN = r"a mesh file's name ends in one of \.bdf, .*, \.vtu"
         ("m.inp", "*NODE\n1,0.\n*ELEMENT,TYPE=S3\n1,1,1,1\n", "a point has two or three coordinates"),
         ("m.inp", "*NODE\n1,0.,0.\n*ELEMENT,TYPE=S3\n1,1,7,8\n", "it names 7, which the file does not have"),
         ("m.obj", OBJ + "f 1 2 3 99\n", "a quad has point 98, counted from 0; the file has 4 points"),
-        ("m.obj", OBJ + "f 1 2 3 -1\n", "a quad has point -2, counted from 0"),
+        ("m.obj", OBJ + "f 1 2 3 -6\n", "a quad has point -2, counted from 0"),
+        ("m.obj", OBJ + "f 1 2 x\n", "line 5: 'f 1 2 x' is no f of Wavefront OBJ"),
         ("m.obj", OBJ.replace(".08", "nan") + "f 1 2 3 4\n", "a corner of a quad is no finite number"),
         ("m.stl", STL, "meshio cannot read it: Error"),  # after a warning of NumPy's
         ("m.off", OFF + "3 0 1 -3\n", "a triangle has point -3"),
@@ -179,6 +182,150 @@ def test_a_damaged_mesh_file_is_refused_by_name_and_fault(tmp_path, file, text, 
     (tmp_path / "m.node").write_text(NODES)
     with pytest.raises(SceneError, match=rf"own\.toml: sheet\.mesh: .*{file}: {said}"):
         load(beside(tmp_path, file, text))
+
+
+def obj(places, faces, before="", corner="{}", between=""):
+    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in places]
+    faces = [" ".join(corner.replace("{}", str(n)) for n in face) for face in faces]
+    return "\n".join([before, *lines, between, *(f"f {face}" for face in faces)]) + "\n"
+
+
+def cloth(turn=lambda x, y: (x, y, 0.0), n=3):
+    """Nine places of a square of side 1 about the origin in a plane, and its four squares."""
+    line = np.linspace(-0.5, 0.5, n)
+    places = [turn(x, y) for y in line for x in line]
+    return places, [(i + 1, i + 2, i + 5, i + 4) for i in (0, 1, 3, 4)]
+
+
+def y_up(x, y):
+    return x, 0.0, -y
+
+
+def triangles(faces):
+    return [corners for a, b, c, d in faces for corners in ((a, b, c), (a, c, d))]
+
+
+UP, YUP, ONE_NORMAL = cloth(), cloth(y_up), "vn 0 0 1\nvn 0 0 -1"
+FOUR_TEXTURES = "".join(f"vt {x} {y}\n" for x in (0, 1) for y in (0, 1))
+MAKERS = {
+    "blender": obj(*YUP, "mtllib a.mtl\no Plane", "{}/1/1", FOUR_TEXTURES + ONE_NORMAL + "\nusemtl a\ns off"),
+    "blender quads, no texture": obj(*UP, "o Grid", "{}//1", ONE_NORMAL),
+    "blender triangles, lifted": obj([(x, y, 2.0) for x, y, _ in UP[0]], triangles(UP[1]), "", "{}/2"),
+    "blender n-gon": obj([UP[0][n] for n in (0, 1, 2, 8, 6)], [(1, 2, 3, 4, 5)]),
+    "bullet z up": obj(UP[0], triangles(UP[1]), "g cloth", "{}/1/1", "vt 0 0\nvn 0 0 1"),
+    "bullet y up": obj(YUP[0], triangles(YUP[1]), "# 9 vertices", "{}/1", "vt 0 0"),
+    "sofa quads": obj(*cloth(lambda x, y: (0.0, x, y)), "g square", "{}"),
+    "sofa triangles, counted back": obj(UP[0], np.array(triangles(UP[1])) - 10, "", "{}"),
+    "sofa groups, colours": obj(*UP, "g a", "{}//1", "vn 0 0 1\ns 1").replace(" 0.000000\n", " 0.0 1 0 0\n"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("maker", MAKERS)
+def test_obj_files_are_read_as_their_makers_write_them(tmp_path, maker):
+    path = beside(tmp_path, "m.obj", MAKERS[maker], 0.25, 0.25)
+    with pytest.raises(SceneError, match=r"mesh_scale = 0\.25 times what it is makes it as long"):
+        load(path)
+    path.write_text(path.read_text().replace('"m.obj"', '"m.obj", mesh_scale = 0.25'))
+    with pytest.raises(SceneError, match='mesh_shift = "corner" puts them there'):
+        load(path)
+    read = {}
+    for shift in ('"corner"', '"centre"', "[0.125, 0.125]"):
+        text = path.read_text().replace("mesh_scale", f"mesh_shift = {shift}, mesh_scale")
+        (tmp_path / "moved.toml").write_text(text)
+        read[shift] = load(tmp_path / "moved.toml")
+    assert len(set(map(str, (scene.sheet.mesh for scene in read.values())))) == 1
+    scene = read['"corner"']
+    assert scene.region.bounds == (0.0, 0.0, 0.25, 0.25) and scene.region.area == pytest.approx(0.0625)
+    turned = {"blender": "xz", "bullet y up": "xz", "sofa quads": "yz"}.get(maker)
+    said = dict(in_words(scene))["sheet"]
+    assert f"turned from its {turned} plane" in said if turned else "turned" not in said
+    assert "1 unit of it is 250 mm, moved by 125, 125 mm" in said
+    assert Scene.model_validate(scene.document()) == scene
+
+
+def test_a_mesh_is_as_precise_as_its_file(tmp_path):
+    """A sheet of a third of a metre has its edges where its sides say, though six digits do not."""
+    points = [(x / 3, y / 3, 0.0) for x in (0, 1) for y in (0, 1)]
+    scene = load(beside(tmp_path, "m.obj", obj(points, [(1, 3, 4, 2)]), 1 / 3, 1 / 3))
+    assert scene.region.bounds == (0.0, 0.0, 1 / 3, 1 / 3)
+    with pytest.raises(SceneError, match="mesh_scale: is of a file of mesh or outline"):
+        scene.replace(mesh_scale=0.1)
+
+
+def test_a_flat_stl_is_a_sheet(tmp_path):
+    ends = ((0, 0), (0.3, 0), (0.3, 0.1)), ((0, 0), (0.3, 0.1), (0, 0.1))
+    facet = "facet normal 0 1 0\nouter loop\n{}\nendloop\nendfacet"
+    text = "\n".join(facet.format("\n".join(f"vertex {x} 7 {-y}" for x, y in one)) for one in ends)
+    scene = load(beside(tmp_path, "m.stl", f"solid a\n{text}\nendsolid a\n", 0.3, 0.1))
+    assert scene.region.bounds == (0.0, 0.0, 0.3, 0.1) and "xz plane" in scene.sheet.drawn_from
+
+
+SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100">
+<g transform="translate(10 20)"><path d="M 0 0 H 60 V 30 Q 30 50 0 30 Z"/><circle cx="20" cy="15" r="6"/>
+<text x="0" y="0">a fin</text></g></svg>"""
+
+
+@pytest.mark.parametrize("kind", ["svg", "dxf", "dxf of lines"])
+def test_an_outline_with_holes_is_read_from_a_drawing(tmp_path, kind):
+    """60 × 40 mm: a rectangle of 60 × 30 and a parabola of height 10; a hole of radius 6."""
+    pytest.importorskip("svgelements" if kind == "svg" else "ezdxf")
+    file = tmp_path / f"fin.{kind[:3]}"
+    if kind == "svg":
+        file.write_text(SVG)
+    else:
+        import ezdxf
+
+        drawing = ezdxf.new(units=4)  # mm
+        space = drawing.modelspace()
+        corners = [(10, 70), (10, 100), (70, 100), (70, 70)]
+        if kind == "dxf":
+            space.add_lwpolyline(corners)
+        else:
+            for first, second in pairwise(corners):
+                space.add_line(second, first)
+        space.add_open_spline([(70, 70), (50, 170 / 3), (30, 170 / 3), (10, 70)])
+        space.add_circle((30, 85), 6)
+        space.add_text("a fin")
+        drawing.saveas(file)
+    path = tmp_path / "own.toml"
+    path.write_text(SCENE.format(length=0.06, width=0.04, file=file.name).replace("mesh", "outline"))
+    scene = load(path)
+    hole = scene.cutouts[0].shape.area
+    assert scene.region.area + hole.area == pytest.approx(0.06 * 0.03 + 2 / 3 * 0.06 * 0.01, rel=1e-4)
+    assert hole.area == pytest.approx(np.pi * 0.006**2, rel=1e-3) and len(scene.cutouts) == 1
+    assert hole.centroid.coords[0] == pytest.approx((0.02, 0.025), abs=1e-7)
+    assert 30 < len(scene.sheet.outline) < 300
+    assert f"(fin.{kind[:3]}, 1 unit of it is " in dict(in_words(scene))["sheet"]
+    scene.save(tmp_path / "kept.toml")
+    assert load(tmp_path / "kept.toml") == scene
+    with pytest.raises(SceneError, match="holes are cutouts"):
+        Sheet(0.06, 0.04, 0.001, outline=str(file))
+
+
+def test_drawings_that_are_no_sheet_are_refused(tmp_path, monkeypatch):
+    pytest.importorskip("svgelements")
+    path = tmp_path / "own.toml"
+    path.write_text(SCENE.format(length=0.06, width=0.04, file="m.svg").replace("mesh", "outline"))
+    begin = '<svg xmlns="http://www.w3.org/2000/svg">'
+    for inside, said in (
+        ('<path d="M 0 0 L 9 0 L 9 9"/>', "its lines enclose nothing"),
+        ('<rect width="9" height="9"/><rect x="20" width="9" height="9"/>', "it encloses several parts"),
+        ("<text>a</text>", "it draws no lines"),
+    ):
+        (tmp_path / "m.svg").write_text(f"{begin}{inside}</svg>")
+        with pytest.raises(SceneError, match=rf"own\.toml: sheet\.outline: .*m\.svg: {said}"):
+            load(path)
+    (tmp_path / "m.svg").write_text("no drawing")
+    with pytest.raises(SceneError, match=r"m\.svg: svgelements cannot read it"):
+        load(path)
+
+
+def test_a_reader_that_is_missing_is_named(tmp_path, monkeypatch):
+    monkeypatch.setitem(
+        mesh_reader.DRAWINGS, "svg", ("svgelements", lambda path: __import__("no_such_reader"))
+    )
+    with pytest.raises(ValueError, match=r"svgelements: pip install 'sheetbench\[drawings\]'"):
+        mesh_reader.read(tmp_path / "m.svg", "svg")
 
 
 def test_reading_has_limits_of_time_and_memory(tmp_path, monkeypatch):

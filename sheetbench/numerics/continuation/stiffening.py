@@ -27,8 +27,8 @@ from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import Fault, LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
-LARGEST_FACTOR, SMALLEST_FACTOR = 100.0, 1.05  # of the penalties, from stage to stage
-LOOSE, CLOSE = 0.05, 1e-3  # residuals at which soft load steps end, and stages but the last
+LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to stage
+LOOSE, CLOSE = 0.05, 0.01  # residuals at which soft load steps end, and stages but the last
 PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in

@@ -13,6 +13,7 @@ from sheetbench.choices import CALIBRATIONS
 if TYPE_CHECKING:
     from comparisons.calibration.calibrate import SheetCalibration
     from comparisons.codes.cell_moduli import CellModuli
+    from comparisons.codes.inverse import SheetOfCode
     from comparisons.codes.setup import CodeSetup
 
 SUMMARIES = "; ".join(f"{name}: {method.summary}" for name, method in CALIBRATIONS.items())
@@ -48,8 +49,9 @@ def command(
     large: bool = False,
     output: OutputOptions,
 ) -> Annotated[
-    SheetCalibration | CodeSetup | CellModuli,
+    SheetCalibration | CodeSetup | CellModuli | SheetOfCode,
     "for_: SheetCalibration | CodeSetup",
+    "from_: SheetOfCode",
     "cell: CellModuli",
 ]:
     """Find spring constants for a sheet, or another code's numbers.

@@ -26,13 +26,16 @@ def test_the_table_has_every_scene_and_model():
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize(("name", "model"), CASES)
 def test_the_answers_are_those_of_the_table(name, model):
-    """In as few factorisations; on the way through snaps and folds rounding may cost one more."""
-    solution = MODELS[model](scene_of(name))
+    """In as few factorisations; on the way through snaps and folds rounding may cost one more, and what
+    touches when depends on it: with two versions of numba 100 and 122 (napkin-on-ball, solid)."""
+    scene = scene_of(name)
+    solution, touching = MODELS[model](scene), bool(scene.obstacles)
     assert solution.balance.allowed <= SHARP * solution.balance.size
-    kept, found = KEPT[name][model], document(scene_of(name), solution)
+    kept, found = KEPT[name][model], document(scene, solution)
     assert list(found["displacement"]) == list(kept["displacement"])
     assert (found["status"], found["load_factor"]) == (kept["status"], kept["load_factor"])
-    assert found["factorisations"] <= kept["factorisations"] + (name in OTHERS)
+    most = (1.3 if touching else 1.0) * kept["factorisations"] + (name in OTHERS)
+    assert found["factorisations"] <= most
     np.testing.assert_allclose(found["snaps"], kept["snaps"], atol=0.02)
     u = places(kept)
     within = ROUNDED.get((name, model), WITHIN) * np.abs(u).max()

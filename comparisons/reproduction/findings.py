@@ -41,7 +41,7 @@ class Finding:
 def of_tables(answers: Sequence[ReproducedTest]) -> Iterator[Finding]:
     for one in answers:
         comparison, table = one.comparison, published(one.test, "model")
-        yield Finding(one.title, f"{comparison.result()}.")
+        yield Finding(one.title, comparison.result())
         for solution in comparison.solutions[2:]:
             moved = np.array(list(comparison.probes(solution).values()))
             distance = np.nanmax(np.abs(moved - table)) / np.nanmax(np.abs(table))

@@ -97,7 +97,7 @@ def test_auto_says_why(capsys):
     """In the tables, beside the other remarks, and in the settings of the document."""
     why = "edge x0, bent by 4 1/m, stretches the sheet within 15.7 mm"
     arguments = ("compare", "curved-edge", "--grid", "3", "--grading", "auto", "--elements", "2")
-    assert run(*arguments, "--no-uncertainty") == 0
+    assert run(*arguments, "--no-uncertainty", "--verbose") == 0
     assert f"grading 0.3: {why}" in " ".join(capsys.readouterr().out.split())
     document = sb.simulate("curved-edge", grid=3, grading="auto", duration=1e-3).document()
     assert document["settings"]["grading"] == 0.3 and document["settings"]["grading_reason"].startswith(why)

@@ -91,7 +91,7 @@ def show(name, call, *given):
 
 @nb.njit
 def before(a):
-    return np.sort(a).sum() + np.linalg.norm(a) + np.zeros(3).sum()
+    return np.cumsum(a).sum() + np.zeros(3).sum()
 
 @nb.njit(cache=True)
 def area(x):
@@ -216,7 +216,7 @@ def state():
         "warnings": list(warnings.filters),
         "logging": (logging.root.level, list(logging.root.handlers), logging.raiseExceptions),
         "numpy": (np.geterr(), np.geterrcall(), np.get_printoptions()),
-        "blas": [(each["filepath"], each["num_threads"]) for each in threadpool_info()],
+        "blas": sorted((each["filepath"], each["num_threads"]) for each in threadpool_info()),
         "signals": {number: signal.getsignal(number) for number in signal.valid_signals()},
         "start": multiprocessing.get_start_method(allow_none=True),
         "hooks": (sys.excepthook, threading.excepthook, sys.displayhook, sys.getrecursionlimit()),

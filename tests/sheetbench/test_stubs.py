@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 import stubs
 
 import sheetbench as sb
@@ -52,6 +53,7 @@ def test_the_stub_is_that_of_the_declarations():
     assert stubs.STUB.read_text(encoding="utf-8") == stubs.stub()
 
 
+@pytest.mark.nightly
 def test_a_checker_finds_what_is_wrong_and_nothing_else(tmp_path):
     """In the tree's cache of mypy, which `make check` has filled."""
     wrong = tmp_path / "wrong.py"

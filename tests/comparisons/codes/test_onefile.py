@@ -127,7 +127,16 @@ def test_single_numbers_are_off_by_their_rounding(name, tmp_path):
 
 
 @pytest.mark.parametrize("compiler", ["gcc", "clang", "zig"])
-@pytest.mark.parametrize("name", ["lifted", "bimetal", "blown over time", "table of dampers"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "bimetal",
+        *(
+            pytest.param(name, marks=pytest.mark.nightly)
+            for name in ("lifted", "blown over time", "table of dampers")
+        ),
+    ],
+)
 @pytest.mark.parametrize("precision", ["double", "single"])
 def test_compilers_and_sanitizers_find_no_fault(compiler, name, precision, tmp_path):
     command = zig() if compiler == "zig" else [shutil.which(compiler)]

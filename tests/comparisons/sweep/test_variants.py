@@ -112,6 +112,7 @@ def test_the_function_takes_a_mapping_of_values():
     assert [row.ask.scene for row in found.rows] == [SEED.replace(thickness=h) for h in thickness.tolist()]
 
 
+@pytest.mark.nightly
 def test_twenty_variants_are_killed_and_resumed_and_are_those_of_a_cluster(tmp_path):
     """By two workers, of which nothing is left; what was kept stays, time stamps and all, and the end is what
     a local cluster of dask finds."""

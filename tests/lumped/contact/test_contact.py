@@ -293,7 +293,7 @@ def test_cradle_is_stable_and_rocks_on_grids_of_either_parity(grid, graded):
     assert slowest == pytest.approx(rocking_frequency(), rel=0.03)
 
 
-@pytest.mark.parametrize("number", [2, 22, 39, 59])
+@pytest.mark.parametrize("number", [pytest.param(2, marks=pytest.mark.nightly), 22, 39, 59])
 def test_drawn_sheet_is_not_walked_through(number):
     assert judged(number) == ""
 

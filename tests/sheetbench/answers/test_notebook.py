@@ -6,6 +6,7 @@ from dataclasses import replace
 import fake_solutions
 import nbformat
 import numpy as np
+import pytest
 from nbclient import NotebookClient
 
 import sheetbench as sb
@@ -51,6 +52,7 @@ def test_a_long_table_is_cut_and_says_so():
     assert "more rows" not in long._repr_html_() and long._repr_html_().count("<tr>") == len(long.rows) + 1
 
 
+@pytest.mark.nightly
 def test_a_notebook_is_run_and_looked_at():
     """What is done while it runs is in one place, which is empty at the end."""
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in CELLS])

@@ -276,7 +276,7 @@ class Problem(Structure[LatticeState, Residual]):
         blocks = springs.tangent(state.u, state.stresses, extrapolated=state.stresses is not None)
         factors, definite = banded.factored(blocks, band)
         step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else rows
-        if definite and math.isfinite(step.sum()):
+        if definite and math.isfinite(step @ step):
             factor = banded_factor(band, factors, partial(self.system.matrix, blocks))
             return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
         return self.solved(state, forces, load_factor, self.system.factor(blocks, count), rows)

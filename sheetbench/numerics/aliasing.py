@@ -97,11 +97,8 @@ def empty(shape: Any, dtype: Any = np.float64) -> np.ndarray:
 
 @inner()
 def zeros(shape: Any, dtype: Any = np.float64) -> np.ndarray:
-    """Return a new array of zeros, as `empty`: NumPy's takes numba three times as long to compile."""
-    out = empty(shape, dtype)
-    for i in range(out.size):
-        out.flat[i] = 0
-    return out
+    """Return a new array of zeros, as `empty`; a loop that fills it takes four times as long."""
+    return np.zeros(shape, dtype)
 
 
 constant: Any = intrinsic(prefer_literal=True)  # kinds and counts: types of literals are tried first

@@ -36,10 +36,11 @@ def json_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> Any:
 
 def one_line(capsys: pytest.CaptureFixture[str]) -> str:
     """Return the one line on standard error, without a traceback, beside which there may be the notice that
-    kernels are compiled; nothing is on standard output."""
+    kernels are compiled and how far a solve is that takes so long; nothing is on standard output."""
     printed = capsys.readouterr()
     assert printed.out == ""
-    lines = [line for line in printed.err.splitlines(keepends=True) if NOTICE not in line]
+    every = printed.err.splitlines(keepends=True)
+    lines = [line for line in every if NOTICE not in line and not line.startswith("solving ")]
     assert len(lines) == 1 and lines[0].endswith("\n")
     assert "Traceback" not in printed.err
     return lines[0]

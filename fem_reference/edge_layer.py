@@ -33,10 +33,9 @@ _VALUES = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 30.
 
 
 class Missed(NamedTuple):
-    """Parts of the edge layers that a mesh does not resolve.
-
-    share: the largest 1 − c of any edge; stiffening: the sum of 0.315 h/b (1 − c) over the edges, the
-    relative excess stiffness of a sheet that only twists."""
+    """Parts of the edge layers that a mesh does not resolve. share: the largest 1 − c of any edge;
+    stiffening: the sum of 0.315 h/b (1 − c) over the edges, the relative excess stiffness of a sheet that
+    only twists."""
 
     share: float
     stiffening: float
@@ -46,11 +45,10 @@ NOTHING = Missed(0.0, 0.0)
 
 
 def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
-    """Return the unresolved parts of the layers on the mesh of an answer, given its settings.
-
-    The mesh is graded unless the settings exclude it. Bricks (their settings have a `grading`) also have a
-    layer about as wide as the sheet is thick where its stiffness steps, and do not resolve it: they converge
-    in first order there."""
+    """Return the unresolved parts of the layers on the mesh of an answer, given its settings. The mesh is
+    graded unless the settings exclude it. Bricks (their settings have a `grading`) also have a layer about as
+    wide as the sheet is thick where its stiffness steps, and do not resolve it: they converge in first order
+    there."""
     requested = settings["elements"]
     counts = divisions(scene.sheet, requested if isinstance(requested, int) else tuple(requested))
     uniform = settings.get("graded") is False or settings.get("grading") == "uniform"

@@ -37,11 +37,9 @@ def plate(
     moving: bool = False,
     reach: float = 1.0,
 ) -> DiscretePlate:
-    """Return the discrete plate on elements along the shorter side (near-square), or (nx, ny).
-
-    graded: finer towards the edges, or equal elements; by default graded where an edge has no twisting
-    moment. section: stiffness per width, by default of material and thickness; reach: of the grading
-    (`mesh.mesh_of`)."""
+    """Return the discrete plate on elements along the shorter side (near-square), or (nx, ny). graded: finer
+    towards the edges, or equal elements; by default graded where an edge has no twisting moment. section:
+    stiffness per width, by default of material and thickness; reach: of the grading (`mesh.mesh_of`)."""
     from fem_reference.plate.discrete import DiscretePlate
 
     if graded is None:
@@ -76,11 +74,10 @@ def solid(
     moving: bool = False,
     reach: float = 1.0,
 ) -> DiscreteSolid:
-    """Return the discrete solid.
-
-    Its mesh does not depend on the reach. Without lines along x and y it has no rows along its rim: thin
-    curved bricks keep corrections from shrinking. layers: bricks through the thickness; law: a key of
-    `solid.materials.LAWS`; clamp: one of `solid.supports.CLAMPS`; grading: one of `GRADINGS`."""
+    """Return the discrete solid. Its mesh does not depend on the reach. Without lines along x and y it has no
+    rows along its rim: thin curved bricks keep corrections from shrinking. layers: bricks through the
+    thickness; law: a key of `solid.materials.LAWS`; clamp: one of `solid.supports.CLAMPS`; grading: one of
+    `GRADINGS`."""
     from fem_reference.solid.discrete import DiscreteSolid
 
     require_choice("grading", grading, GRADINGS)
@@ -94,10 +91,8 @@ SHEETS: dict[str, Callable[..., DiscreteElements]] = {"plate": plate, "shell": s
 
 
 class Division(NamedTuple):
-    """Division of a scene's sheet into elements by a model.
-
-    counts: elements along x and y; options: the model's; of_lines: whether meshes consist of lines along x
-    and y."""
+    """Division of a scene's sheet into elements by a model. counts: elements along x and y; options: the
+    model's; of_lines: whether meshes consist of lines along x and y."""
 
     scene: Scene
     model: str
@@ -126,12 +121,11 @@ class Division(NamedTuple):
 
 
 def division_of(scene: Scene, model: str, elements: Elements = 16, **requested: Any) -> Division:
-    """Return the division of a scene's sheet by a model.
-
-    Options that the model has and that are not requested: the law of the scene's rubber; no grading, where
-    the mesh is the user's own or all edges are clamped. Clamped edges have no layer of twist (`edge_layer`);
-    elements finer towards them are only larger elsewhere: with 8 a sheet bent by less than its thickness is 3
-    to 30 times as far off, and its error bars miss."""
+    """Return the division of a scene's sheet by a model. Options that the model has and that are not
+    requested: the law of the scene's rubber; no grading, where the mesh is the user's own or all edges are
+    clamped. Clamped edges have no layer of twist (`edge_layer`); elements finer towards them are only larger
+    elsewhere: with 8 a sheet bent by less than its thickness is 3 to 30 times as far off, and its error bars
+    miss."""
     parameters, defaults, borders = signature(SHEETS[model]).parameters, dict[str, Any](), borders_of(scene)
     if scene.material.law is not None:
         defaults["law"] = scene.material.law
@@ -144,9 +138,7 @@ def division_of(scene: Scene, model: str, elements: Elements = 16, **requested: 
 
 def start(sheet: DiscreteElements) -> np.ndarray:
     """Return q (N,) of a sheet in motion at t = 0: flat, or the equilibrium to start from
-    (`scenes.meaning.motion`).
-
-    Raises NoEquilibrium where no equilibrium is stable."""
+    (`scenes.meaning.motion`). Raises NoEquilibrium where no equilibrium is stable."""
     if starts_flat(sheet.scene):
         return sheet.placed(np.zeros(sheet.size), 0.0)
     kind: Any = type(sheet)

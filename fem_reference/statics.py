@@ -31,11 +31,10 @@ from sheetbench.numerics.continuation.path import Progress
 def solve(
     division: Division, branch: str = "path", near: Shape | None = None, progress: Progress | None = None
 ) -> Solution:
-    """Return the static equilibrium of a divided sheet.
-
-    branch, near: of the shell. branch: one of `choices.BRANCHES`; "buckled" leaves an unstable equilibrium
-    along its lowest mode for a stable one. near: a shape, as in `coarse_start.shaped`, near the equilibrium
-    that is sought first; where no stable one is found from there, the path starts flat."""
+    """Return the static equilibrium of a divided sheet. branch, near: of the shell. branch: one of
+    `choices.BRANCHES`; "buckled" leaves an unstable equilibrium along its lowest mode for a stable one. near:
+    a shape, as in `coarse_start.shaped`, near the equilibrium that is sought first; where no stable one is
+    found from there, the path starts flat."""
     require_choice("branch", branch, BRANCHES)
     divisions, runs, start = [division], list[Traced](), near and partial(coarse_start.shaped, near)
     while near is None and (coarser := divisions[-1].coarser()) is not None:

@@ -79,11 +79,10 @@ def family_of(scene: Scene) -> MeshFamily:
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """Answers f₁ (n, k) with their error bars; sizes: mesh sizes, the finest first.
-
-    order: observed, nan where there is none; bar: U; trusted: the order is at least ½, or nothing changed;
-    converging: whether the field, in root mean square, changes less between the two finer meshes than between
-    the two coarser, or not at all, whatever single components do."""
+    """Answers f₁ (n, k) with their error bars; sizes: mesh sizes, the finest first. order: observed, nan
+    where there is none; bar: U; trusted: the order is at least ½, or nothing changed; converging: whether the
+    field, in root mean square, changes less between the two finer meshes than between the two coarser, or not
+    at all, whatever single components do."""
 
     sizes: tuple[float, ...]
     answer: np.ndarray
@@ -125,9 +124,7 @@ def solve_with_bar(
     scene: Scene, points: np.ndarray, model: str = "shell", elements: Elements = 16, **options: Any
 ) -> tuple[Solution, Uncertainty | None]:
     """Return a reference's answer and the uncertainty of its displacement (n, 3) [m] at plan points (n, 2)
-    [m].
-
-    Solves on `coarser(elements)`; the uncertainty is None where fewer than two of the meshes have an
+    [m]. Solves on `coarser(elements)`; the uncertainty is None where fewer than two of the meshes have an
     equilibrium."""
     solutions = [solve(scene, model, elements=n, **options) for n in coarser(elements)]
     sizes = [mesh_size(scene, n) for n in coarser(elements)]
@@ -159,10 +156,9 @@ def estimate(
     layers: Sequence[Missed] = (),
     family: MeshFamily = IN_ROWS,
 ) -> Uncertainty:
-    """Return the bars of answers (n, k) on two or three meshes of rising size.
-
-    layers: the unresolved layer of each mesh, none by default. The first of several meshes of one size counts
-    (¾ and ½ of few elements). Raises BadInput for other numbers of answers."""
+    """Return the bars of answers (n, k) on two or three meshes of rising size. layers: the unresolved layer
+    of each mesh, none by default. The first of several meshes of one size counts (¾ and ½ of few elements).
+    Raises BadInput for other numbers of answers."""
     if len(answers) not in (2, 3) or len(answers) != len(sizes):
         raise BadInput(f"{len(answers)} answers on {len(sizes)} meshes: two or three of both are needed")
     layers = layers or [NOTHING] * len(sizes)

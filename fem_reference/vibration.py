@@ -57,9 +57,8 @@ class ReferenceModes(NaturalModes):
 
     def sensitivity(self, number: int) -> Any:
         """Return df/dθ [Hz per unit] by parameter name of the mode of a number, the first being 1
-        (`mode_sensitivity`).
-
-        Raises Impossible for the solid, where two frequencies coincide, and for the last mode computed."""
+        (`mode_sensitivity`). Raises Impossible for the solid, where two frequencies coincide, and for the
+        last mode computed."""
         if self.gradient_of is None:
             raise Impossible(
                 f"derivatives of frequencies: of plate and shell, without a section; not of {self.label}"

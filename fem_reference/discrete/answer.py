@@ -61,9 +61,8 @@ def traced(
     near: Callable[[Any], Start[StaticState]] | None = None,
     **options: Any,
 ) -> Traced:
-    """Return the path of a sheet that `make` builds.
-
-    near: a function of the sheet that returns the path's start; options: of `trace_path`."""
+    """Return the path of a sheet that `make` builds. near: a function of the sheet that returns the path's
+    start; options: of `trace_path`."""
     started = now()
     sheet = make()
     ready = now()
@@ -93,7 +92,6 @@ def path_status(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
 
 def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
     """Return the equilibrium on any flat mesh of quadrilaterals [m], of the shell also biquadratic ones.
-
     Supports and loads act on the mesh's boundaries named like their edges ("x0", …), which may lie anywhere;
     the scene's sheet contributes only its thickness, and the lengths of edges with actuators."""
     kind: Any = model
@@ -104,7 +102,6 @@ def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
 
 def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
     """Return the solution of the first run; the other runs are its preparation, the last of them earliest.
-
     settings: added to the settings of the sheet."""
     path = runs[0].path
     shape, share = shape_of(path), path.load_factor

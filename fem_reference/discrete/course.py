@@ -24,10 +24,8 @@ def factor_at(factor: Factor, at: float) -> float:
 
 
 def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
-    """Yield scenes with a part of the loads each, and the factor of that part.
-
-    Statics have one part with all loads; a motion has one part a load, without their histories and without
-    the loads let go at the start."""
+    """Yield scenes with a part of the loads each, and the factor of that part. Statics have one part with all
+    loads; a motion has one part a load, without their histories and without the loads let go at the start."""
     if not moving:
         yield scene, float  # the load factor itself
         return
@@ -42,10 +40,8 @@ def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
 
 
 def commands_of(scene: Scene, moving: bool) -> tuple[Scene, list[Factor]]:
-    """Return a scene, and for each of its actuators the factor of its curvature.
-
-    A motion's chain with a curvature table has the curvature 1 1/m in that scene, and the table as its
-    factor."""
+    """Return a scene, and for each of its actuators the factor of its curvature. A motion's chain with a
+    curvature table has the curvature 1 1/m in that scene, and the table as its factor."""
     if not moving:
         return scene, [float] * len(scene.actuators)  # the load factor itself
     actuators, factors = list(scene.actuators), list[Factor]()

@@ -30,11 +30,10 @@ if TYPE_CHECKING:
 
 
 class DiscreteElements(Discrete):
-    """Discrete sheet of elements.
-
-    element: all elements; sites: indices of their vectors (m, a) among all; held: mask of held coordinates of
-    positions; pattern: of the tangent, the plan's elements first and then the rods' sides. creep: drag σ and
-    strains e_n (m, k) of a step of creep, which adds σ D (e − e_n) to the stresses, D at zero strain."""
+    """Discrete sheet of elements. element: all elements; sites: indices of their vectors (m, a) among all;
+    held: mask of held coordinates of positions; pattern: of the tangent, the plan's elements first and then
+    the rods' sides. creep: drag σ and strains e_n (m, k) of a step of creep, which adds σ D (e − e_n) to the
+    stresses, D at zero strain."""
 
     element: Any
     sites: np.ndarray

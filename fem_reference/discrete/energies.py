@@ -12,9 +12,8 @@ from fem_reference.shell.element import weighed
 
 @dataclass(frozen=True)
 class SheetMotion:
-    """Coordinates (N,), their rates, accelerations and the integrator's accelerations at a time [s].
-
-    exerted: M a + g (N,); memory: of the material's branches."""
+    """Coordinates (N,), their rates, accelerations and the integrator's accelerations at a time [s]. exerted:
+    M a + g (N,); memory: of the material's branches."""
 
     time: float
     q: np.ndarray
@@ -38,10 +37,8 @@ def energies(sheet: DiscreteElements, motion: SheetMotion) -> tuple[float, float
 
 def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:
     """Return (2,): the energy [J] that dampers dissipate in a step, and the work [J] of prescribed motions
-    and loads.
-
-    Both are forces times changes of coordinates; dampers use the forces that the step balances. late: weight
-    of the step's end in them."""
+    and loads. Both are forces times changes of coordinates; dampers use the forces that the step balances.
+    late: weight of the step's end in them."""
     h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
     rate = (1.0 - late) * start.v + late * end.v
     shape = sheet.shape(middle, 0.5 * (start.time + end.time), step / h)

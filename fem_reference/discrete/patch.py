@@ -24,9 +24,7 @@ FULL = 1e-12  # least value of a square that is positive all over, relative to t
 
 def roots(c: np.ndarray) -> np.ndarray:
     """Return the real parts (e, n) of the roots of polynomials with coefficients c (e, n + 1), clipped to
-    [−1, 1].
-
-    Coefficients are in ascending order."""
+    [−1, 1]. Coefficients are in ascending order."""
     n = c.shape[1] - 1
     least = LEADING * np.abs(c).max(axis=1) + 1e-300
     leading = np.where(np.abs(c[:, -1]) < least, least, c[:, -1])

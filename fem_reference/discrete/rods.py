@@ -40,10 +40,9 @@ BENT = {"normal": (NORMAL,), "inplane": (INPLANE,), "spatial": (NORMAL, INPLANE)
 
 
 class Rods:
-    """The rods of a scene's chains among the coordinates (N,) of a sheet.
-
-    bound: rods bound to the sheet's vectors; size: N; commands: the curvatures' factors; places: of φ, d, m
-    (9,) in Q; linear: strains are linear about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q."""
+    """The rods of a scene's chains among the coordinates (N,) of a sheet. bound: rods bound to the sheet's
+    vectors; size: N; commands: the curvatures' factors; places: of φ, d, m (9,) in Q; linear: strains are
+    linear about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q."""
 
     def __init__(
         self,

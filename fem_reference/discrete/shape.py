@@ -13,9 +13,7 @@ from sheetbench.scenes.objects.relaxation import BranchStep
 
 class SheetShape:
     """Coordinates q and rates v (N,), zero where None, of a sheet (`discrete.sheet`) at `at`, a load factor
-    or time [s].
-
-    branches: the step of its Maxwell branches that ends there."""
+    or time [s]. branches: the step of its Maxwell branches that ends there."""
 
     def __init__(
         self,

@@ -214,10 +214,8 @@ class Discrete(ABC):
         self, shape: SheetShape, residual: np.ndarray, a: np.ndarray | None = None
     ) -> tuple[list[OnEdge], dict[str, np.ndarray], np.ndarray]:
         """Return the rods' forces on their edges, the wrenches of the actuators' segments, and the line force
-        (n, 3) [N/m].
-
-        A wrench is the force and moment (segments, 6) [N, N·m] on the sheet. residual: M ü + g (N,); a: ü
-        (N,), 0 by default."""
+        (n, 3) [N/m]. A wrench is the force and moment (segments, 6) [N, N·m] on the sheet. residual: M ü + g
+        (N,); a: ü (N,), 0 by default."""
         edges = list[OnEdge]()
         for body in self.bodies:
             pull = body.pull(shape.q, body.stress(shape))

@@ -27,9 +27,8 @@ OnRods = tuple[np.ndarray, ...]
 
 @dataclass(frozen=True)
 class StaticState:
-    """Coordinates q (N,) with extrapolated stresses, or without, where the stresses of q itself count.
-
-    stress (m, k) of the elements; pressure, where the law has one of its own; on_rods (k, s) of the rods."""
+    """Coordinates q (N,) with extrapolated stresses, or without, where the stresses of q itself count. stress
+    (m, k) of the elements; pressure, where the law has one of its own; on_rods (k, s) of the rods."""
 
     q: np.ndarray
     stress: np.ndarray | None = None
@@ -39,9 +38,8 @@ class StaticState:
 
 @dataclass(frozen=True)
 class Forces:
-    """Forces of a state: shape, stresses (k, s) of the rods, residual (N,).
-
-    size: of the balancing forces [N]; short: the step (N,) to the prescribed displacements."""
+    """Forces of a state: shape, stresses (k, s) of the rods, residual (N,). size: of the balancing forces
+    [N]; short: the step (N,) to the prescribed displacements."""
 
     shape: SheetShape
     on_rods: OnRods

@@ -52,11 +52,9 @@ class Sampled(NamedTuple):
 
 
 class ConstrainedAlpha(MotionMethod[SheetMotion]):
-    """Steps of a reference.
-
-    step [s]: fixed, or None for one by the error; first: the first one tried. adapts, span, kinks: of
-    `sheetbench.numerics.time.method`. Steps end at samples of a sheet with chains: their firm stiffnesses
-    make much energy of the small strains that a cubic within a step leaves."""
+    """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
+    adapts, span, kinks: of `sheetbench.numerics.time.method`. Steps end at samples of a sheet with chains:
+    their firm stiffnesses make much energy of the small strains that a cubic within a step leaves."""
 
     state, remembered = SheetMotion, ("_before", "_largest", "_local", "_euler")
     control: Controller
@@ -118,9 +116,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
 
     def _remembered(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
         """Return the memory (1 + b, 2, m) at the end of a step of the branches: stresses, strains and the
-        branches' parts.
-
-        Without a step it is the memory at rest; without branches it is empty."""
+        branches' parts. Without a step it is the memory at rest; without branches it is empty."""
         material_branches, shape = self._model.branches, self._model.shape(q, 1.0)
         if not material_branches.times:
             return np.zeros(0)
@@ -131,9 +127,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
     ) -> Advance[SheetMotion]:
         """Return the motion from a time on, with prescribed velocities, accelerations of its forces, and the
-        work of jumps.
-
-        branches: their step until then; at rest without one."""
+        work of jumps. branches: their step until then; at rest without one."""
         model = self._model
         basis = model.basis(q)
         rate = model.rate_placed(q, v, time)
@@ -183,9 +177,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
 
     def _advanced(self, motion: SheetMotion, h: float, step: AlphaStep) -> SheetMotion:
         """Return the end of a step of h [s] by Newton's iteration, with factors kept while corrections shrink
-        to `QUICK`.
-
-        Raises StepFailed, SingularMatrixError."""
+        to `QUICK`. Raises StepFailed, SingularMatrixError."""
         model, time = self._model, motion.time + h
         branches = self._branches(motion, time)
 
@@ -194,30 +186,26 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
             exerted = model.mass @ a + model.forces(model.shape(q, time, v, branches))
             return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
-        motion_end = at(model.placed(step.guess, time))
-        largest = max(self._largest, self._reach(motion_end.q))
+        end = at(model.placed(step.guess, time))
+        largest = max(self._largest, self._reach(end.q))
         tolerance = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:
             self._factor = None
         last = 0.0
         for _ in range(CORRECTIONS):
-            basis = model.basis(motion_end.q)
+            basis = model.basis(end.q)
             if self._factor is None:
-                shape = model.shape(motion_end.q, time, motion_end.v, branches)
-                matrix = model.tangent(shape, motion_end.exerted, step.by_a, step.by_v)
+                shape = model.shape(end.q, time, end.v, branches)
+                matrix = model.tangent(shape, end.exerted, step.by_a, step.by_v)
                 self._factor, self._taken = self._solver.factor(matrix), h
-            move = basis @ self._factor.solve_unrefined(-(basis.T @ motion_end.exerted))
+            move = basis @ self._factor.solve_unrefined(-(basis.T @ end.exerted))
             length = self._reach(move)
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")
-            motion_end = at(model.moved(motion_end.q, move))
+            end = at(model.moved(end.q, move))
             ratio = length / last if last else 1.0
             if length * min(ratio, 1.0) <= tolerance:
-                return (
-                    replace(motion_end, memory=self._remembered(motion_end.q, branches))
-                    if branches
-                    else motion_end
-                )
+                return replace(end, memory=self._remembered(end.q, branches)) if branches else end
             if last and ratio > QUICK:
                 self._factor = None
             last = length

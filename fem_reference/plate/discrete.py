@@ -42,7 +42,6 @@ from sheetbench.scenes.meaning.natural_state import NaturalState
 
 class DiscretePlate(DiscreteShell):
     """Plate of a scene on any flat mesh of straight-sided quadrilaterals [m]; BadInput for folded ones.
-
     section: stiffness per width, by default of material and thickness."""
 
     model = "plate"

@@ -30,10 +30,8 @@ MEMBRANE, BENDING, SHEAR = slice(0, 3), slice(3, 6), slice(6, 8)
 @dataclass(frozen=True)
 class PlateElements(Element):
     """Elements whose strains (ε, κ, γ) at 9 Gauss points each are linear in the change of their vectors: e =
-    B q, (9 m, 8).
-
-    stiffness: per strain, times a point's area (9 m, 8, 8); gradient: ∇N at the Gauss points (m, 9, 2, 9);
-    forms: B (m, 72, 54)."""
+    B q, (9 m, 8). stiffness: per strain, times a point's area (9 m, 8, 8); gradient: ∇N at the Gauss points
+    (m, 9, 2, 9); forms: B (m, 72, 54)."""
 
     gradient: np.ndarray
     forms: np.ndarray

@@ -28,9 +28,7 @@ SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
 
 def strained(elements: PlateElements, change: np.ndarray, strain: np.ndarray) -> float:
     """Return the largest slope, turn, or double the mean strain along x or y of an element; linear theory
-    ends at 1 of each.
-
-    change: of the vectors (m, 18, 3); strain: (9 m, 8)."""
+    ends at 1 of each. change: of the vectors (m, 18, 3); strain: (9 m, 8)."""
     by_xy = elements.gradient @ change[:, None, :9]  # of u, v and w by x and y, (m, 9, 2, 3)
     inplane = 0.5 * (by_xy[:, :, 0, 1] - by_xy[:, :, 1, 0])
     tilt, slope = np.linalg.norm(change[:, 9:], axis=2), np.linalg.norm(by_xy[..., 2], axis=2)
@@ -40,9 +38,8 @@ def strained(elements: PlateElements, change: np.ndarray, strain: np.ndarray) ->
 
 
 def buckling_load(shape: SheetShape) -> float | None:
-    """Return the lowest positive share of the load at which the in-plane forces buckle the plate.
-
-    shape: under the full load; the result is None for forces that cannot buckle it, or hardly."""
+    """Return the lowest positive share of the load at which the in-plane forces buckle the plate. shape:
+    under the full load; the result is None for forces that cannot buckle it, or hardly."""
     sheet, elements = shape.sheet, shape.sheet.element
     force = shape.elastic[:, MEMBRANE] / elements.areas.reshape(-1, 1)  # [N/m]
     xx, yy, xy = force.T

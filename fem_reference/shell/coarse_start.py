@@ -43,10 +43,8 @@ _ENDS = np.cumsum([len(points.T) for points in _TO_NODES.values()])
 
 
 def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
-    """Return the elements along x and y of the coarse mesh to begin with, if there is one.
-
-    Rods have unknowns of their own, and a sheet that is not flat at rest may buckle otherwise on a coarse
-    mesh."""
+    """Return the elements along x and y of the coarse mesh to begin with, if there is one. Rods have unknowns
+    of their own, and a sheet that is not flat at rest may buckle otherwise on a coarse mesh."""
     if min(counts) < FINE or scene.actuators or scene.natural_by or scene.obstacles:
         return None
     return counts[0] // COARSER, counts[1] // COARSER
@@ -75,10 +73,8 @@ def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[
 
 
 def shaped(shape: Shape, sheet: DiscreteShell) -> Start[StaticState]:
-    """Return the state, without membrane stress, of a shell in a given shape.
-
-    shape: a function from points (k, 3) [m] of the flat sheet, on its normals, to their displacement (k, 3)
-    [m]."""
+    """Return the state, without membrane stress, of a shell in a given shape. shape: a function from points
+    (k, 3) [m] of the flat sheet, on its normals, to their displacement (k, 3) [m]."""
     nodes = sheet.plan.nodes
     flat, above = (np.column_stack([nodes, np.full(len(nodes), height)]) for height in (0.0, 1.0))
     displacement = shape(flat)

@@ -10,9 +10,8 @@ from sheetbench.numerics.options import njit
 
 @njit
 def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """Return orthonormal T (n, 3, 2) with T ⊥ d.
-
-    axes: number of the axis that is the first tangent (n,), −1 for any tangent."""
+    """Return orthonormal T (n, 3, 2) with T ⊥ d. axes: number of the axis that is the first tangent (n,), −1
+    for any tangent."""
     out = empty((len(directors), 3, 2))
     for n in range(len(directors)):
         x, y, z = directors[n, 0], directors[n, 1], directors[n, 2]
@@ -42,10 +41,8 @@ def multiplier(directors: np.ndarray, couple: np.ndarray) -> np.ndarray:
 
 def projected(tangent: np.ndarray, frames: np.ndarray) -> np.ndarray:
     """Return tangents (m, 45, 45) in the elements' unknowns, from tangents (m, 18, 3, 18, 3) of loads on
-    them.
-
-    Unknowns: displacements of nine nodes, then two rotations β of nine directors, δd = T β; frames: T (m, 9,
-    3, 2)."""
+    them. Unknowns: displacements of nine nodes, then two rotations β of nine directors, δd = T β; frames: T
+    (m, 9, 3, 2)."""
     m = len(tangent)
     turned = tangent[:, :, :, 9:].reshape(m, 54, 9, 3).swapaxes(1, 2) @ frames
     columns = tangent[:, :, :, :9].reshape(m, 18, 3, 27), turned.swapaxes(1, 2).reshape(m, 18, 3, 18)

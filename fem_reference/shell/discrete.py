@@ -55,9 +55,8 @@ from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
 class DiscreteShell(DiscreteElements):
-    """Shell of a scene on a flat mesh, at rest unless it is moving.
-
-    moves, turns: numbers of unknowns (n, 3) of every node and (n + p, 2) of every director, −1 where held."""
+    """Shell of a scene on a flat mesh, at rest unless it is moving. moves, turns: numbers of unknowns (n, 3)
+    of every node and (n + p, 2) of every director, −1 where held."""
 
     model = "shell"
     norm: ClassVar[int] = 1
@@ -99,9 +98,8 @@ class DiscreteShell(DiscreteElements):
         self.bind(bound)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[Any, NaturalState | None]:
-        """Return all elements, and their natural strains.
-
-        Raises BadInput for a law that the scene's material or a section of the caller's own does not have."""
+        """Return all elements, and their natural strains. Raises BadInput for a law that the scene's material
+        or a section of the caller's own does not have."""
         scene, nodes = self.scene, self.plan.corners
         require_law(law, LAWS, scene)
         if law == STRAIN_LAW:
@@ -128,9 +126,7 @@ class DiscreteShell(DiscreteElements):
 
     def with_scene(self, scene: Scene) -> Self:
         """Return the sheet at rest with supports, loads, chains and natural state of another scene of equal
-        plan.
-
-        It keeps its own elements."""
+        plan. It keeps its own elements."""
         other = copy(self)
         for name in ("_inertia", "sheet_mass", "mass"):
             vars(other).pop(name, None)

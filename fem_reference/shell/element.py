@@ -99,9 +99,8 @@ OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their 
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²].
-
-    parts: slices of the strains by kind."""
+    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]. parts:
+    slices of the strains by kind."""
 
     reference: np.ndarray
     stiffness: np.ndarray
@@ -110,9 +109,8 @@ class Element:
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
-        """Return elements with nodes at plan positions (m, 9, 2) [m].
-
-        Raises BadInput if an element is inverted."""
+        """Return elements with nodes at plan positions (m, 9, 2) [m]. Raises BadInput if an element is
+        inverted."""
         return cls(*built(nodes, *section))
 
     @cached_property
@@ -133,9 +131,8 @@ class Element:
         return np.asarray(np.linalg.norm(across, axis=2))
 
     def strain(self, change: np.ndarray) -> np.ndarray:
-        """Return sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors.
-
-        They are the product of q with their derivatives half way, which keeps the digits of a small q."""
+        """Return sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors. They are
+        the product of q with their derivatives half way, which keeps the digits of a small q."""
         return self.step(self.reference + 0.5 * change, change)
 
     def operator(self, change: np.ndarray) -> np.ndarray:
@@ -175,7 +172,6 @@ class Element:
 
     def resultants(self, values: Values, strain: np.ndarray) -> tuple[np.ndarray, ...]:
         """Return N, M (m, 9, 3) and Q (m, 9, 2), times areas, at the Gauss points under strains (m, 54).
-
         values: the constants of the sheet."""
         (stretch, curvature, slant), section = self.at_points(strain), section_with(values)
         area = self.areas[..., None]
@@ -221,11 +217,9 @@ def upright(nodes: np.ndarray) -> np.ndarray:
 
 @cached(last=4, most=1 << 16)
 def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return matrices that make Cartesian strains at the Gauss points of sampled ones, and areas.
-
-    Matrices of membrane and bending strains [xx, yy, 2xy], (m, 9, 3, 21) each, and of shear strains [xz, yz],
-    (m, 9, 2, 12); areas w |det J| (m, 9) [m²]. nodes: (m, 9, 2) [m]. Raises BadInput if an element is
-    inverted."""
+    """Return matrices that make Cartesian strains at the Gauss points of sampled ones, and areas. Matrices of
+    membrane and bending strains [xx, yy, 2xy], (m, 9, 3, 21) each, and of shear strains [xz, yz], (m, 9, 2,
+    12); areas w |det J| (m, 9) [m²]. nodes: (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
     jacobian = jacobians(nodes, AT_GAUSS[1])
     # A side along an axis gets a slant of exactly zero, so that D couples neither rr nor ss with rs.
     jacobian[np.abs(jacobian) < ROUNDED * np.abs(jacobian).max(axis=(1, 2, 3), keepdims=True)] = 0.0
@@ -243,9 +237,7 @@ def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np
 
 
 def _spread(pull: np.ndarray, *onto: np.ndarray) -> np.ndarray:
-    """Return the matrix (m, 9, a, Σ k) from samples to strains at the Gauss points.
-
-    pull: of covariant strains there (m, 9, a, c); onto: for each covariant strain, its interpolation (9, k).
-    """
+    """Return the matrix (m, 9, a, Σ k) from samples to strains at the Gauss points. pull: of covariant
+    strains there (m, 9, a, c); onto: for each covariant strain, its interpolation (9, k)."""
     parts = [np.einsum("ega,gk->egak", pull[..., c], weights) for c, weights in enumerate(onto)]
     return np.concatenate(parts, axis=-1)

@@ -32,10 +32,9 @@ _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
 
 @dataclass(frozen=True)
 class HyperelasticElement(Element):
-    """Elements of a material and its law.
-
-    stiffness: D at zero strain; membrane, bending: T (m, 9, 3, 21); slanted: T of shear (m, 9, 2, 12);
-    heights, weights: ζ [m] and ∫ dζ [m] of points through the thickness, (3,)."""
+    """Elements of a material and its law. stiffness: D at zero strain; membrane, bending: T (m, 9, 3, 21);
+    slanted: T of shear (m, 9, 2, 12); heights, weights: ζ [m] and ∫ dζ [m] of points through the thickness,
+    (3,)."""
 
     law: Law
     material: Material
@@ -48,9 +47,8 @@ class HyperelasticElement(Element):
 
     @classmethod
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
-        """Return elements with nodes at plan positions (m, 9, 2) [m].
-
-        Raises BadInput if an element is inverted."""
+        """Return elements with nodes at plan positions (m, 9, 2) [m]. Raises BadInput if an element is
+        inverted."""
         linear, half = built(nodes, *section_of(material, thickness)), 0.5 * thickness
         return cls(*linear, law, material, *cartesian(nodes)[:3], half * _LEVELS, half * _SHARES)
 

@@ -129,19 +129,16 @@ def _change_of_determinant(strain: np.ndarray) -> np.ndarray:
 
 
 class Law(NamedTuple):
-    """Law of a sheet's material.
-
-    response: of a material at strains (…, 3); stands_any_strain: whether it is meant for large strains, at
-    which its sheets get thinner."""
+    """Law of a sheet's material. response: of a material at strains (…, 3); stands_any_strain: whether it is
+    meant for large strains, at which its sheets get thinner."""
 
     response: Callable[[Material, np.ndarray], Triad]
     stands_any_strain: bool = True
 
     def thickness(self, material: Material, strain: np.ndarray) -> Triad:
-        """Return the stretch of the thickness j^(−ν/(1 − ν)) (…) and its derivatives by the strain (…, 3).
-
-        It holds at small strains, and at any strain for ν = ½; it is 1 for a law that is not for large
-        strains."""
+        """Return the stretch of the thickness j^(−ν/(1 − ν)) (…) and its derivatives by the strain (…, 3). It
+        holds at small strains, and at any strain for ν = ½; it is 1 for a law that is not for large strains.
+        """
         if not self.stands_any_strain:
             zeros = np.zeros_like(strain)
             return Triad(1.0 + zeros[..., 0], zeros, outer(zeros, zeros))

@@ -31,7 +31,6 @@ def sampled(nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
 
 def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
     """Return the section per area and strain of the drawn sheet, from a section per natural area and strain.
-
     corners: the elements' nodes (m, 9, 2) [m]."""
     state = natural_at(stretched(scene), AT_GAUSS[0] @ corners)
     if state is None or not (strain := state.at()[0]).any():

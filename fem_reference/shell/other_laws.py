@@ -35,10 +35,8 @@ SAME = 1e-6  # residual, relative to the forces, up to which the rebuilt mesh re
 
 def shift(scene: Scene, answer: Solution) -> float | None:
     """Return the larger distance of the shells of `OTHERS` from a shell's answer, over its largest
-    displacement at probes.
-
-    It is None, unknown, for sheets that are not uniform, actuators, sections and meshes of the caller's own,
-    and for answers that a mesh of their settings does not reproduce."""
+    displacement at probes. It is None, unknown, for sheets that are not uniform, actuators, sections and
+    meshes of the caller's own, and for answers that a mesh of their settings does not reproduce."""
     settings = answer.settings
     supported = {"elements", "graded", "law"} == set(settings) and settings["law"] == STRAIN_LAW
     if not supported or not scene.uniform or scene.actuators or len(scene.probe_points()) == 0:

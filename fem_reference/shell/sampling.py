@@ -37,9 +37,8 @@ def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> n
 
 @inner(fastmath=REORDERED)
 def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.ndarray) -> None:
-    """Write B (54, 18, 3) of one element into zeros; membrane strains leave the directors' part zero.
-
-    at: scratch (6, 54)."""
+    """Write B (54, 18, 3) of one element into zeros; membrane strains leave the directors' part zero. at:
+    scratch (6, 54)."""
     _weighed(vectors, tables, at)
     for k in range(PLANE):
         b = PLANE + k

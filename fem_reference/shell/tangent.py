@@ -35,10 +35,9 @@ def add_tangents(
     slots: np.ndarray,
     data: np.ndarray,
 ) -> None:
-    """Add K of elements to the data of a matrix, at slots (m, 45, 45), −1 for none.
-
-    Elements have vectors (m, 18, 3), D (m, 54, 54) and Σ s_k H_k (m, 9, 18), rows of positions; frames: T (n,
-    3, 2) of all nodes; nodes: (m, 9); tables: of `sampling`."""
+    """Add K of elements to the data of a matrix, at slots (m, 45, 45), −1 for none. Elements have vectors (m,
+    18, 3), D (m, 54, 54) and Σ s_k H_k (m, 9, 18), rows of positions; frames: T (n, 3, 2) of all nodes;
+    nodes: (m, 9); tables: of `sampling`."""
     plane, strains = PLANE, tables.shape[1]
     gradient, at = zeros((strains, 54)), empty((6, strains))
     weighed, lower = empty((strains, ALL)), empty((UNKNOWNS, ALL))
@@ -70,9 +69,8 @@ def add_tangents(
 
 @njit(inline="always")
 def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: np.ndarray) -> None:
-    """Add D B, without rotations in the rows of membrane strains.
-
-    Blocks of D that are zero are left out: they are many where sides lie along the axes."""
+    """Add D B, without rotations in the rows of membrane strains. Blocks of D that are zero are left out:
+    they are many where sides lie along the axes."""
     for k in range(0, len(out), AT_ONCE):
         columns = FEW if k < PLANE else ALL
         start, end = k // PLANE * PLANE, min((k // PLANE + 1) * PLANE, len(out))

@@ -45,9 +45,8 @@ def stretched(path: Path[StaticState, Forces]) -> Fault | None:
 
 
 def inverted(element: Element, change: np.ndarray) -> str:
-    """Return a sentence on the element that is turned inside out most, "" for none.
-
-    change: of the elements' vectors (m, 18, 3)."""
+    """Return a sentence on the element that is turned inside out most, "" for none. change: of the elements'
+    vectors (m, 18, 3)."""
     value, slope = AT_GAUSS
     current = element.reference + change
     along, across, director = slope[0] @ current[:, :9], slope[1] @ current[:, :9], value @ current[:, 9:]

@@ -55,9 +55,7 @@ from sheetbench.scenes import Scene
 
 class DiscreteSolid(DiscreteElements):
     """Solid of a scene on columns of bricks, layer by layer over a plan mesh of straight-sided
-    quadrilaterals.
-
-    It is at rest unless it is moving."""
+    quadrilaterals. It is at rest unless it is moving."""
 
     model = "solid"
     norm: ClassVar[int] = 2

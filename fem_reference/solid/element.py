@@ -63,12 +63,10 @@ def shape(local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class Reference:
-    """Arrays that all elements share.
-
-    points: (3, q) Gauss points, q = 27; weights: (q,); forms: H (k, 27, 27); assumed, lost: (q, 6, k)
-    covariant strains at the Gauss points, engineering shears, from the samples: the part that interpolation
-    keeps and the part that it drops; levels: (q, q) 1 where two points are of one height; modes: (q, 6) of
-    the projection."""
+    """Arrays that all elements share. points: (3, q) Gauss points, q = 27; weights: (q,); forms: H (k, 27,
+    27); assumed, lost: (q, 6, k) covariant strains at the Gauss points, engineering shears, from the samples:
+    the part that interpolation keeps and the part that it drops; levels: (q, q) 1 where two points are of one
+    height; modes: (q, 6) of the projection."""
 
     points: np.ndarray
     weights: np.ndarray
@@ -104,7 +102,6 @@ def reference() -> Reference:
 @dataclass(frozen=True)
 class Bricks:
     """m elements of one material, or of constants (m, 1) of their own. positions: X (m, 27, 3) [m].
-
     to_strain: (m, q, 6, k) Cartesian strain of the samples; volumes: (m, q) [m³]."""
 
     positions: np.ndarray
@@ -239,9 +236,8 @@ class Bricks:
 
 def at_rest(drawn: Bricks, scene: Scene) -> tuple[Bricks, NaturalState | None]:
     """Return the bricks of a scene's natural state, from bricks of the drawn sheet, and their natural strains
-    (m, k).
-
-    Natural strains are of the stretch U(z) = 1 + e0 − z k0, z from the middle, which keeps the thickness."""
+    (m, k). Natural strains are of the stretch U(z) = 1 + e0 − z k0, z from the middle, which keeps the
+    thickness."""
     sampled = np.concatenate([np.array(sites) for sites in SAMPLED]).T
     sites = shape((sampled + 1.0) / 2.0)[0].T @ drawn.positions  # (m, k, 3)
     points = shape(reference().points)[0].T @ drawn.positions[..., :2]

@@ -38,10 +38,9 @@ _DOUBLE = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
 
 @dataclass(frozen=True)
 class SolidLaw:
-    """Law of a solid's material, in two triads.
-
-    distortion: material and E → triad of W₀ [Pa]; volume: E → triad of ϑ; bulk: Λ [Pa] of a material;
-    quadratic: whether W is quadratic in E, as in laws for small strains only."""
+    """Law of a solid's material, in two triads. distortion: material and E → triad of W₀ [Pa]; volume: E →
+    triad of ϑ; bulk: Λ [Pa] of a material; quadratic: whether W is quadratic in E, as in laws for small
+    strains only."""
 
     distortion: Callable[[Any, np.ndarray], Triad]
     volume: Callable[[np.ndarray], Triad]
@@ -56,9 +55,8 @@ def lame(material: Material | Constants) -> tuple[float, float]:
 
 
 def _green_bulk(material: Material | Constants) -> float:
-    """Return λ; for fibres the bulk modulus K less two thirds of the mean shear modulus, at least 0.
-
-    1/K is the sum of all compliances of stretch; the remaining distortional energy is positive."""
+    """Return λ; for fibres the bulk modulus K less two thirds of the mean shear modulus, at least 0. 1/K is
+    the sum of all compliances of stretch; the remaining distortional energy is positive."""
     if isinstance(material, Material) or not material.plies:
         return lame(material)[0]
     (ply,) = material.plies

@@ -34,9 +34,8 @@ MOST_BRICKS = 12  # through the thickness of a laminate
 
 @dataclass(frozen=True)
 class Columns:
-    """Columns of nodes over n plan nodes, extruded to a thickness [m] in layers.
-
-    taper: thickness of each column over the sheet's, (n,), or 1."""
+    """Columns of nodes over n plan nodes, extruded to a thickness [m] in layers. taper: thickness of each
+    column over the sheet's, (n,), or 1."""
 
     plan: Plan
     thickness: float
@@ -127,9 +126,7 @@ def _require_meshable(scene: Scene, law: str) -> None:
 
 def bricks_through(scene: Scene, layers: int) -> int:
     """Return the number of bricks through the thickness: as requested, or the next with faces between all
-    plies.
-
-    Raises BadInput for a laminate that needs more than `MOST_BRICKS`."""
+    plies. Raises BadInput for a laminate that needs more than `MOST_BRICKS`."""
     if not scene.layers:
         return layers
     plies = of_sheet(scene).plies
@@ -144,9 +141,8 @@ def bricks_through(scene: Scene, layers: int) -> int:
 
 
 def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Constants:
-    """Return the constants of bricks; in a laminate each brick has the constants of its ply.
-
-    middles (layers · m, 1, 2) [m]: centres of their plan elements, layer by layer."""
+    """Return the constants of bricks; in a laminate each brick has the constants of its ply. middles (layers
+    · m, 1, 2) [m]: centres of their plan elements, layer by layer."""
     constants = constants_at(scene, middles)
     if not scene.layers:
         return constants

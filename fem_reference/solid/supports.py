@@ -45,9 +45,8 @@ CLAMPS = ("shell-like", "mean", "full")
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """Held components of columns.
-
-    edges: name → components q that it holds (n, levels, 3); by_mean: (n,), columns whose mean is held."""
+    """Held components of columns. edges: name → components q that it holds (n, levels, 3); by_mean: (n,),
+    columns whose mean is held."""
 
     line: Supports
     columns: Columns

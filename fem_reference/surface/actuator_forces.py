@@ -41,9 +41,7 @@ def exerted(
     scene: Scene, edges: Iterable[OnEdge], moved: dict[str, Driven], held: HoldingForces
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Return each actuator's wrench on the sheet, and the rods' line force (n, 3) [N/m], zero off their
-    edges.
-
-    A wrench is the force and moment (segments, 6) [N, N·m] of its segments, by the actuator's name."""
+    edges. A wrench is the force and moment (segments, 6) [N, N·m] of its segments, by the actuator's name."""
     wrenches, line = {}, np.zeros_like(held.position)
     for rod, nodal, position, director in edges:
         if rod.base is not None:  # the base's holding force reaches the sheet through the rod
@@ -75,9 +73,8 @@ def line_force(rod: Rod, nodal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def by_segment(rod: Rod, nodal: np.ndarray, position: np.ndarray, director: np.ndarray) -> np.ndarray:
-    """Return force and moment (segments, 6) [N, N·m] on the sheet, from nodal ones (p, 6).
-
-    position, director: φ [m] and d (p, 3) at the nodes of the edge."""
+    """Return force and moment (segments, 6) [N, N·m] on the sheet, from nodal ones (p, 6). position,
+    director: φ [m] and d (p, 3) at the nodes of the edge."""
     force, couple = line_force(rod, nodal)
     points, segments = np.empty((len(rod.line), 2)), rod.chain.segments
     points[rod.places] = rod.elements.reference[:, :3, :2]

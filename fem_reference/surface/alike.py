@@ -29,10 +29,8 @@ DIAGONALS = np.sqrt(0.5) * np.array([[1.0, -1.0], [1.0, 1.0]])  # normals of mir
 
 
 class PlanCells(NamedTuple):
-    """Quadrilaterals (q, 4) and triangles (t, 3) of points (n, 2), counter-clockwise.
-
-    across: (t,) the number of the mirror under a triangle's first side, where it is to be joined with its
-    image; else −1."""
+    """Quadrilaterals (q, 4) and triangles (t, 3) of points (n, 2), counter-clockwise. across: (t,) the number
+    of the mirror under a triangle's first side, where it is to be joined with its image; else −1."""
 
     points: np.ndarray
     quads: np.ndarray
@@ -41,10 +39,9 @@ class PlanCells(NamedTuple):
 
 
 class CentredPlan(NamedTuple):
-    """Plan about the origin, with the map back: x = p turn + centre.
-
-    mirrors: normals of lines through the origin across which it is its own image, in the order of unfolding;
-    turns (n, 2, 2): where there are no mirrors, the rotations that map it to itself, the identity first."""
+    """Plan about the origin, with the map back: x = p turn + centre. mirrors: normals of lines through the
+    origin across which it is its own image, in the order of unfolding; turns (n, 2, 2): where there are no
+    mirrors, the rotations that map it to itself, the identity first."""
 
     region: BaseGeometry
     inner: BaseGeometry
@@ -98,9 +95,7 @@ class CentredPlan(NamedTuple):
 
     def cut(self, borders: Sequence[LineString]) -> tuple[np.ndarray, np.ndarray]:
         """Return a mask of the part's borders that lie on a mirror and are no borders of the plan, and the
-        mirrors' numbers.
-
-        The number is −1 unless the mirror is a diagonal."""
+        mirrors' numbers. The number is −1 unless the mirror is a diagonal."""
         import shapely
 
         plan_borders = shapely.union_all([self.region.boundary, self.inner])
@@ -115,9 +110,8 @@ class CentredPlan(NamedTuple):
         self, part: PlanCells, ends: np.ndarray, places: np.ndarray
     ) -> tuple[PlanCells, np.ndarray, np.ndarray]:
         """Return the cells of the part with their images, ends and places; a triangle on a diagonal becomes a
-        quadrilateral.
-
-        ends (k, 2): vertices of sides on borders; places (k, 3, 2): of the sides' quarter points."""
+        quadrilateral. ends (k, 2): vertices of sides on borders; places (k, 3, 2): of the sides' quarter
+        points."""
         at, quads, triangles, across = part
         for number, normal in enumerate(self.mirrors):
             away = at @ normal
@@ -136,9 +130,8 @@ class CentredPlan(NamedTuple):
         return PlanCells(at, quads, triangles, across), ends, places
 
     def back(self, mesh: MeshQuad, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
-        """Return a mesh and places (k, 2) in the plan's original position.
-
-        Points on its bounds up to rounding are moved onto the bounds."""
+        """Return a mesh and places (k, 2) in the plan's original position. Points on its bounds up to
+        rounding are moved onto the bounds."""
         half = np.ptp(np.reshape(self.region.bounds, (2, 2)), axis=0) @ np.abs(self.turn) / 2.0
 
         def moved(points: np.ndarray) -> np.ndarray:
@@ -161,13 +154,9 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
     )
     keys = [[_ordered(part, turn).ravel().tolist() for part in (rims, lines)] for turn in TURNS]
     turn = TURNS[keys.index(max(keys))]
-    symmetries = [other @ turn.T for other, key in zip(TURNS, keys, strict=True) if key == max(keys)]
+    images = [other @ turn.T for other, key in zip(TURNS, keys, strict=True) if key == max(keys)]
     axes, diagonals = (
-        [
-            normal
-            for normal in normals
-            if any(np.array_equal(reflection(normal), symmetry) for symmetry in symmetries)
-        ]
+        [normal for normal in normals if any(np.array_equal(reflection(normal), image) for image in images)]
         for normals in (np.eye(2), DIAGONALS)
     )
     cuts = (*diagonals[: 1 if axes else 2], *axes)  # with both axes and diagonals an eighth remains
@@ -177,7 +166,7 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
 
     borders = shapely.multilinestrings(_ordered(lines, turn))
     region = shapely.normalize(shapely.transform(region, to_place))
-    return CentredPlan(region, borders, centre, turn, cuts, np.array(symmetries[:1] if cuts else symmetries))
+    return CentredPlan(region, borders, centre, turn, cuts, np.array(images[:1] if cuts else images))
 
 
 def reflection(normal: np.ndarray) -> np.ndarray:

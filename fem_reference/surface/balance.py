@@ -39,9 +39,8 @@ _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 
 @dataclass(frozen=True)
 class Surface:
-    """Deformed sheet: its plan, φ [m] and d (n, 3) of the nodes.
-
-    own: whether the mesh has an outline of its own, in place of the scene's sheet."""
+    """Deformed sheet: its plan, φ [m] and d (n, 3) of the nodes. own: whether the mesh has an outline of its
+    own, in place of the scene's sheet."""
 
     plan: Plan
     position: np.ndarray
@@ -104,10 +103,8 @@ def left_over(
     allowed: float,
     share: float,
 ) -> Balance:
-    """Return the balance of a model under a share of the load.
-
-    reactions: of its supports, by name; held: places and forces with which it is held, pairs (…, 3); size and
-    allowed: fields of `Balance`."""
+    """Return the balance of a model under a share of the load. reactions: of its supports, by name; held:
+    places and forces with which it is held, pairs (…, 3); size and allowed: fields of `Balance`."""
     force, moment = applied(scene, surface, edges)
     longest = float(np.ptp(surface.plan.nodes, axis=0).max())
     turning = [np.cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
@@ -172,9 +169,8 @@ def _area(where: Shape | None, surface: Surface) -> tuple[np.ndarray, np.ndarray
 
 
 def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.ndarray]:
-    """Return force [m²] and moment [m³] of a unit pressure.
-
-    The rim of the pressed part runs clockwise, the sheet to its right."""
+    """Return force [m²] and moment [m³] of a unit pressure. The rim of the pressed part runs clockwise, the
+    sheet to its right."""
     plan, mesh = surface.plan, surface.plan.mesh
     inside = np.isin(mesh.f2t, plan.within(where))
     facets = np.flatnonzero(inside.sum(axis=0) == 1)

@@ -80,9 +80,7 @@ def require_upright(area: np.ndarray) -> None:
 
 def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
     """Return the matrix from covariant to Cartesian strain, both with engineering shears, components by
-    pairs.
-
-    inverse: ξ_b,x_c (…, b, c)."""
+    pairs. inverse: ξ_b,x_c (…, b, c)."""
     out = np.zeros((*inverse.shape[:-2], len(pairs), len(pairs)), inverse.dtype)
     for row, (i, j) in enumerate(pairs):
         for column, (a, b) in enumerate(pairs):

@@ -58,9 +58,8 @@ def straight_parts(lines: BaseGeometry) -> np.ndarray:
 
 
 def borders_of(scene: Scene) -> Borders | None:
-    """Return the borders in a scene's plan, None for a whole rectangle without any.
-
-    Patches of the sheet's own constants have none."""
+    """Return the borders in a scene's plan, None for a whole rectangle without any. Patches of the sheet's
+    own constants have none."""
     shapes, points = shapes_of(scene), [s.at for s in scene.supports if isinstance(s, Point)]
     if not (shapes or points or scene.pierced):
         return None
@@ -76,7 +75,6 @@ def borders_of(scene: Scene) -> Borders | None:
 
 def without_slivers(parts: Sequence[BaseGeometry], width: float) -> list[BaseGeometry]:
     """Return a region and lines with common points wherever borders are within a width [m] of each other.
-
     Between a circle and a polygon with its corners on the circle, for example, no element is upright."""
     import shapely
 

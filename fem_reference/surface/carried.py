@@ -21,9 +21,7 @@ from sheetbench.scenes import Scene
 
 def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Yield for each payload its elements (k,) and masses of vectors: of the mid-surface (k, 9, 9) [kg], of
-    the directors.
-
-    The directors' are by component x, y and z, (3, k, 9, 9) [kg m²]."""
+    the directors. The directors' are by component x, y and z, (3, k, 9, 9) [kg m²]."""
     for payload in scene.masses:
         if payload.at is None:
             on = plan.within(payload.where)

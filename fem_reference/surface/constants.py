@@ -28,7 +28,6 @@ TINY = 1e-30
 
 def values_of(scene: Scene, corners: np.ndarray, natural: bool) -> Values:
     """Return the constants of a scene's sheet at the Gauss points of elements with nodes (m, 9, 2) [m].
-
     Constants of plies have the ply's number in front, a rubber's the keys of its law; natural: with the
     natural strain."""
     constants = constants_of(scene, corners)

@@ -35,10 +35,8 @@ _CROSS = np.cross(np.eye(3)[:, None], np.eye(3)).swapaxes(1, 2)  # (a × b)_c = 
 
 @dataclass(frozen=True)
 class FollowerPressure:
-    """Pressure [Pa] on elements (k,).
-
-    orientation: (k,) +1 where r, s run counter-clockwise, else −1; conservative: whether the rim of the
-    pressed part sweeps no area (`scenes.encloses_volume`)."""
+    """Pressure [Pa] on elements (k,). orientation: (k,) +1 where r, s run counter-clockwise, else −1;
+    conservative: whether the rim of the pressed part sweeps no area (`scenes.encloses_volume`)."""
 
     value: float
     elements: np.ndarray
@@ -68,10 +66,8 @@ class FollowerPressure:
 
 @dataclass(frozen=True)
 class Line:
-    """Element sides along an edge.
-
-    elements: (k,); sides, nodes: (k, 3) along ν × e_z, numbers in the element and in the plan; speed: |X,ξ|
-    (k, 3) [m] at three Gauss points."""
+    """Element sides along an edge. elements: (k,); sides, nodes: (k, 3) along ν × e_z, numbers in the element
+    and in the plan; speed: |X,ξ| (k, 3) [m] at three Gauss points."""
 
     elements: np.ndarray
     sides: np.ndarray
@@ -154,9 +150,7 @@ def spread(plan: Plan, nodes: np.ndarray, shares: np.ndarray, force: np.ndarray)
 
 def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
     """Return dead forces (2 n, 3) [N, N m] on positions, then directors of nodes, and the loads that follow
-    the sheet.
-
-    The mesh carries the edges' names; every load has the last factor of its history."""
+    the sheet. The mesh carries the edges' names; every load has the last factor of its history."""
     corners, followers = plan.corners, list[Follower]()
     dead, on_directors = [np.zeros((len(plan.nodes), 3))], np.zeros((len(plan.nodes), 3))
     if scene.gravity is not None:

@@ -22,9 +22,8 @@ _NEWTON = 8
 
 
 def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return elements (n,) and their coordinates r, s (2, n) in [−1, 1] of plan points (n, 2) [m].
-
-    Raises BadInput, naming the first one, if a point is off the mesh."""
+    """Return elements (n,) and their coordinates r, s (2, n) in [−1, 1] of plan points (n, 2) [m]. Raises
+    BadInput, naming the first one, if a point is off the mesh."""
     nodes = mesh.doflocs[:, mesh.dofs.element_dofs]  # (2, 4 or 9, m)
     low, high = nodes.min(axis=1), nodes.max(axis=1)
     bulge = SLACK if nodes.shape[1] == 4 else 0.25  # a curved side leaves the box of its nodes
@@ -53,7 +52,6 @@ def interpolate(
     mesh: MeshQuad, element_nodes: np.ndarray, nodal: np.ndarray, points: np.ndarray
 ) -> np.ndarray:
     """Return a biquadratic nodal field (n, k) at plan points (p, 2) [m]: (p, k); element_nodes: (m, 9).
-
     Raises BadInput off the mesh."""
     element, value = shares(mesh, points)
     return np.einsum("pi,pik->pk", value, nodal[element_nodes[element]])
@@ -61,9 +59,7 @@ def interpolate(
 
 def shares(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the elements (p,) of plan points (p, 2) [m], and the shape functions of their nodes there (p,
-    9).
-
-    Raises BadInput off the mesh."""
+    9). Raises BadInput off the mesh."""
     return _shares(type(mesh), mesh.doflocs, mesh.t, points)
 
 

@@ -26,10 +26,9 @@ SHEAR_CORRECTION = 5.0 / 6.0
 
 
 class Section(NamedTuple):
-    """Stiffness of the sheet per unit of its width, in Voigt order.
-
-    Membrane A (3, 3) [N/m], bending D (3, 3) [N·m], shear (2, 2) [N/m] and mixed B (3, 3) [N], with N = A E +
-    B κ and M = B E + D κ; of a nonuniform sheet at the Gauss points, (m, 9, …)."""
+    """Stiffness of the sheet per unit of its width, in Voigt order. Membrane A (3, 3) [N/m], bending D (3, 3)
+    [N·m], shear (2, 2) [N/m] and mixed B (3, 3) [N], with N = A E + B κ and M = B E + D κ; of a nonuniform
+    sheet at the Gauss points, (m, 9, …)."""
 
     membrane: np.ndarray
     bending: np.ndarray
@@ -38,9 +37,8 @@ class Section(NamedTuple):
 
 
 def constants_of(scene: Scene, corners: np.ndarray) -> Constants:
-    """Return a scene's constants at the Gauss points of elements with nodes (m, 9, 2) [m].
-
-    They are numbers for a uniform sheet, else (m, 9)."""
+    """Return a scene's constants at the Gauss points of elements with nodes (m, 9, 2) [m]. They are numbers
+    for a uniform sheet, else (m, 9)."""
     return constants_at(scene, AT_GAUSS[0] @ corners)
 
 
@@ -66,7 +64,6 @@ def green(stretch: np.ndarray) -> np.ndarray:
 
 def grown(section: Section, strain: np.ndarray) -> Section:
     """Return the section per area and strain of the drawn sheet, from a section per natural area and strain.
-
     strain: e0 (…, 2, 2)."""
     stretch = np.eye(2) + strain
     inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]
@@ -78,10 +75,8 @@ def grown(section: Section, strain: np.ndarray) -> Section:
 
 
 def stretched(scene: Scene) -> Scene:
-    """Return the scene with the natural strain that gives its pretension.
-
-    The stress of that strain, referred to the natural sides, is the tension of a sheet held at its drawn
-    size, where the stretch is 1."""
+    """Return the scene with the natural strain that gives its pretension. The stress of that strain, referred
+    to the natural sides, is the tension of a sheet held at its drawn size, where the stretch is 1."""
 
     def tension(strain: np.ndarray) -> np.ndarray:
         inside = strain[[[0, 2], [2, 1]]]

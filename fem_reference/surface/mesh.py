@@ -35,7 +35,6 @@ _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 
 def divisions(sheet: Sheet, elements: Elements) -> tuple[int, int]:
     """Return the elements along x and y: a given pair, or the counts of `scenes.objects.grid.elements_of`.
-
     Raises BadInput for fewer than one element."""
     counts = elements if isinstance(elements, tuple) else elements_of(sheet, elements)
     if min(counts) < 1:
@@ -44,10 +43,9 @@ def divisions(sheet: Sheet, elements: Elements) -> tuple[int, int]:
 
 
 def spacing(count: int, layer: int) -> np.ndarray:
-    """Return fractions (count + 1,) of a side, finer towards both ends over `layer` elements in all.
-
-    Sizes go like sin π(i + ½)/layer at the ends and are equal between: with layer = count the Chebyshev
-    points ½ (1 − cos π i/count), with layer = 1 equal spacing."""
+    """Return fractions (count + 1,) of a side, finer towards both ends over `layer` elements in all. Sizes go
+    like sin π(i + ½)/layer at the ends and are equal between: with layer = count the Chebyshev points ½ (1 −
+    cos π i/count), with layer = 1 equal spacing."""
     from_end = np.minimum(np.arange(count), np.arange(count)[::-1]) + 0.5
     size = np.sin(np.pi * np.minimum(from_end / layer, 0.5))
     return np.concatenate([[0.0], np.cumsum(size)]) / size.sum()
@@ -55,10 +53,8 @@ def spacing(count: int, layer: int) -> np.ndarray:
 
 def rectangle(sheet: Sheet, elements: Elements, graded: bool = False) -> MeshQuad:
     """Return a mesh of the sheet whose boundaries carry the edges' names, uniform or graded towards all
-    edges.
-
-    At edges a clamp that ends at a free edge has a singularity and a thick sheet has boundary layers: with as
-    many elements, the error is far smaller."""
+    edges. At edges a clamp that ends at a free edge has a singularity and a thick sheet has boundary layers:
+    with as many elements, the error is far smaller."""
     return _tensor(*_lines(sheet, divisions(sheet, elements), graded, ()), *sheet.lengths)
 
 
@@ -99,10 +95,8 @@ class Plan:
 
     def touching(self, shape: Shape) -> np.ndarray:
         """Return the nodes (k,) of the elements in a shape, or, if there are none, of the rim's sides that it
-        touches.
-
-        The distance to a touched side is small against its length: the shape may have more corners than the
-        mesh."""
+        touches. The distance to a touched side is small against its length: the shape may have more corners
+        than the mesh."""
         inside = self.within(shape)
         if len(inside):
             return np.unique(self.elements[inside])
@@ -138,12 +132,11 @@ def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tu
 
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
-    """Return the mesh of a scene's sheet; its planes of symmetry are no edges (see `rectangle`).
-
-    Sides of elements lie on the borders of shapes. If all borders lie along the axes, lines near them are
-    moved there, with more lines where there are fewer than borders; else see `outlined`. A sheet's own mesh
-    is taken where it has as many elements, unchanged or with each cut into 4, 16, …; none of its meshes has
-    thinner rows along rims."""
+    """Return the mesh of a scene's sheet; its planes of symmetry are no edges (see `rectangle`). Sides of
+    elements lie on the borders of shapes. If all borders lie along the axes, lines near them are moved there,
+    with more lines where there are fewer than borders; else see `outlined`. A sheet's own mesh is taken where
+    it has as many elements, unchanged or with each cut into 4, 16, …; none of its meshes has thinner rows
+    along rims."""
     counts, lengths = divisions(scene.sheet, elements), scene.sheet.lengths
     graded = graded and scene.sheet.mesh is None
     if (own_mesh := _own_mesh(scene.sheet, counts)) is not None:
@@ -223,9 +216,8 @@ def _with_rows(lines: np.ndarray) -> np.ndarray:
 
 
 def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
-    """Return the lines with some moved to the sides, at least one each, and the others in proportion.
-
-    Sides in mirror symmetry with one in the middle have an even number of elements."""
+    """Return the lines with some moved to the sides, at least one each, and the others in proportion. Sides
+    in mirror symmetry with one in the middle have an even number of elements."""
     count, places, length = max(len(lines) - 1, len(sides) + 1), sides.tolist(), float(lines[-1])
     if len(sides) % 2 and is_mirrored(places, length):
         count += count % 2

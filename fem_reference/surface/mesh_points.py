@@ -71,31 +71,27 @@ class SizeField(NamedTuple):
     @classmethod
     def of(cls, region: BaseGeometry, borders: Sequence[LineString], coarse: float) -> SizeField:
         """Return the sizes by the turns of borders, and by the gaps across the sheet between borders that do
-        not touch.
-
-        Finer meshes divide both more finely; coarse: the usual size of elements over the actual one, at most
-        1."""
+        not touch. Finer meshes divide both more finely; coarse: the usual size of elements over the actual
+        one, at most 1."""
         import shapely
 
         places, sizes = [], []
         for border in borders:
-            equally_spaced = np.linspace(0.0, border.length, 2 + int(SAMPLES * border.length))
+            spaced = np.linspace(0.0, border.length, 2 + int(SAMPLES * border.length))
             turning, radii = _radii(border)
-            along = np.concatenate([equally_spaced, turning])
+            along = np.concatenate([spaced, turning])
             points = shapely.line_interpolate_point(border, along)
-            local_sizes = np.minimum(
-                1.0, coarse * TURN * np.append(np.full(len(equally_spaced), np.inf), radii)
-            )
+            near_sizes = np.minimum(1.0, coarse * TURN * np.append(np.full(len(spaced), np.inf), radii))
             for other in borders:
                 if not border.touches(other) and other is not border:
                     across = shapely.shortest_line(points, other)
                     middle = shapely.line_interpolate_point(across, 0.5, normalized=True)
                     gap = np.maximum(coarse * shapely.length(across), NARROWEST)
-                    near = gap < local_sizes
+                    near = gap < near_sizes
                     near[near] = shapely.contains(region, middle[near])
-                    local_sizes[near] = gap[near]
+                    near_sizes[near] = gap[near]
             places.append(shapely.get_coordinates(points))
-            sizes.append(np.maximum(local_sizes, SMALLEST))
+            sizes.append(np.maximum(near_sizes, SMALLEST))
         small = np.concatenate(sizes) < 1.0
         field = cls(np.concatenate(places)[small], np.concatenate(sizes)[small])
         return cls(*(part[field._first] for part in field))
@@ -132,7 +128,6 @@ def divided_borders(
     borders: Sequence[LineString], size: SizeField, diagonal: np.ndarray
 ) -> tuple[np.ndarray, Sides]:
     """Return points (n, 2) along the borders, common where several meet, and the sides between them.
-
     diagonal: mask of borders that are diagonals of squares."""
     import shapely
 
@@ -173,9 +168,8 @@ def filling(
     orbits: Callable[[np.ndarray], np.ndarray],
 ) -> np.ndarray:
     """Return inner points (n, 2): a row along borders, the squares' points across diagonals, then a
-    quadtree's corners.
-
-    orbits: a function from points (k, 2) to images (m, n, 2), points that are kept or dropped together."""
+    quadtree's corners. orbits: a function from points (k, 2) to images (m, n, 2), points that are kept or
+    dropped together."""
     import shapely
 
     closed = np.array([border.is_closed for border in borders])
@@ -193,16 +187,13 @@ def filling(
     points = points[shapely.contains_xy(region, points)]
     distances = shapely.distance(shapely.points(points), shapely.multilinestrings(borders))
     images = orbits(points[distances > CLEARANCE * size.at(points)])
-    points, copies = images.reshape(-1, 2), images.shape[1]
-    clearance, kept = CLEARANCE * size.at(points), np.ones(len(images), bool)
+    points, turns = images.reshape(-1, 2), images.shape[1]
+    gaps, kept = CLEARANCE * size.at(points), np.ones(len(images), bool)
     from scipy.spatial import KDTree  # not loaded for rectangles
 
-    for first, second in sorted(KDTree(points).query_pairs(clearance.max(initial=0.0))):
-        if (
-            kept[first // copies]
-            and NEAR < np.linalg.norm(points[first] - points[second]) < clearance[second]
-        ):
-            kept[second // copies] = False
+    for first, second in sorted(KDTree(points).query_pairs(gaps.max(initial=0.0))):
+        if kept[first // turns] and NEAR < np.linalg.norm(points[first] - points[second]) < gaps[second]:
+            kept[second // turns] = False
     return np.unique(np.round(images[kept].reshape(-1, 2), 9), axis=0)
 
 

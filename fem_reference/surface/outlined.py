@@ -57,10 +57,9 @@ TOO_CLOSE = (
 def quadrilaterals(
     region: BaseGeometry, inner: BaseGeometry, spacing: tuple[float, float], graded: bool = False
 ) -> MeshQuad2:
-    """Return a mesh of a plan region with elements of about the spacing along x and y [m].
-
-    inner: lines within the region for sides of elements; graded: the row along the rim is cut into thinner
-    ones. Raises NoMesh where borders lie too close to each other to be meshed."""
+    """Return a mesh of a plan region with elements of about the spacing along x and y [m]. inner: lines
+    within the region for sides of elements; graded: the row along the rim is cut into thinner ones. Raises
+    NoMesh where borders lie too close to each other to be meshed."""
     from shapely import affinity
 
     unit = 2.0 * np.array(spacing)
@@ -137,10 +136,9 @@ def _keys(ends: np.ndarray, count: int) -> np.ndarray:
 def _joined(
     points: np.ndarray, triangles: np.ndarray, sides: Sides, mirror: np.ndarray, plan: CentredPlan
 ) -> PlanCells:
-    """Return the quadrilaterals of two triangles each, the best first, and the remaining triangles.
-
-    mirror: (k,) the number of the diagonal under a side, across which a triangle is joined with its image; −1
-    else."""
+    """Return the quadrilaterals of two triangles each, the best first, and the remaining triangles. mirror:
+    (k,) the number of the diagonal under a side, across which a triangle is joined with its image; −1 else.
+    """
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     keys, borders = _keys(edges, len(points)), _keys(sides.ends, len(points))
     order = np.argsort(keys, kind="stable")
@@ -185,9 +183,7 @@ def _angles(corners: np.ndarray) -> np.ndarray:
 
 def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
     """Return the mesh of every cell's corners with its centre, and the mid-side vertices (k,) of sides on
-    borders.
-
-    ends (k, 2): the sides' vertices; places (k, 2): of their middles."""
+    borders. ends (k, 2): the sides' vertices; places (k, 2): of their middles."""
     count, cells = len(part.points), [part.quads, part.triangles]
     vertices, elements = divided(part.points, cells)
     edges = [np.stack([cell, np.roll(cell, -1, axis=1)], axis=-1).reshape(-1, 2) for cell in cells]
@@ -230,9 +226,7 @@ def _worst(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
 
 def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray, np.ndarray]:
     """Return the mesh with further rows along its rim, for which its vertices move inwards; also ends and
-    places.
-
-    ends (k, 2), places (k, 2): of sides on borders and of their middles."""
+    places. ends (k, 2), places (k, 2): of sides on borders and of their middles."""
     keys, rim = _keys(ends, mesh.nvertices), mesh.boundary_facets()
     on_rim = _places(_keys(mesh.facets[:, rim].T, mesh.nvertices), keys)
     inner = np.setdiff1d(np.arange(len(ends)), on_rim)
@@ -268,7 +262,7 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
     new = [len(points) + rim_number[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))]
     rows, shares = [*new, ends[on_rim]], [0.0, *LAYERS]
     moved = points + LAYERS[-1] * move
-    vertices_of_rows = np.concatenate(
+    row_points = np.concatenate(
         [moved, *(points[vertices] + share * move[vertices] for share in shares[:-1])]
     )
     turned = along[:, 0] * normal[:, 1] < along[:, 1] * normal[:, 0]
@@ -276,7 +270,7 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
     row_quads = [np.where(turned[:, None], quads[:, ::-1], quads) for quads in row_quads]
     in_rows = [places[on_rim] + share * in_middle[on_rim] for share in shares]
     return (
-        mesh_of_cells(vertices_of_rows, np.concatenate([mesh.t.T, *row_quads])),
+        mesh_of_cells(row_points, np.concatenate([mesh.t.T, *row_quads])),
         np.concatenate([ends[inner], *rows]),
         np.concatenate([places[inner] + LAYERS[-1] * in_middle[inner], *in_rows]),
     )

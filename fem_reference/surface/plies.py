@@ -61,7 +61,6 @@ def shear_moduli(ply: Ply) -> np.ndarray:
 
 def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.ndarray, ...]:
     """Return A (…, 3, 3) [N/m], D (…, 3, 3) [N·m], S (…, 2, 2) [N/m] and B (…, 3, 3) [N] of a sheet's plies.
-
     thickness: of the sheet (…) [m]."""
     moduli = [plane_stress(ply) for ply in plies]
     stretching, mixed, bending = (

@@ -49,10 +49,9 @@ _SAMPLES = 400  # of a side, for the mean of a piecewise curvature
 
 
 class RodElements(NamedTuple):
-    """Sides with s strains of a vectors each, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀ (see `discrete.rods`).
-
-    reference: Q₀ (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s, c) of the
-    curvatures of all actuators."""
+    """Sides with s strains of a vectors each, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀ (see `discrete.rods`). reference: Q₀
+    (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s, c) of the curvatures of all
+    actuators."""
 
     reference: np.ndarray
     forms: np.ndarray
@@ -62,10 +61,9 @@ class RodElements(NamedTuple):
 
 @dataclass(frozen=True)
 class Rod:
-    """Rod along an edge of p nodes: its chains by name, and its k sides as elements.
-
-    nodes: (k, 3) of the sheet; places: (k, 3) in `line` (p,), the sheet's nodes along the edge; elements: of
-    Q = (φ, d, m); base: place of the held node, or None; offset: of the axis along the director [m]."""
+    """Rod along an edge of p nodes: its chains by name, and its k sides as elements. nodes: (k, 3) of the
+    sheet; places: (k, 3) in `line` (p,), the sheet's nodes along the edge; elements: of Q = (φ, d, m); base:
+    place of the held node, or None; offset: of the axis along the director [m]."""
 
     chains: Mapping[str, Chain]
     nodes: np.ndarray
@@ -82,9 +80,8 @@ class Rod:
 
 
 def of_scene(scene: Scene, plan: Plan) -> list[Rod]:
-    """Return the rods of a scene's chains, one an edge.
-
-    Raises BadInput for an edge that is not straight or has no node where a base is held."""
+    """Return the rods of a scene's chains, one an edge. Raises BadInput for an edge that is not straight or
+    has no node where a base is held."""
     return [_rod(scene, edge, chains, plan) for edge, chains in scene.chains().items()]
 
 
@@ -130,9 +127,7 @@ def _rod(scene: Scene, edge_name: str, chains: Mapping[str, Chain], plan: Plan) 
 
 def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarray:
     """Return the curvature at the two Gauss points (k, 2) with the work of the piecewise one on linear
-    fields.
-
-    along: distance from the start of the edge (k, 3) [m] of the sides' nodes."""
+    fields. along: distance from the start of the edge (k, 3) [m] of the sides' nodes."""
     bounds, values = chain.pieces() * length / chain.segments, chain.curvatures().at()
     xi = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * 2.0 - 1.0
     at = along[:, :1] + 0.5 * (xi + 1.0) * (along[:, 2:] - along[:, :1])
@@ -206,10 +201,9 @@ def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
 
 @dataclass(frozen=True)
 class BoundRods:
-    """Rods of a scene among the vectors (N, 3) of a model, the sheet's first, then the rods' own.
-
-    elements: all rods' sides; sites: (k, a) of Q among the model's vectors; own: the rods' own vectors at
-    rest (q, 3), which come last; held: (q,) whether a base holds them."""
+    """Rods of a scene among the vectors (N, 3) of a model, the sheet's first, then the rods' own. elements:
+    all rods' sides; sites: (k, a) of Q among the model's vectors; own: the rods' own vectors at rest (q, 3),
+    which come last; held: (q,) whether a base holds them."""
 
     rods: tuple[Rod, ...]
     elements: RodElements
@@ -229,11 +223,9 @@ def bound(
     of_sheet: Callable[[Rod], tuple[RodElements, np.ndarray]],
     directors: int = 1,
 ) -> BoundRods:
-    """Return the rods on a sheet with `first` vectors.
-
-    of_sheet: returns a rod's sides, of `vectors` vectors each, and the indices of the first ones (k, …) among
-    the sheet's. The last ones are `directors` directors of the rod's own at three nodes; each director has
-    all nodes of a rod in sequence."""
+    """Return the rods on a sheet with `first` vectors. of_sheet: returns a rod's sides, of `vectors` vectors
+    each, and the indices of the first ones (k, …) among the sheet's. The last ones are `directors` directors
+    of the rod's own at three nodes; each director has all nodes of a rod in sequence."""
     shapes = (vectors, 3), (1, vectors, vectors), (1,), (1, 0)
     empty = np.zeros((0, vectors), dtype=int), np.zeros((0, 3)), np.zeros(0, dtype=bool)
     parts = [(*empty, *(np.zeros((0, *shape)) for shape in shapes))]

@@ -28,18 +28,13 @@ def slopes(energy: Energy, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
     if not limit:
         second = 2.0 * c20 + 6.0 * c30 * x
         return (x * x * (c20 + c30 * x), x * (2.0 * c20 + 3.0 * c30 * x), second)
-    remaining = np.where(x < limit, 1.0 - x / limit, np.nan)
-    return (
-        -c10 * (limit * np.log(remaining) + x),
-        c10 * x / (limit * remaining),
-        c10 / (limit * remaining**2),
-    )
+    rest = np.where(x < limit, 1.0 - x / limit, np.nan)
+    return (-c10 * (limit * np.log(rest) + x), c10 * x / (limit * rest), c10 / (limit * rest**2))
 
 
 def require_law(law: str, laws: Iterable[str], scene: Scene) -> None:
-    """Raise BadInput for an unknown law, or a law whose constants the material does not have.
-
-    Raises Impossible for any law but the default, of a sheet that is not flat at rest."""
+    """Raise BadInput for an unknown law, or a law whose constants the material does not have. Raises
+    Impossible for any law but the default, of a sheet that is not flat at rest."""
     require_choice("law", law, laws)
     if law != STRAIN_LAW:
         require_flat_at_rest(scene, f"law '{law}'")

@@ -27,9 +27,8 @@ ROUNDED = 1e-9  # relative difference of slopes before and after a moment that c
 
 @dataclass(frozen=True)
 class Driven:
-    """Nodes (k,) of a bent, tilted or moved edge, and their plan positions (k, 2) [m].
-
-    part: share of the force on each node that belongs to the edge (k,)."""
+    """Nodes (k,) of a bent, tilted or moved edge, and their plan positions (k, 2) [m]. part: share of the
+    force on each node that belongs to the edge (k,)."""
 
     nodes: np.ndarray
     points: np.ndarray
@@ -39,11 +38,10 @@ class Driven:
 
 @dataclass(frozen=True)
 class Supports:
-    """Held components: edges: name → components of the position (n, 3); director (n,).
-
-    tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
-    turning: held edges that are bent or tilted; moved: moved edges, by the actuators' names; shifts: the
-    courses of the supports that move (`scenes.supports.Motion`), by name."""
+    """Held components: edges: name → components of the position (n, 3); director (n,). tilt: (n, 2), whether
+    the director's component along x or y is held at 0, as on a plane of symmetry; turning: held edges that
+    are bent or tilted; moved: moved edges, by the actuators' names; shifts: the courses of the supports that
+    move (`scenes.supports.Motion`), by name."""
 
     edges: dict[str, np.ndarray]
     director: np.ndarray
@@ -63,9 +61,8 @@ class Supports:
         return (*self.turning, *self.moved.values())
 
     def change(self, load_factor: float, time: float | None = None) -> np.ndarray:
-        """Return the prescribed change (2, n, 3) of positions [m] and directors, zero elsewhere.
-
-        time [s]: of motions, their last samples where None."""
+        """Return the prescribed change (2, n, 3) of positions [m] and directors, zero elsewhere. time [s]: of
+        motions, their last samples where None."""
         out = np.zeros((2, len(self.director), 3))
         for driven in self.driven:
             placed = driven.edge.placed(driven.points, load_factor, time)
@@ -150,9 +147,5 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
     turning = tuple(driven(edge) for edge in bent_or_tilted(scene.supports, scene.sheet))
     moved = {name: driven(MovedEdge(motion, scene.sheet)) for name, motion in motions.items()}
     director |= tilt.all(axis=1)
-    shifts = {
-        name: support_at.motion.course
-        for name, support_at in named_supports.items()
-        if support_at.motion is not None
-    }
+    shifts = {name: held.motion.course for name, held in named_supports.items() if held.motion is not None}
     return Supports(edges, director, tilt, turning, moved, shifts)

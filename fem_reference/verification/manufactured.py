@@ -75,9 +75,8 @@ def solid() -> Iterator[Row]:
 
 
 def _errors(model: str, scene: Scene, elements: int) -> tuple[float, float]:
-    """Return relative errors in L² of deflection and tilt along x on elements × elements.
-
-    The answer is the first linear step from the flat sheet."""
+    """Return relative errors in L² of deflection and tilt along x on elements × elements. The answer is the
+    first linear step from the flat sheet."""
     sheet = MODELS[model](rectangle(scene.sheet, elements), scene)
     basis, (pressure, deflection, tilt) = Basis(sheet.plan.mesh, ElementQuad2()), _fields(scene)
     upwards = LinearForm(lambda v, w: pressure(*w.x) * v).assemble(basis)

@@ -68,9 +68,8 @@ def following() -> MeshQuad:
 
 
 def _unbalanced(kind: Any, mesh: MeshQuad, strained: Any) -> float:
-    """Return the largest force inside the unit square over the largest on its rim.
-
-    strained: rotation of a stretched sheet, or size of its curvature."""
+    """Return the largest force inside the unit square over the largest on its rim. strained: rotation of a
+    stretched sheet, or size of its curvature."""
     sheet = kind(mesh, SCENE)
     nodes, moved, bent = sheet.plan.nodes, np.zeros((sheet.nodes, 3)), isinstance(strained, float)
     if bent:

@@ -101,10 +101,9 @@ def bending() -> Iterator[Row]:
         model, source = kind.model, "Timoshenko 1959, art. 17"
         mesh, computed = f"{model} {ELEMENTS} × {ELEMENTS}", moved(thin, at_rim, model, ELEMENTS)[2]
         yield relatively("deflection of the rim [m]", mesh, deflection_at_rim(), source, computed, TOLERANCE)
-        deflections = (
-            solve_on(kind, refined, thicker).displacement(np.array([at_rim])) for refined in meshes
-        )
-        errors = [abs(deflection[0, 2] - deflection_at_rim(THICKER)) for deflection in deflections]
+        answers = (solve_on(kind, refined, thicker) for refined in meshes)
+        rims = [answer.displacement(np.array([at_rim]))[0, 2] for answer in answers]
+        errors = [abs(rim - deflection_at_rim(THICKER)) for rim in rims]
         quantity, mesh = f"order, h/a = {THICKER / RADIUS:g}", f"{model} {UNCUT} × {UNCUT}, cut in 4 and 16"
         yield absolutely(quantity, mesh, 4.0, THEORY, np.log2(errors[0] / errors[1]), OF_ORDER)
 
@@ -129,11 +128,8 @@ def frequencies() -> Iterator[Row]:
     rigidity = section_of(METAL, THICK).bending[0, 0]
     scene, scale = disc(), np.sqrt(rigidity / (METAL.density * THICK)) / (2.0 * np.pi * RADIUS**2)
     for model in ("plate", "shell"):
-        computed = modes(scene, model, ELEMENTS, count=5).frequencies / scale
-        mesh, by_diameters = (
-            f"{model} {ELEMENTS} × {ELEMENTS}",
-            {1: computed[:2], 0: computed[2], 2: computed[3:5]},
-        )
+        values = modes(scene, model, ELEMENTS, count=5).frequencies / scale
+        mesh, by_diameters = f"{model} {ELEMENTS} × {ELEMENTS}", {1: values[:2], 0: values[2], 2: values[3:5]}
         for n, pair in by_diameters.items():
             quantity, source = f"λ² with {n} nodal diameters", "Leissa 1969, ch. 2"
             yield relatively(quantity, mesh, frequency(n), source, np.mean(pair), OF_FREQUENCY)
@@ -220,9 +216,8 @@ def concentration(share: float) -> float:
 
 
 def rise(model: str, share: float, radial: int) -> np.ndarray:
-    """Return w (2,) [m] of the inner and the outer end of the annulus's lifted side.
-
-    The slit is along θ = 0: y0 (θ = 0) and y1 (θ = 2π)."""
+    """Return w (2,) [m] of the inner and the outer end of the annulus's lifted side. The slit is along θ = 0:
+    y0 (θ = 0) and y1 (θ = 2π)."""
     sheet, material = Sheet(20.0, 20.0, 0.03), Material(young=21e6, poisson=0.0, density=1.0)
     lift = EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, 0.8 * share))
     scene = specimen(sheet, material, (Clamped(edge="y1"),), loads=(lift,))
@@ -262,9 +257,8 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
 
 
 def mapped(first: np.ndarray, second: np.ndarray, place: Callable[..., Any], **sides: Side) -> MeshQuad2:
-    """Return the mesh with lines at two coordinates and nodes at `place` of them [m].
-
-    sides: by name the coordinate that is constant there, and its value."""
+    """Return the mesh with lines at two coordinates and nodes at `place` of them [m]. sides: by name the
+    coordinate that is constant there, and its value."""
     on = {name: lambda x, axis=axis, at=at: np.isclose(x[axis], at) for name, (axis, at) in sides.items()}
     plan = MeshQuad.init_tensor(first, second).with_boundaries(on)
     mesh = MeshQuad2.from_mesh(plan)

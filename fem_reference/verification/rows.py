@@ -27,9 +27,8 @@ Values = Sequence[float | None]
 
 @dataclass(frozen=True)
 class Row:
-    """Expected value with its source, the mesh of the computed one, and the tolerance.
-
-    case: its key in `CASES`, set when cases are run."""
+    """Expected value with its source, the mesh of the computed one, and the tolerance. case: its key in
+    `CASES`, set when cases are run."""
 
     case: str
     quantity: Annotated[str, Column(prose=True)]
@@ -58,9 +57,8 @@ def absolutely(
 
 
 def relatively(*cells: Any, scale: float | None = None) -> Row:
-    """Return a row of the arguments of `absolutely`, held to a relative difference.
-
-    It is relative to `scale` where given, else to the published value."""
+    """Return a row of the arguments of `absolutely`, held to a relative difference. It is relative to `scale`
+    where given, else to the published value."""
     row = absolutely(*cells)
     relative = abs(row.computed - row.published) / abs(row.published if scale is None else scale)
     return replace(row, relative=relative, passed=relative <= row.tolerance)
@@ -76,9 +74,8 @@ def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: floa
 def convergence(
     of: str, mesh: str, errors: Sequence[float], largest: float, order: float, source: str = EXACT
 ) -> Iterator[Row]:
-    """Yield rows of the error on the finest mesh and of the order of the last refinement.
-
-    errors: on meshes with twice the elements of the one before; largest: error allowed."""
+    """Yield rows of the error on the finest mesh and of the order of the last refinement. errors: on meshes
+    with twice the elements of the one before; largest: error allowed."""
     coarse, fine = errors[-2:]
     yield absolutely(f"error {of}", mesh, 0.0, source, fine, largest)
     yield absolutely(f"order {of}", mesh, order, THEORY, np.log2(coarse / fine), SLACK)
@@ -96,10 +93,8 @@ def curve(
     half_at: float | None = None,
 ) -> Iterator[Row]:
     """Yield rows of each model's values at each load of a curve, and of their change from half as many
-    elements.
-
-    names: with a place for the load; meshes: by model; source: of all, or by load; half_at: load of the
-    change, the largest by default; size: a value far below it is relative to it."""
+    elements. names: with a place for the load; meshes: by model; source: of all, or by load; half_at: load of
+    the change, the largest by default; size: a value far below it is relative to it."""
     for model, mesh in meshes.items():
         answers = {load: answer(model, load, elements) for load in published}
         for load, values in published.items():

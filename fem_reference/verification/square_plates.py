@@ -180,9 +180,8 @@ def frequencies(benchmark: Benchmark) -> Iterator[Row]:
 
 
 def fibres(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row]:
-    """Yield w D22/(q a⁴) in the middle of plate and shell, and their first six frequencies [Hz].
-
-    The shell's load is so small that it is linear."""
+    """Yield w D22/(q a⁴) in the middle of plate and shell, and their first six frequencies [Hz]. The shell's
+    load is so small that it is linear."""
     moment, determinant = THIN.thickness**3 / 12.0, 1.0 - NU**2 * E2 / E1
     mixed = moment * (NU * E2 / determinant + 2.0 * G)
     along, across = (moment * (a * E1 + (1.0 - a) * E2) / determinant for a in (outer, 1.0 - outer))

@@ -122,11 +122,8 @@ def pulled(pulls: tuple[float, float], sheet: Sheet = SHEET, material: Material 
 def _held(model: str, material: Material, stretches: list[float]) -> float:
     """Return P [Pa] that holds one element of a model of a rubber at its three stretches."""
     sheet = SHEETS[model](pulled((0.0, 0.0), SHEET, material), (1, 1), law=str(material.law))
-    strains, nodes = np.array(stretches) - 1.0, sheet.plan.nodes
-    through = strains[2] if model == "solid" else 0.0  # strain of directors; a shell's keep their length
-    moved, turned = (
-        np.pad(nodes * strains[:2], ((0, 0), (0, 1))),
-        np.tile([0.0, 0.0, through], (len(nodes), 1)),
-    )
+    by, nodes = np.array(stretches) - 1.0, sheet.plan.nodes
+    through = by[2] if model == "solid" else 0.0  # strain of directors; a shell's keep their length
+    moved, turned = np.pad(nodes * by[:2], ((0, 0), (0, 1))), np.tile([0.0, 0.0, through], (len(nodes), 1))
     residual = Static(sheet).forces(StaticState(sheet.of_vectors(moved, turned)), 0.0).residual
     return -float(sheet.reactions(residual)["x0"][0]) / (SHEET.length_y * SHEET.thickness)

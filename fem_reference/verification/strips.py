@@ -162,7 +162,6 @@ def _tip(
     sheet: Sheet, young: float, elements: int, model: str, weight: float = 0.0, **more: Any
 ) -> np.ndarray:
     """Return the displacement (3,) [m] of the free end's middle, on a number of elements along a strip.
-
     weight: per area [Pa]; more: other fields of the scene."""
     material = Material(young=young, poisson=0.0, density=1000.0)
     scene = specimen(sheet, material, (Clamped(edge="x0"),), weight, **more)

@@ -18,12 +18,11 @@ def command(
 ) -> None:
     """Map where each model holds, degrades, refuses or fails: the verb on published and extreme scenes.
 
-    Neighbouring masses, units of stiffness and families of springs are varied too. With --out an interrupted
-    run is resumed.
+    Neighbouring masses, units of stiffness and families of springs are varied too. An interrupted run with
+    --out is resumed.
 
     Args:
-        part (NAMES): Only {PARTS}.
-    """
+        part (NAMES): Only {PARTS}."""
     if any(style.narrow for style in output.styles):
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     with output.open() as out:

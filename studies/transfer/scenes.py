@@ -1,7 +1,7 @@
-"""The scenes of the transfer study: the two that springs are fitted to, and those that only test them.
+"""Scenes of the transfer study: two training scenes for springs, and test scenes.
 
 All are Habibi et al.'s sheet or a change of it. The linear pair is the training pair under a thousandth of
-its weight: there the wrong limit of a calibration is one of bending alone.
+its weight: there a calibration's wrong limit is one of bending alone.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ HELD_OUT = (*TRAINING, "opposite-edges-clamped", "three-edges-clamped")  # of th
 
 
 def transfer_scenes() -> dict[str, Scene]:
-    """Every scene of the study by name, the training scenes first."""
+    """Return every scene of the study by name, the training scenes first."""
     one, two = (load(name) for name in TRAINING)
 
     def changed(base: Scene, name: str, **changes: Any) -> Scene:

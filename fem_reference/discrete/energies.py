@@ -56,6 +56,6 @@ def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: f
     for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.natural is not None else ():
         work += 0.5 * sign * sum(sheet.elastic(sheet.shape(q, time)) for q in (start.q, end.q))
     for item in sheet.items:
-        taken, done = item.exchanged(shape)
-        damped, work = damped + h * taken, work + h * done
+        lost, gained = item.exchanged(shape)
+        damped, work = damped + h * lost, work + h * gained
     return np.array([damped, work])

@@ -81,7 +81,7 @@ def integrals(q: np.ndarray, k: np.ndarray, power: int) -> tuple[np.ndarray, np.
     out = np.zeros(len(q)), np.zeros((len(q), 9)), np.zeros((len(q), 9, 9))
     bounds = np.einsum("ai,bj,eij->eab", BERNSTEIN, BERNSTEIN, q.reshape(-1, 3, 3)).reshape(-1, 9)
     full, touched = bounds.min(axis=1) > FULL * bounds.max(axis=1), bounds.max(axis=1) > 0.0
-    r, s = (each.ravel() for each in np.meshgrid(INNER, INNER, indexing="ij"))
+    r, s = (axis.ravel() for axis in np.meshgrid(INNER, INNER, indexing="ij"))
     for rows in (np.flatnonzero(touched & full), np.flatnonzero(touched & ~full)):
         if len(rows):
             uniform = r[None], s[None], np.outer(INNER_WEIGHTS, INNER_WEIGHTS).reshape(1, -1)

@@ -188,13 +188,13 @@ def filling(
     distances = shapely.distance(shapely.points(points), shapely.multilinestrings(borders))
     images = orbits(points[distances > CLEARANCE * size.at(points)])
     points, turns = images.reshape(-1, 2), images.shape[1]
-    gaps, kept = CLEARANCE * size.at(points), np.ones(len(images), bool)
+    gaps, keeps = CLEARANCE * size.at(points), np.ones(len(images), bool)
     from scipy.spatial import KDTree  # not loaded for rectangles
 
     for first, second in sorted(KDTree(points).query_pairs(gaps.max(initial=0.0))):
-        if kept[first // turns] and NEAR < np.linalg.norm(points[first] - points[second]) < gaps[second]:
-            kept[second // turns] = False
-    return np.unique(np.round(images[kept].reshape(-1, 2), 9), axis=0)
+        if keeps[first // turns] and NEAR < np.linalg.norm(points[first] - points[second]) < gaps[second]:
+            keeps[second // turns] = False
+    return np.unique(np.round(images[keeps].reshape(-1, 2), 9), axis=0)
 
 
 def _quadtree(bounds: tuple[float, float, float, float], size: SizeField) -> np.ndarray:

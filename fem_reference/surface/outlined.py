@@ -119,12 +119,12 @@ def _triangles(
     chords = shapely.get_parts(shapely.polygonize(shapely.linestrings(vertices[sides.ends])))
     if not len(chords):
         raise NoMesh(TOO_CLOSE)
-    within = shapely.area(shapely.intersection(chords, region))
-    present = shapely.union_all(chords[within > 0.5 * shapely.area(chords)])
+    areas = shapely.area(shapely.intersection(chords, region))
+    present = shapely.union_all(chords[areas > 0.5 * shapely.area(chords)])
     shapely.prepare(present)
-    kept = (np.abs(twice) > FLAT * longest) & shapely.contains_xy(present, (a + b + c) / 3.0)
+    valid = (np.abs(twice) > FLAT * longest) & shapely.contains_xy(present, (a + b + c) / 3.0)
     turned = np.where(twice[:, None] > 0.0, triangles, triangles[:, ::-1])
-    return vertices, turned[kept], sides
+    return vertices, turned[valid], sides
 
 
 def _keys(ends: np.ndarray, count: int) -> np.ndarray:
@@ -143,14 +143,17 @@ def _joined(
     keys, borders = _keys(edges, len(points)), _keys(sides.ends, len(points))
     order = np.argsort(keys, kind="stable")
     twin = np.flatnonzero(keys[order][1:] == keys[order][:-1])
-    one, two = order[twin], order[twin + 1]
-    inner = ~np.isin(keys[one], borders)
+    first_edge, second_edge = order[twin], order[twin + 1]
+    inner = ~np.isin(keys[first_edge], borders)
     folded = np.flatnonzero(np.isin(keys, borders[mirror >= 0]))
-    one, two = np.concatenate([one[inner], folded]), np.concatenate([two[inner], folded])
+    first_edge, second_edge = (
+        np.concatenate([first_edge[inner], folded]),
+        np.concatenate([second_edge[inner], folded]),
+    )
     apex = triangles[:, [2, 0, 1]].ravel()
-    quads = np.column_stack([edges[one, 0], apex[two], edges[one, 1], apex[one]])
-    corners, across = points[quads], np.full(len(one), -1)
-    across[len(one) - len(folded) :] = mirror[mirror >= 0][_places(keys[folded], borders[mirror >= 0])]
+    quads = np.column_stack([edges[first_edge, 0], apex[second_edge], edges[first_edge, 1], apex[first_edge]])
+    corners, across = points[quads], np.full(len(first_edge), -1)
+    across[len(first_edge) - len(folded) :] = mirror[mirror >= 0][_places(keys[folded], borders[mirror >= 0])]
     for number, normal in enumerate(plan.mirrors):
         kites = across == number
         corners[kites, 1] = corners[kites, 1] @ reflection(normal)
@@ -158,7 +161,7 @@ def _joined(
     place = plan.along(points[quads].mean(axis=1)).max(axis=1)
     unused, pairs = np.ones(len(triangles), bool), []
     for pair in np.lexsort([np.round(place, DIGITS), np.round(skew, DIGITS)]):
-        a, b = one[pair] // 3, two[pair] // 3
+        a, b = first_edge[pair] // 3, second_edge[pair] // 3
         if skew[pair] < SKEW and unused[a] and unused[b]:
             unused[[a, b]] = False
             pairs.append(pair)

@@ -67,23 +67,22 @@ def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.nda
         sum(c * (ply.high**n - ply.low**n) / n for c, ply in zip(moduli, plies, strict=True))
         for n in (1, 2, 3)
     )
-    stretched, pulled, bent = (
+    stretched, pulled, rigidity = (
         np.diagonal(part, axis1=-2, axis2=-1)[..., :2] for part in (stretching, mixed, bending)
     )
     neutral = pulled / stretched
-    bent = bent - neutral * pulled
-    compliance = np.zeros((*bent.shape, 2), bent.dtype)
-    carried = np.zeros_like(bent)  # g at the ply's lower face
+    rigidity = rigidity - neutral * pulled
+    compliance = np.zeros((*rigidity.shape, 2), rigidity.dtype)
+    shear_flow = np.zeros_like(rigidity)  # g at the ply's lower face
     for c, ply in zip(moduli, plies, strict=True):
-        moduli_along = np.diagonal(c, axis1=-2, axis2=-1)[..., :2]
+        moduli_xy = np.diagonal(c, axis1=-2, axis2=-1)[..., :2]
         soft, half = np.linalg.inv(shear_moduli(ply)), 0.5 * (ply.high - ply.low)
         for point, weight in zip(_POINTS, _WEIGHTS, strict=True):
             at = ply.low + half * (1.0 + point)
-            g = carried - moduli_along * (0.5 * (at + ply.low) - neutral) * (at - ply.low) / bent
+            g = shear_flow - moduli_xy * (0.5 * (at + ply.low) - neutral) * (at - ply.low) / rigidity
             compliance = compliance + weight * half * g[..., :, None] * soft * g[..., None, :]
-        carried = (
-            carried - moduli_along * (0.5 * (ply.high + ply.low) - neutral) * (ply.high - ply.low) / bent
-        )
+        middle, depth = 0.5 * (ply.high + ply.low), ply.high - ply.low
+        shear_flow = shear_flow - moduli_xy * (middle - neutral) * depth / rigidity
     h = np.asarray(thickness)[..., None, None]
     return h * stretching, h**3 * bending, h * np.linalg.inv(compliance), h**2 * mixed
 

@@ -141,9 +141,9 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
             trial = _trial(case_files, recipe.name, python, seconds, Path(folder), inputs)
         say(f"{code}, {name}, {recipe.name}: {trial.status}, {trial.error}")
         rows[name, recipe.name] = trial
-        kept = [rows[name, recipe.name] for name, recipe in order if (name, recipe.name) in rows]
+        finished = [rows[name, recipe.name] for name, recipe in order if (name, recipe.name) in rows]
         # an interrupted run leaves its finished rows
-        write_results(code, CODES[code].title, CODES[code].licence, kept, f"{code}=PYTHON")
+        write_results(code, CODES[code].title, CODES[code].licence, finished, f"{code}=PYTHON")
 
 
 def _write_files(case: Reference, code: str, recipe: Recipe, folder: Path) -> CodeSetup:

@@ -23,7 +23,6 @@ LENGTH, DENSITY, GRAVITY = 0.2, 1000.0, 9.81  # m, kg/m³, m/s²
 THICKNESS, SLENDER = 0.005, 0.002  # over length, of cantilevers and of other strips
 WIDTH, NARROW = 0.25, 0.1  # over length, of cantilevers and of other strips
 POISSON = 0.35  # of strips on edge
-LEANS = 0.01  # rad, of strips in the reference set
 TURNED = pi / 4
 TIP = "tip"
 

@@ -132,8 +132,8 @@ def advised(
 
 def rows_of(scene: Scene) -> list[Spec]:
     """Return the dozen rows that advice is compared with."""
-    own = lattices(scene, ["3", "5", "9", "17"], ["consistent"]) + lattices(scene, ["5"], ["uniform"])
-    return [*own, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
+    specs = lattices(scene, ["3", "5", "9", "17"], ["consistent"]) + lattices(scene, ["5"], ["uniform"])
+    return [*specs, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
 
 
 def _cost(choice: Solved, rivals: Sequence[Solved], tolerance: float, fine: Solved) -> float | None:

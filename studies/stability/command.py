@@ -27,5 +27,5 @@ def command(
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     with output.open() as out:
         with out.campaign(campaign) as run:
-            made = maps(parts=part or PARTS, **run)
-        out.show(made)
+            answer = maps(parts=part or PARTS, **run)
+        out.show(answer)

@@ -188,7 +188,10 @@ class StabilityMaps(Answer):
         return [*drawn, *bends]
 
     def complaints(self) -> list[str]:
-        return [*(said for one in self.maps for said in one.complaints()), *broken(self.rows)]
+        return [
+            *(complaint for scene_map in self.maps for complaint in scene_map.complaints()),
+            *broken(self.rows),
+        ]
 
     @property
     def succeeded(self) -> bool:

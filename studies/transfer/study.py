@@ -68,11 +68,13 @@ def transfer(
     that take one, a number or "auto"; scenes: names of `transfer_scenes`, by default all; elements: of the
     shell, along a side. Raises BadInput, before the first run, for a grid or mesh that takes more memory than
     there is, unless `large`."""
-    chosen = {name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes}
-    for scene in () if large else chosen.values():
+    scenes_by_name = {
+        name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes
+    }
+    for scene in () if large else scenes_by_name.values():
         require_room(scene, Lattice((max(grids), max(grids))), "--grids")
         require_room(scene, Elements("shell", elements))
-    study = _Study(chosen, tuple(methods), tuple(grids), elements, grading)
+    study = _Study(scenes_by_name, tuple(methods), tuple(grids), elements, grading)
     study.rows(parts)
     done = carry_out(study.runs, store, **how)
     study.outcomes = dict(zip((run.key for run in study.runs), done, strict=True))

@@ -38,7 +38,7 @@ def _turned(stiffness: np.ndarray, angle: np.ndarray, pairs: Sequence[tuple[int,
     axes = np.zeros((*c.shape, 3, 3), c.dtype)
     axes[..., 0, 0] = axes[..., 1, 1] = c
     axes[..., 1, 0], axes[..., 0, 1], axes[..., 2, 2] = s, -s, 1.0
-    turn = pulled_back(axes, pairs)  # strains in the ply's axes of those in x, y, z
+    turn = pulled_back(axes, pairs)  # from strains in x, y, z to strains in the ply's axes
     return np.asarray(turn.swapaxes(-1, -2) @ stiffness @ turn)
 
 

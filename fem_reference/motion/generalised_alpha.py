@@ -1,5 +1,4 @@
-"""Generalised-α integration of a reference (`sheetbench.numerics.time.rule`), its step controlled by the
-error.
+"""Generalised-α of a reference (`sheetbench.numerics.time.rule`), its step controlled by the error.
 
 Equilibrium at a step's end is M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁). A step ends where a prescribed velocity jumps;
 its impulse is passed on to the free unknowns, and the next step begins with new accelerations.

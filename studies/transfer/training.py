@@ -72,8 +72,7 @@ class Trained:
 
 
 def bent_scenes() -> dict[str, Scene]:
-    """Return Habibi et al.'s sheet under a thousandth of its weight, held seven ways, and a force at its free
-    corner."""
+    """Return Habibi et al.'s sheet under 1/1000 of its weight, held seven ways, and with a corner force."""
     feather = Gravity(acceleration=(0.0, 0.0, -9.81e-3))
     bent = {name: _scene(held, feather) for name, held in HELD.items()}
     force = PointLoad(at=(SIDE, SIDE), force=(0.0, 0.0, 1e-4))

@@ -49,8 +49,9 @@ MOST = 3.0  # f is sought up to this, and from where the cell's own twisting sti
 
 
 class Twist(NamedTuple):
-    """How cells twist at edges normal to x and to y, (rows, columns, 2): width across [m], D̃66 [N·m], S along
-    the edge [N/m], the share of it in the furthest diagonals, r, and the width λ that a plate loses [m]."""
+    """How cells twist at edges normal to x and to y, (rows, columns, 2): width across [m], D̃66 [N·m], S
+    along the edge [N/m], the share of it in the furthest diagonals, r, and the width λ that a plate loses
+    [m]."""
 
     width: np.ndarray
     twisting: np.ndarray

@@ -66,7 +66,7 @@ class Loads:
     dead: (n, 3) [N] dead loads without a history; last_dead, pressure: (n, 3) [N] and (cells,) [Pa] of all
     loads with their last factors; follow: whether some loads follow the sheet; turning: whether there are
     edge moments; conservative: whether all have a potential at a given time; potential: whether `dead` is the
-    only load. """
+    only load."""
 
     def __init__(self, scene: Scene, assembly: Assembly):
         self._assembly = assembly

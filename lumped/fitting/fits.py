@@ -175,6 +175,6 @@ def fitted(
     misses, slopes = at(tuple(best.x))
     known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
     warnings = known.warnings if known else ("too few data for intervals of the springs",)
-    each = each_cell(sheet, material, first.grid, first.grading)
-    plain = replace(report(method, each, changed(best.x).constants, warnings), masses=first.masses)
+    grid_cells = each_cell(sheet, material, first.grid, first.grading)
+    plain = replace(report(method, grid_cells, changed(best.x).constants, warnings), masses=first.masses)
     return FittedCalibration(**vars(plain), residual=float(np.abs(misses).max()), identifiability=known)

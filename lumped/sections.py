@@ -180,7 +180,7 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> CellSection 
 
     Returns
     -------
-    CellSection or None
+    CellSection, optional
         Stiffness per width and mass per area of each cell, (rows, columns, …); None if the sheet is uniform
         and isotropic. sheet. A cell that the outline cuts has stiffness and mass times its share of sheet.
 

@@ -70,7 +70,7 @@ def twist_of(grid_cells: GridCells, springs: Springs, whole: moduli.Moduli) -> T
 class Strips(NamedTuple):
     """Cells in strips across the edges normal to an axis, (places along the edge, cells across). twist: of
     the cells; corner: bool, whether a crossing free edge is next to a cell; lines: across the strip of a
-    whole rectangle, whose strips consist of the grid's cells; None for an outline, whose strips repeat the
+    whole rectangle, whose strips consist of the grid's cells, or None for an outline, whose strips repeat the
     cell at their end."""
 
     twist: Twist

@@ -30,8 +30,8 @@ UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
 
 class StepEquation(NamedTuple):
-    """The equation of a step or stage: time t [s], û and v̂ (size, 3), (c₂ [1/s²], c₁ [1/s]), of a system with
-    its branches there."""
+    """The equation of a step or stage: time t [s], û and v̂ (size, 3), (c₂ [1/s²], c₁ [1/s]), of a system
+    with its branches there."""
 
     system: System
     time: float

@@ -1,11 +1,11 @@
-"""How good is a spring lattice of a soft sheet, which k belongs to its E, and what does the speed cost?
+"""Comparison of a spring lattice of a soft sheet with finite elements: its k by E, its error, its speed.
 
     import sheetbench as sb
     scene = sb.load("two-edges-clamped")      # a name of the catalogue, a path, or sb.Scene(…)
     both = sb.compare(scene, grid=9)          # the lattice beside the shell
     both.report().save("results")
 
-A function takes a scene, a name or a path, and is loaded when it is first used. What stands behind them:
+A function takes a scene, a name or a path, and is loaded when it is first used. The parts are
 `sheetbench.scenes` (scenes), `lumped` (the lattice), `fem_reference` (the references), `comparisons`.
 """
 

@@ -106,10 +106,8 @@ ELEMENTS = 16  # along the shorter side
 
 
 def method_of(calibration: str | None, k: float | None) -> str:
-    """Return the requested calibration: the named one, else `uniform` if k is given, else the default.
-
-    `auto` has the options of the default.
-    """
+    """Return the requested calibration: the named one, else `uniform` if k is given, else the default. `auto`
+    has the options of the default."""
     named = CALIBRATION if calibration == AUTO else calibration
     return named or ("uniform" if k is not None else CALIBRATION)
 

@@ -43,10 +43,8 @@ class WrongArgument(SceneError, TypeError):
 
 
 class Impossible(SceneError):
-    """A valid scene that a model or a verb does not support.
-
-    The text names the scene; a reader of the scene's file puts the file's name before it.
-    """
+    """A valid scene that a model or a verb does not support. The text names the scene; a reader of the
+    scene's file puts the file's name before it."""
 
 
 class NoMesh(BadInput):

@@ -18,11 +18,8 @@ if TYPE_CHECKING:
 
 
 class Answer(ABC):
-    """Base of all answers.
-
-    file_name: name of the files under `--out`. page_name: name of the Markdown file if it differs.
-    notes_shown: number of notes that a terminal shows without --verbose.
-    """
+    """Base of all answers. file_name: name of the files under `--out`. page_name: name of the Markdown file
+    if it differs. notes_shown: number of notes that a terminal shows without --verbose."""
 
     file_name: ClassVar[str] = "answer"
     page_name: ClassVar[str] = ""
@@ -42,10 +39,8 @@ class Answer(ABC):
         return ("", "", "") if scene is None else (scene.name, scene.title, "")
 
     def result(self) -> str:
-        """Return the answer in a line with its numbers, for a list of answers.
-
-        It is the first complaint or note, unless an answer has its own line.
-        """
+        """Return the answer in a line with its numbers, for a list of answers. It is the first complaint or
+        note, unless an answer has its own line."""
         return next(iter((*self.complaints(), *self.notes())), "")
 
     def printed(self) -> Sequence[Table]:
@@ -102,10 +97,8 @@ class Answer(ABC):
         )
 
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
-        """Return the first table, or the table of a name, as a data frame in SI units.
-
-        Raises BadInput if there is no table of this name, or pandas is not installed.
-        """
+        """Return the first table, or the table of a name, as a data frame in SI units. Raises BadInput if
+        there is no table of this name, or pandas is not installed."""
         tables = {one.name or one.caption: one for one in self.tables()}
         if not tables or (table and table not in tables):
             raise BadInput(f"to_pandas('{table}'): tables are {', '.join(tables) or 'none'}")

@@ -17,11 +17,8 @@ WIDTHS = {"single": 89.0 / INCH, "double": 183.0 / INCH}  # inches
 
 @dataclass(frozen=True)
 class FigureStyle:
-    """Style of a picture.
-
-    formats: the files' suffixes, each picture's own if empty. narrow: one column wide. titled: with the
-    scene's title over it.
-    """
+    """Style of a picture. formats: the files' suffixes, each picture's own if empty. narrow: one column wide.
+    titled: with the scene's title over it."""
 
     formats: tuple[str, ...] = ()
     narrow: bool = False
@@ -41,11 +38,9 @@ PLAIN = FigureStyle()
 
 
 def parse_figure(text: str | None) -> tuple[FigureStyle, ...]:
-    """Return the styles that the value of `--figure` names, one per width.
-
-    Formats are separated by commas; a width follows the formats after a colon: `pdf`, `pdf,png:single`,
-    `pdf:single,png:double`. Raises BadInput, which names the option.
-    """
+    """Return the styles that the value of `--figure` names, one per width. Formats are separated by commas; a
+    width follows the formats after a colon: `pdf`, `pdf,png:single`, `pdf:single,png:double`. Raises
+    BadInput, which names the option."""
     if text is None:
         return (PLAIN,)
     width_of, width = dict[str, str](), "double"

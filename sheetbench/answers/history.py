@@ -98,10 +98,8 @@ class History(Answer):
 
     @property
     def balance(self) -> np.ndarray:
-        """Return kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run.
-
-        It is nan if the program does not report energies.
-        """
+        """Return kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run. It is
+        nan if the program does not report energies."""
         e = self.energies or dict.fromkeys(ENERGIES, np.full(len(self.time), np.nan))
         return np.asarray(e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"])
 
@@ -196,10 +194,8 @@ class History(Answer):
         return super().to_pandas(table) if table else self.series().to_pandas()
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return displacement [m] by probe, time and axis, energies [J] and reactions [N] by time.
-
-        Raises BadInput if xarray is not installed.
-        """
+        """Return displacement [m] by probe, time and axis, energies [J] and reactions [N] by time. Raises
+        BadInput if xarray is not installed."""
         try:
             import xarray
         except ModuleNotFoundError:

@@ -29,11 +29,9 @@ class FrequencyRow:
 
 @dataclass(frozen=True, repr=False)
 class NaturalModes(Answer):
-    """Base of a model's modes.
-
-    frequencies: (count,) [Hz], rising. shapes: (count, n, 3), displacements of the model's nodes. rigid: the
-    number of rigid motions, which are left out. unknowns: of the eigenproblem.
-    """
+    """Base of a model's modes. frequencies: (count,) [Hz], rising. shapes: (count, n, 3), displacements of
+    the model's nodes. rigid: the number of rigid motions, which are left out. unknowns: of the
+    eigenproblem."""
 
     file_name = "modes"
     frequencies: np.ndarray
@@ -59,9 +57,8 @@ class NaturalModes(Answer):
 @dataclass(frozen=True, eq=False)
 class Buckling:
     """Buckling loads of a flat sheet as factors (count,) of its loads, lowest first, and their shapes.
-
-    displacement: plan points (p, 2) [m] → mid-surface displacement (count, p, 3) of the shapes, of any scale.
-    """
+    displacement: plan points (p, 2) [m] → mid-surface displacement (count, p, 3) of the shapes, of any
+    scale."""
 
     model: str
     label: str
@@ -78,10 +75,8 @@ class Buckling:
 
 
 def require_flat_and_dead(scene: Scene) -> None:
-    """Raise BadInput for a scene without a linear buckling load.
-
-    The sheet must be flat, without actuators and bent or tilted supports, and its loads dead.
-    """
+    """Raise BadInput for a scene without a linear buckling load. The sheet must be flat, without actuators
+    and bent or tilted supports, and its loads dead."""
     for number, load in enumerate(scene.loads, start=1):
         follower = "kind = 'pressure'" if isinstance(load, Pressure) else ""
         if isinstance(load, EdgeLoad) and load.moment_per_length:

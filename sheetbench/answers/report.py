@@ -100,10 +100,8 @@ class Picture:
 
 
 def drawn_from(tables: Iterable[Table]) -> str:
-    """Return the description of a picture of tables: sixteen digits, a digest of their numbers.
-
-    Numbers are rounded to a thousandth of the largest in their column.
-    """
+    """Return the description of a picture of tables: sixteen digits, a digest of their numbers. Numbers are
+    rounded to a thousandth of the largest in their column."""
 
     def rounded(column: tuple[Any, ...]) -> list[float]:
         numbers = [one for one in column if isinstance(one, float) and isfinite(one)]
@@ -179,10 +177,8 @@ class Report:
         return "\n".join([title, "", *tables, *map(terminal, self.complaints)]).rstrip()
 
     def files(self, made_with: str = "") -> dict[str, Write]:
-        """Return the writers of all files but the pictures, by the files' names.
-
-        made_with: a line under the page.
-        """
+        """Return the writers of all files but the pictures, by the files' names. made_with: a line under the
+        page."""
         page = self.page or self.name
         texts = {
             f"{self.name}.json": to_json(self.document),
@@ -193,10 +189,8 @@ class Report:
         return {**self.attachments, **{name: partial(write_text, text=text) for name, text in texts.items()}}
 
     def to_markdown(self, made_with: str = "") -> str:
-        """Return a page with all tables, notes and complaints.
-
-        A table with a text is followed by the picture of the table's name.
-        """
+        """Return a page with all tables, notes and complaints. A table with a text is followed by the picture
+        of the table's name."""
         drawn = {picture.name: picture.names[0] for picture in self.pictures}
         parts = [f"# {markdown(self.title)}\n"]
         parts += [f"{markdown(line)}\n" for line in (self.subtitle, self.lead) if line]
@@ -214,10 +208,8 @@ class Report:
         return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
 
     def words(self) -> dict[str, Any]:
-        """Return texts, headings of tables and names of pictures, ready for JSON.
-
-        They complete the files: rows are included for tables without a file.
-        """
+        """Return texts, headings of tables and names of pictures, ready for JSON. They complete the files:
+        rows are included for tables without a file."""
         own = ("title", "subtitle", "lead", "result", "notes", "complaints")
         return {
             **{name: getattr(self, name) for name in own},

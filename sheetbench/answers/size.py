@@ -18,11 +18,8 @@ from math import log2
 
 @dataclass(frozen=True)
 class Size:
-    """Size of a static solve.
-
-    memory: the peak [bytes] above the code's own. seconds: on one core, with the usual five factorisations or
-    so.
-    """
+    """Size of a static solve. memory: the peak [bytes] above the code's own. seconds: on one core, with the
+    usual five factorisations or so."""
 
     unknowns: int
     memory: float
@@ -30,10 +27,8 @@ class Size:
 
 
 def factors(nodes: tuple[int, int], unknowns: int) -> tuple[float, float]:
-    """Return the nonzeros of the factors of a grid, and the operations to compute them.
-
-    unknowns: the number of unknowns a node.
-    """
+    """Return the nonzeros of the factors of a grid, and the operations to compute them. unknowns: the number
+    of unknowns a node."""
     shorter, count = min(nodes), nodes[0] * nodes[1]
     nonzeros = count * min(31 / 4 * log2(shorter), shorter + 1.0)
     operations = count * min(829 / 84 * shorter, (shorter + 1.0) ** 2)

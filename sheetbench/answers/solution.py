@@ -76,10 +76,8 @@ def _parameter_name(key: str) -> str:
 
 
 def comparable(status: str, load_factor: float) -> bool:
-    """Return whether an answer may be compared with others by its status and load factor.
-
-    It must be an equilibrium under the whole load, stable and physical or not.
-    """
+    """Return whether an answer may be compared with others by its status and load factor. It must be an
+    equilibrium under the whole load, stable and physical or not."""
     return status in _EQUILIBRIA and load_factor == 1.0
 
 
@@ -291,9 +289,7 @@ class Solution(Answer):
 
     def displacement(self, points: np.ndarray | str) -> np.ndarray:
         """Return the mid-surface displacement (n, 3) [m] at plan points (n, 2) [m], or (3,) at a probe.
-
-        points: of the undeformed sheet, or a probe's name. Raises BadInput for an unknown name.
-        """
+        points: of the undeformed sheet, or a probe's name. Raises BadInput for an unknown name."""
         if isinstance(points, str):
             if points not in self.points:
                 known = ", ".join(self.points) or "none are kept here: give plan points (n, 2) [m]"
@@ -353,9 +349,7 @@ class Solution(Answer):
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
         """Convert the undeformed mesh with its fields to pyvista, with `displacement` as active vectors.
-
-        `solution.to_pyvista().warp_by_vector().plot()` draws the deformed sheet.
-        """
+        `solution.to_pyvista().warp_by_vector().plot()` draws the deformed sheet."""
         import pyvista
 
         grid = pyvista.from_meshio(self.mesh.to_meshio())

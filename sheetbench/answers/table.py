@@ -28,10 +28,8 @@ if TYPE_CHECKING:
 
 
 class TableUnit(NamedTuple):
-    """An SI unit, the unit of display, and the factor between them.
-
-    A call makes a column of numbers in the unit; a cell with it holds the unit of its row's numbers.
-    """
+    """An SI unit, the unit of display, and the factor between them. A call makes a column of numbers in the
+    unit; a cell with it holds the unit of its row's numbers."""
 
     si: str
     shown: str
@@ -208,10 +206,8 @@ class Table:
         return text.getvalue()
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Return all values in SI units as a data frame, with the unit in a column's name.
-
-        Raises BadInput if pandas is not installed.
-        """
+        """Return all values in SI units as a data frame, with the unit in a column's name. Raises BadInput if
+        pandas is not installed."""
         try:
             import pandas
         except ModuleNotFoundError:

@@ -91,10 +91,8 @@ def _store_each(_: Any, kind: Any, array: Any, i: Any, stride: Any, values: Any)
 
 @inner()
 def empty(shape: Any, dtype: Any = np.float64) -> np.ndarray:
-    """Return a new array, by one compiled function for each number of axes.
-
-    numba would compile NumPy's for each kind of its arguments.
-    """
+    """Return a new array, by one compiled function for each number of axes. numba would compile NumPy's for
+    each kind of its arguments."""
     return np.empty(shape, dtype)
 
 

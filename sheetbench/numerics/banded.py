@@ -25,12 +25,9 @@ BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ b
 
 
 class Band(NamedTuple):
-    """Map from the entries of a matrix in 3×3 blocks to band storage.
-
-    order: (n,) the unknown at each place. width: number of entries below the diagonal. source, target,
-    weight: flat entry of the blocks, flat entry of the storage to which it is added, and its factor (empty if
-    all are one).
-    """
+    """Map from the entries of a matrix in 3×3 blocks to band storage. order: (n,) the unknown at each place.
+    width: number of entries below the diagonal. source, target, weight: flat entry of the blocks, flat entry
+    of the storage to which it is added, and its factor (empty if all are one)."""
 
     order: np.ndarray
     width: int
@@ -41,9 +38,7 @@ class Band(NamedTuple):
 
 def ordered(rows: np.ndarray, columns: np.ndarray, n: int) -> tuple[np.ndarray, int]:
     """Return the order (n,) of an n × n matrix with entries (row, column), both triangles, and its bandwidth.
-
-    The order is the unknowns' own, along the rows of the grid, or reverse Cuthill–McKee if it is narrower.
-    """
+    The order is the unknowns' own, along the rows of the grid, or reverse Cuthill–McKee if it is narrower."""
     order = np.arange(n)
     width = int(np.abs(rows - columns).max(initial=0))
     if not 0 < n <= TRY_OTHER_ORDER:

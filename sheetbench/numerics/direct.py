@@ -63,11 +63,9 @@ class Factor:
         return self.given() if callable(self.given) else self.given
 
     def negative_real(self) -> int | None:
-        """Return the number of negative real eigenvalues of an unsymmetric matrix (`stability`).
-
-        It counts the eigenvalues nearest to zero. Return None if they do not converge, or the determinant's
-        sign shows that there are others.
-        """
+        """Return the number of negative real eigenvalues of an unsymmetric matrix (`stability`). It counts
+        the eigenvalues nearest to zero. Return None if they do not converge, or the determinant's sign shows
+        that there are others."""
         values = nearest_to_zero(self.matrix, self.solve_unrefined)
         if values is None:
             return None
@@ -79,9 +77,7 @@ class Factor:
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """Solve A x = b for x (n,), with corrections (`saddle_point`) unless its backward error is `enough`.
-
-        Raises SingularMatrixError if the residual stays large.
-        """
+        Raises SingularMatrixError if the residual stays large."""
         if self.backward_error <= enough:
             x = self.solve_unrefined(b)
             if isfinite(x @ x):
@@ -91,11 +87,9 @@ class Factor:
 
 @dataclass(eq=False)
 class SymmetricPartFactor(Factor):
-    """Factors of the symmetric part, positive definite, of an unsymmetric matrix.
-
-    No eigenvalue of the matrix has a negative real part. whole: makes the factors of the matrix itself, if
-    corrected solutions are too inaccurate.
-    """
+    """Factors of the symmetric part, positive definite, of an unsymmetric matrix. No eigenvalue of the matrix
+    has a negative real part. whole: makes the factors of the matrix itself, if corrected solutions are too
+    inaccurate."""
 
     whole: Callable[[], Factor] = field(kw_only=True)
     _whole: Factor | None = field(default=None, init=False)
@@ -180,10 +174,8 @@ class DirectSolver:
 
 
 def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | None:
-    """Solve A x = b to ITERATION_ACCURACY by conjugate gradients with the factors of a nearby matrix.
-
-    Return None if the nearby matrix is indefinite or too different. Source: Hestenes and Stiefel (1952).
-    """
+    """Solve A x = b to ITERATION_ACCURACY by conjugate gradients with the factors of a nearby matrix. Return
+    None if the nearby matrix is indefinite or too different. Source: Hestenes and Stiefel (1952)."""
     if near.negative != 0:
         return None
     n = len(b)

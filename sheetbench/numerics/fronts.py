@@ -54,9 +54,7 @@ class Fronts(NamedTuple):
 
 def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> Fronts:
     """Return the fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal.
-
-    Raises ValueError if an entry of the diagonal is missing.
-    """
+    Raises ValueError if an entry of the diagonal is missing."""
     size, leaf = len(starts) - 1, max(2, LEAF // cells.unknowns.shape[1])
     line, parts, halves = _dissected(cells, size, leaf)
     at, column = np.nonzero(cells.unknowns[line] >= 0)
@@ -103,10 +101,8 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
 
 
 def _dissected(cells: CoupledCells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return a line of cells (m,), parts (F, 2) as ranges of the line, and the parts' halves (F, 2).
-
-    A part follows its halves, −1 for none. leaf: number of cells in a part that is not halved.
-    """
+    """Return a line of cells (m,), parts (F, 2) as ranges of the line, and the parts' halves (F, 2). A part
+    follows its halves, −1 for none. leaf: number of cells in a part that is not halved."""
     orders = np.argsort(cells.places, axis=0, kind="stable").T.copy()
     parts, halves = _halved(cells.unknowns, orders, size, leaf)
     walk = np.lexsort((-parts[:, 0], parts[:, 1]))

@@ -35,10 +35,8 @@ GROWTH = 1e3
 
 
 def signed_factors(data: np.ndarray, fronts: Fronts) -> tuple[Callable[[np.ndarray], np.ndarray], int] | None:
-    """Return a solver of A x = b (n,) and the number of negative eigenvalues of A.
-
-    data: of A, in the fronts' pattern. Return None if a pivot vanishes or is not finite, or the factors grow.
-    """
+    """Return a solver of A x = b (n,) and the number of negative eigenvalues of A. data: of A, in the fronts'
+    pattern. Return None if a pivot vanishes or is not finite, or the factors grow."""
     factors, signs = np.empty(fronts.kept[-1]), np.ones(len(fronts.order))
     if not factor(data, fronts, factors, signs):
         return None
@@ -105,10 +103,8 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
 @inner(fastmath=REORDERED)
 def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel: np.ndarray) -> bool:
     """Turn the first columns of a lower triangle into columns of its factor, and the others into the update.
-
     dense: the columns as rows, with a spare one. panel: workspace (PANEL, width), zero for missing columns.
-    Return False at a pivot that is not finite, or rounding.
-    """
+    Return False at a pivot that is not finite, or rounding."""
     width, own = dense.shape[1], len(signs)
     shares, sign, rows = zeros((PANEL, PANEL)), zeros(PANEL), panel.ravel()
     for k0 in range(0, own, PANEL):

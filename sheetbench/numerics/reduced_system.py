@@ -29,10 +29,8 @@ BANDED_LIMIT = 2.0e7  # multiplications, n × bandwidth², below which bands are
 
 
 class BlockPattern(Protocol):
-    """Blocks (b,) of a symmetric pattern over n nodes, as in BSR: rows, indices (b,), indptr (n + 1,).
-
-    cells: sets of nodes in the plane, one for each block that contains both its nodes, or None.
-    """
+    """Blocks (b,) of a symmetric pattern over n nodes, as in BSR: rows, indices (b,), indptr (n + 1,). cells:
+    sets of nodes in the plane, one for each block that contains both its nodes, or None."""
 
     size: int
     rows: np.ndarray

@@ -65,9 +65,7 @@ def minimal_residual(
     matrix: sp.csc_array, solve: Callable[[np.ndarray], np.ndarray], b: np.ndarray, enough: float = ROUNDED
 ) -> tuple[np.ndarray, float]:
     """Solve A x = b by corrections of least residual with the factors of a nearby matrix; return x and error.
-
-    The error is the residual relative to ‖A‖‖x‖ + ‖b‖ (largest entries); `enough` ends the corrections.
-    """
+    The error is the residual relative to ‖A‖‖x‖ + ‖b‖ (largest entries); `enough` ends the corrections."""
     largest = np.abs(matrix.data).max(initial=0.0)
     x, residual, error = np.zeros_like(b), b, 1.0
     directions: list[tuple[np.ndarray, np.ndarray]] = []  # and their products with the matrix, orthonormal

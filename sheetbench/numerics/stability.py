@@ -39,11 +39,9 @@ def negative_real(eigenvalues: np.ndarray) -> int:
 def nearest_to_zero(
     matrix: sp.sparray | sp.spmatrix, solve: Callable[[np.ndarray], np.ndarray], count: int = NEAREST
 ) -> np.ndarray | None:
-    """Return the complex eigenvalues of least magnitude of an unsymmetric matrix, or all of a small one.
-
-    The method is Arnoldi's on the inverse; if it does not converge, return None. solve: b (n,) → x (n,) with
-    A x = b.
-    """
+    """Return the complex eigenvalues of least magnitude of an unsymmetric matrix, or all of a small one. The
+    method is Arnoldi's on the inverse; if it does not converge, return None. solve: b (n,) → x (n,) with A x
+    = b."""
     n = matrix.shape[0]
     if n <= max(DENSE, count + 2):
         return np.linalg.eigvals(matrix.toarray()).astype(complex)

@@ -16,11 +16,8 @@ from threadpoolctl import ThreadpoolController
 
 @cache
 def _libraries() -> list[Any]:
-    """Return the BLAS libraries of this process.
-
-    `ThreadpoolController.limit` queries all their properties, which takes longer than factoring a small
-    lattice's tangent.
-    """
+    """Return the BLAS libraries of this process. `ThreadpoolController.limit` queries all their properties,
+    which takes longer than factoring a small lattice's tangent."""
     return list(ThreadpoolController().select(user_api="blas").lib_controllers)
 
 

@@ -24,11 +24,9 @@ from sheetbench.scenes.objects.obstacles import CREEPS
 
 @dataclass(frozen=True)
 class Recipe(Generic[AnyState]):
-    """A motion of a scene, ready to be run.
-
-    key: data for JSON on which the numbers depend besides the scene. rows: number of rows of a frame. start:
-    makes the initial state, with the work of parts that move at once.
-    """
+    """A motion of a scene, ready to be run. key: data for JSON on which the numbers depend besides the
+    scene. rows: number of rows of a frame. start: makes the initial state, with the work of parts that
+    move at once."""
 
     scene: Scene
     label: str

@@ -32,11 +32,9 @@ MOST_STEPS = 100_000  # of adaptive length between two samples
 
 
 class Observer(Protocol):
-    """A model's evaluation of its method's samples.
-
-    columns: the parts of a row of numbers: time, kinetic, elastic, potential and dissipated energy, work and
-    then the rest. least_energy: [J], below which an energy is rounding.
-    """
+    """A model's evaluation of its method's samples. columns: the parts of a row of numbers: time, kinetic,
+    elastic, potential and dissipated energy, work and then the rest. least_energy: [J], below which an energy
+    is rounding."""
 
     columns: list[Part]
     least_energy: float
@@ -89,20 +87,16 @@ class Watch:
                 self.since = float(times[[bool(beyond(one)) for one in stretches.tolist()].index(True)])
 
     def take(self, rows: np.ndarray) -> tuple[int, float]:
-        """Check samples (k, 6 or more): time, kinetic, elastic, potential and dissipated energy, work.
-
-        Return the number of sound samples before the first faulty one, and the growth of its energy over the
-        largest so far: nan if a number is not finite, or if all samples are sound.
-        """
+        """Check samples (k, 6 or more): time, kinetic, elastic, potential and dissipated energy, work. Return
+        the number of sound samples before the first faulty one, and the growth of its energy over the largest
+        so far: nan if a number is not finite, or if all samples are sound."""
         sound, growth, *state = take(rows, self.origin, self.lowest, self.largest, self.off)
         self.origin, self.lowest, self.largest, self.off = state
         return sound, growth
 
     def ending(self, outside: str, steps: str = "") -> tuple[Status, str]:
-        """Return the status and the message of a run that reached its end.
-
-        outside: a clause on strains beyond the model. steps: a clause on the steps.
-        """
+        """Return the status and the message of a run that reached its end. outside: a clause on strains
+        beyond the model. steps: a clause on the steps."""
         notes = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
         if self.largest > 0.0 and self.off > REPORTED * self.largest:
             share = number(100.0 * self.off / self.largest, ".2g")
@@ -146,11 +140,8 @@ def take(
 
 
 class Run(Generic[AnyState]):
-    """A run in progress.
-
-    shown: numbers of the samples with a frame. progress: called with the time reached [s]. samples: number of
-    samples so far, with the start's. spent: dissipated energy and work so far [J].
-    """
+    """A run in progress. shown: numbers of the samples with a frame. progress: called with the time reached
+    [s]. samples: number of samples so far, with the start's. spent: dissipated energy and work so far [J]."""
 
     def __init__(
         self,
@@ -167,10 +158,8 @@ class Run(Generic[AnyState]):
         self.resumed_from, self.spent, self.watch = 0.0, np.zeros(2), Watch(largest=observer.least_energy)
 
     def finish(self, start: Callable[[], Advance[AnyState]]) -> tuple[Status, str]:
-        """Run from the last checkpoint or the start to the end or a fault; return status and message.
-
-        start: makes the initial state, with the work of parts that move at once.
-        """
+        """Run from the last checkpoint or the start to the end or a fault; return status and message. start:
+        makes the initial state, with the work of parts that move at once."""
         self._method.forget()
         state, since = self._resumed() or self._passed(start())[0].state, 0
         while self.samples <= self._schedule.samples:

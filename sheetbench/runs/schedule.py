@@ -41,11 +41,9 @@ def require_error(error: float) -> None:
 def schedule_of(
     duration: float, every: float | None, period: Callable[[], float], step: float | None = None
 ) -> Schedule:
-    """Return the samples of a run, about `every` [s] apart.
-
-    The default is SAMPLES_PER_PERIOD samples in the lowest period [s], or one a step [s] if steps are longer.
-    Raises BadInput for too many samples.
-    """
+    """Return the samples of a run at distances of about `every` [s]. The default is SAMPLES_PER_PERIOD
+    samples in the lowest period [s], or one a step [s] if steps are longer. Raises BadInput for too many
+    samples."""
     spacing = every or max(period() / SAMPLES_PER_PERIOD, step or 0.0)
     if duration / spacing > MOST_SAMPLES:
         raise BadInput(

@@ -14,11 +14,8 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of a path.
-
-    tolerance: residual of an equilibrium. factorisations: limit for a path, for its careful second run and
-    between snaps. in_all: limit for a path that snaps.
-    """
+    """Limits of a path. tolerance: residual of an equilibrium. factorisations: limit for a path, for its
+    careful second run and between snaps. in_all: limit for a path that snaps."""
 
     tolerance: float = 5e-9
     refine_below: float = 0.0  # residual below which old factors are used again

@@ -24,10 +24,8 @@ STALE = 0.1  # of a residual: factors are too old if their correction leaves mor
 
 @dataclass(frozen=True)
 class Start(Generic[State]):
-    """Start of Newton's method: a state, its load factor, and length and work of the step before it.
-
-    factor: of the tangent at the start of the linear step from a path's last equilibrium.
-    """
+    """Start of Newton's method: a state, its load factor, and length and work of the step before it. factor:
+    of the tangent at the start of the linear step from a path's last equilibrium."""
 
     state: State
     target: float
@@ -46,11 +44,8 @@ def _reused(path: Path[State, Forces], at: Place[State, Forces], factor: Factor)
 
 
 def predicted(path: Path[State, Forces], target: float, reach: float, factor: Factor | None) -> Start[State]:
-    """Return the end of the first linear step from a path's last equilibrium towards a load.
-
-    The step is no longer than `reach`. factor: of the tangent at its start, if available. Raises
-    LoadStepFailed.
-    """
+    """Return the end of the first linear step from a path's last equilibrium towards a load. The step is no
+    longer than `reach`. factor: of the tangent at its start, if available. Raises LoadStepFailed."""
     first = _linear_step(path, target, factor)
     if reach < first.length < np.inf:
         target = path.load_factor + (target - path.load_factor) * reach / first.length
@@ -86,11 +81,9 @@ def _linear_step(path: Path[State, Forces], target: float, factor: Factor | None
 
 
 def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -> tuple[State, Factor | None]:
-    """Return the equilibrium at the load factor of a start, and the factors of its tangent or None.
-
-    Factors are returned if they are of a nearly unchanged tangent. close: a residual small enough. Raises
-    LoadStepFailed.
-    """
+    """Return the equilibrium at the load factor of a start, and the factors of its tangent or None. Factors
+    are returned if they are of a nearly unchanged tangent. close: a residual small enough. Raises
+    LoadStepFailed."""
     run, structure, limits = _Newton(path, first), path.structure, path.limits
     try:
         for _ in range(limits.corrections):
@@ -117,11 +110,9 @@ def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -
 
 
 class _Newton(Generic[State, Forces]):
-    """A state on its way to equilibrium, with the lengths and works of its steps.
-
-    before: imbalance before the last step. factor: the last factors. moved: distance since they were made.
-    blurred: error of their stresses. again: whether the last step reused factors.
-    """
+    """A state on its way to equilibrium, with the lengths and works of its steps. before: imbalance before
+    the last step. factor: the last factors. moved: distance since they were made. blurred: error of their
+    stresses. again: whether the last step reused factors."""
 
     def __init__(self, path: Path[State, Forces], first: Start[State]):
         self.path, self.structure, self.target = path, path.structure, first.target

@@ -2,7 +2,7 @@
 
 Beyond a limit point the nearest equilibrium is far away. A sheet of Kelvin–Voigt material without inertia,
 with stresses D (e + τ ė), creeps there: under dead loads, λ held, its potential Π = ½ ∫ e·D e − λ f·u falls
-at the rate ∫ τ ė·D ė. A backward Euler step of length τ/σ from strains e_n is an equilibrium of the sheet with
+at the rate ∫ τ ė·D ė. A backward Euler step of length τ/σ from strains e_n is an equilibrium with stresses
 
     s = (1 + σ) D e − σ D e_n,      a minimum of Π + ½ σ ∫ (e − e_n)·D (e − e_n),
 
@@ -146,10 +146,8 @@ class _Creep(Generic[State, Forces]):
         return None
 
     def _equilibrium(self) -> State | None:
-        """Return the equilibrium by Newton's method from the last step, None if it fails.
-
-        Its work is compared with the energy that the creep has released.
-        """
+        """Return the equilibrium by Newton's method from the last step, None if it fails. Its work is
+        compared with the energy that the creep has released."""
         released = abs(self.first - self.energy)
         start = Start(self.state, self.load_factor, self.length, released)
         try:
@@ -159,10 +157,8 @@ class _Creep(Generic[State, Forces]):
         return self.structure.unextrapolated(state) if self._accepts(state) else None
 
     def _leave(self, saddle: State) -> None:
-        """Leave a saddle towards lower potential along the lowest mode of K v = μ K_m v.
-
-        K_m is the tangent of the material alone. Raises LoadStepFailed.
-        """
+        """Leave a saddle towards lower potential along the lowest mode of K v = μ K_m v. K_m is the tangent
+        of the material alone. Raises LoadStepFailed."""
         structure, drag = self.structure, FIRST_DRAG
         forces = structure.forces(saddle, self.load_factor)
         tangent, _ = structure.linearised(saddle, forces, self.load_factor, mixed=False)

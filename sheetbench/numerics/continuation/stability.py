@@ -15,11 +15,9 @@ from sheetbench.numerics.direct import SingularMatrixError
 
 
 def stability(path: Path[State, Forces]) -> tuple[Status, str]:
-    """Return the status of a path's last equilibrium, and a sentence unless it is stable.
-
-    It is stable if its tangent is positive definite or, under follower loads, has no real eigenvalue below 0.
-    The sentence also reports that stability is not known.
-    """
+    """Return the status of a path's last equilibrium, and a sentence unless it is stable. It is stable if its
+    tangent is positive definite or, under follower loads, has no real eigenvalue below 0. The sentence also
+    reports that stability is not known."""
     structure = path.structure
     try:
         if structure.symmetric:

@@ -29,10 +29,8 @@ class Solver(Protocol):
     """Factorisation of a structure's matrices."""
 
     def factor(self, matrix: Matrix, more: Count = ...) -> Factor:
-        """Return the factors of a matrix. Raises SingularMatrixError.
-
-        more: called for each further factorisation.
-        """
+        """Return the factors of a matrix. Raises SingularMatrixError. more: called for each further
+        factorisation."""
 
     def iterated(self, matrix: Matrix, near: Factor, rows: np.ndarray) -> np.ndarray | None:
         """Return the solution by iterations with a nearby matrix's factors, None if new ones cost less."""
@@ -101,10 +99,8 @@ class Structure(Protocol[State, Forces]):
         return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
 
     def correct(self, state: State, forces: Forces, load_factor: float, count: Count) -> Correction | None:
-        """Return the correction with the factors of the tangent by one call, or None without this call.
-
-        The factorisation is counted. The tangent has the last step's extrapolated stress.
-        """
+        """Return the correction with the factors of the tangent by one call, or None without this call. The
+        factorisation is counted. The tangent has the last step's extrapolated stress."""
         return None
 
     def with_stresses(self, state: State, of: State) -> State:

@@ -73,11 +73,8 @@ def trace_path(
 
 
 class Ending(NamedTuple):
-    """End of a run.
-
-    reason: why it ended before load factor 1, else None. careful: limit of factorisations of small load
-    steps, 0 after large ones alone.
-    """
+    """End of a run. reason: why it ended before load factor 1, else None. careful: limit of factorisations of
+    small load steps, 0 after large ones alone."""
 
     reason: LoadStepFailed | Fault | None
     careful: int = 0
@@ -104,7 +101,7 @@ def _traced(path: Path[State, Forces], near: Start[State] | None = None) -> Faul
 
 
 def _near(path: Path[State, Forces], near: Start[State]) -> bool:
-    """Lead a path to a stable equilibrium close to a start; if there is none, return False and keep the path."""
+    """Lead a path to a stable equilibrium close to a start; return False, the path unchanged, without one."""
     before = path.state, path.load_factor, path.factor
     try:
         state, factor = newton(path, near)
@@ -119,10 +116,8 @@ def _near(path: Path[State, Forces], near: Start[State]) -> bool:
 
 
 def _carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
-    """Lead a path from rest again, by small load steps, if large ones may have left its branch.
-
-    plain: end of the large steps, which is returned if no small one succeeds.
-    """
+    """Lead a path from rest again, by small load steps, if large ones may have left its branch. plain: end of
+    the large steps, which is returned if no small one succeeds."""
     budget = 0 if isinstance(plain, Fault) else _careful_budget(path)
     if not budget:
         return Ending(plain)
@@ -167,10 +162,8 @@ def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
 
 
 def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed | Fault | None:
-    """Continue a path to load factor 1; return the reason of an earlier end, else None.
-
-    careful: no load step may leave the branch of its start.
-    """
+    """Continue a path to load factor 1; return the reason of an earlier end, else None. careful: no load step
+    may leave the branch of its start."""
     limits, size = path.limits, 1.0
     reach = limits.careful_reach if careful else limits.first_reach
     factor: Factor | None = None
@@ -221,10 +214,8 @@ def _refine(path: Path[State, Forces]) -> None:
 
 
 def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
-    """Return the fault of a path's end: its load factor, the attempts beyond, and a branching before it.
-
-    The last equilibrium's tangent shows whether the path had branched.
-    """
+    """Return the fault of a path's end: its load factor, the attempts beyond, and a branching before it. The
+    last equilibrium's tangent shows whether the path had branched."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
     if path.load_factor > 0.0:
         status, note = stability(path)
@@ -234,11 +225,9 @@ def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str = ""
 
 
 def _careful_budget(path: Path[State, Forces]) -> int:
-    """Return the number of factorisations for a second, careful run, 0 if it is not necessary.
-
-    The run searches for a branch that large load steps may have left. It is not necessary if the equilibrium
-    is stable and was found quickly, or if the path is a single linear step without a correction.
-    """
+    """Return the number of factorisations for a second, careful run, 0 if it is not necessary. The run
+    searches for a branch that large load steps may have left. It is not necessary if the equilibrium is
+    stable and was found quickly, or if the path is a single linear step without a correction."""
     one_step = path.factorisations == 1 and not path.structure.prestrained
     if not path.structure.symmetric or path.load_factor == 0.0 or one_step:
         return 0

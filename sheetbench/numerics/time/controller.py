@@ -47,12 +47,9 @@ class Remembering:
 
 @dataclass
 class Controller(Remembering):
-    """Control of the steps of one integrator.
-
-    order: p. growth: largest ratio of consecutive lengths. band: of r, in which the length is kept. step:
-    length of the next trial [s]. floored: number of steps accepted in spite of their error. rejected: number
-    of repeated steps.
-    """
+    """Control of the steps of one integrator. order: p. growth: largest ratio of consecutive lengths. band:
+    of r, in which the length is kept. step: length of the next trial [s]. floored: number of steps accepted
+    in spite of their error. rejected: number of repeated steps."""
 
     remembered = ("step", "floored", "rejected")
     order: int
@@ -63,10 +60,8 @@ class Controller(Remembering):
     rejected: int = 0
 
     def dividing(self, at_most: float, fewer: float = np.inf) -> float:
-        """Return a step no longer than the next trial that divides a time [s] evenly.
-
-        The trial's own length is returned if the time takes `fewer` steps or more.
-        """
+        """Return a step no longer than the next trial that divides a time [s] evenly. The trial's own length
+        is returned if the time takes `fewer` steps or more."""
         count = np.ceil(at_most / self.step - 1e-9)
         return float(at_most / count) if count < fewer else self.step
 
@@ -77,12 +72,9 @@ class Controller(Remembering):
     def take(
         self, attempt: Callable[[float], Tried[T]], at_most: float, shortest: float, fewer: float = np.inf
     ) -> tuple[T, float]:
-        """Return the first accepted step no longer than `at_most` [s], and its length [s].
-
-        attempt: makes a step of a length, with its error and the allowed error. shortest: length [s] up to
-        which a step is always accepted. The length of the next trial is set. Raises StepFailed if there is no
-        solution.
-        """
+        """Return the first accepted step no longer than `at_most` [s], and its length [s]. attempt: makes a
+        step of a length, with its error and the allowed error. shortest: length [s] up to which a step is
+        always accepted. The length of the next trial is set. Raises StepFailed if there is no solution."""
         while True:
             h = self.dividing(at_most, fewer)
             try:

@@ -44,17 +44,13 @@ class MotionMethod(Remembering, ABC, Generic[AnyState]):
 
     @abstractmethod
     def go(self, state: AnyState, at_most: float) -> Advance[AnyState]:
-        """Return a step, or several of one length, no longer than `at_most` [s].
-
-        Raises StepFailed or SingularMatrixError.
-        """
+        """Return a step, or several of one length, no longer than `at_most` [s]. Raises StepFailed or
+        SingularMatrixError."""
 
     @abstractmethod
     def at(self, times: np.ndarray, last: Advance[AnyState]) -> Any:
-        """Return samples at times (k,) [s] within the last step, for an observer.
-
-        They have `time`, and the energies `dissipated` and `work` (k,) [J] since the start of the step.
-        """
+        """Return samples at times (k,) [s] within the last step, for an observer. They have `time`, and the
+        energies `dissipated` and `work` (k,) [J] since the start of the step."""
 
     def settings(self) -> dict[str, Any]:
         """Return the settings of the steps for a history, beyond the requested ones."""

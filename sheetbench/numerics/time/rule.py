@@ -24,10 +24,8 @@ from sheetbench.errors import BadInput
 
 
 class Rule(NamedTuple):
-    """Coefficients of a step: αm, αf, γ, β, and `old`, the coefficient of h² a'₀ in u₁.
-
-    order: of u's local error. error: the local error over h² |a'₁ − a'₀|, for backward Euler over h² |a₁|.
-    """
+    """Coefficients of a step: αm, αf, γ, β, and `old`, the coefficient of h² a'₀ in u₁. order: of u's local
+    error. error: the local error over h² |a'₁ − a'₀|, for backward Euler over h² |a₁|."""
 
     am: float
     af: float
@@ -50,10 +48,8 @@ BACKWARD_EULER = Rule(0.0, 0.0, 1.0, 1.0, 0.0, 2, 0.5)
 
 
 def generalised(radius: float) -> Rule:
-    """Return generalised-α's coefficients for a spectral radius at high frequencies in [0, 1].
-
-    Raises BadInput for other values.
-    """
+    """Return generalised-α's coefficients for a spectral radius at high frequencies in [0, 1]. Raises
+    BadInput for other values."""
     if not 0.0 <= radius <= 1.0:
         raise BadInput(f"radius = {radius:g}: the spectral radius at high frequencies lies in [0, 1]")
     am, af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
@@ -63,10 +59,8 @@ def generalised(radius: float) -> Rule:
 
 
 class AlphaStep(NamedTuple):
-    """A step of h [s] with u₁ as its unknown: û, v̂ and â', the values of u₁, v₁ and a'₁ for a₁ = 0.
-
-    by_v: c₁ [1/s]. by_a: c₂ [1/s²]. to_a: (a'₁ − â')/a₁. guess: u₁ for a'₁ = a'₀.
-    """
+    """A step of h [s] with u₁ as its unknown: û, v̂ and â', the values of u₁, v₁ and a'₁ for a₁ = 0. by_v: c₁
+    [1/s]. by_a: c₂ [1/s²]. to_a: (a'₁ − â')/a₁. guess: u₁ for a'₁ = a'₀."""
 
     base_u: np.ndarray
     base_v: np.ndarray

@@ -122,9 +122,7 @@ def converted(value: object, unit: str) -> object:
 
 def numbers(data: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:
     """Return the numbers of the keys in `units`, in SI units; an empty dict if one is missing or no number.
-
-    The check of the key itself reports the fault.
-    """
+    The check of the key itself reports the fault."""
     try:
         texts: dict[str, Any] = {key: converted(data[key], unit) for key, unit in units.items()}
         return {key: float(text) for key, text in texts.items()}
@@ -172,10 +170,8 @@ def _called(unit: str) -> str:
 
 
 def amount(name: str, value: float | str, unit: str) -> float:
-    """Convert an argument, a number in an SI unit or a text with a unit, to a number in the SI unit.
-
-    Raises BadInput, with the argument's name, for other values.
-    """
+    """Convert an argument, a number in an SI unit or a text with a unit, to a number in the SI unit. Raises
+    BadInput, with the argument's name, for other values."""
     if isinstance(value, str):
         try:
             return quantity(value, unit)

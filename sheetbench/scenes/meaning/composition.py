@@ -53,10 +53,8 @@ def constants_at(scene: SceneFields, points: np.ndarray) -> Constants:
 
 
 def composition_at(scene: SceneFields, points: np.ndarray) -> dict[str, np.ndarray]:
-    """Return constants and, if there are patches, their numbers at plan points (…, 2) [m], by name.
-
-    Each is an array (…); points outside patches have the number 0.
-    """
+    """Return constants and, if there are patches, their numbers at plan points (…, 2) [m], by name. Each is
+    an array (…); points outside patches have the number 0."""
     patch = np.zeros(points.shape[:-1])
     for number, each in enumerate(scene.patches, start=1):
         patch[each.shape.contains(points)] = number
@@ -75,10 +73,8 @@ def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
 
 
 def parts_between(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
-    """Yield the parts of the sheet with their shares of the cells between lines at x and at y [m].
-
-    An outline is ignored: the shares of every cell add up to 1. A taper has its thickness of a cell's middle.
-    """
+    """Yield the parts of the sheet with their shares of the cells between lines at x and at y [m]. An outline
+    is ignored: the shares of every cell add up to 1. A taper has its thickness of a cell's middle."""
     middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
     plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
     left_over = np.ones((len(y) - 1, len(x) - 1))
@@ -113,10 +109,8 @@ def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def own_patches(scene: SceneFields) -> tuple[Patch, ...]:
-    """Return the patches that change the composition.
-
-    A patch with the sheet's own constants changes it only where it covers another patch.
-    """
+    """Return the patches that change the composition. A patch with the sheet's own constants changes it only
+    where it covers another patch."""
     even = not (scene.sheet.taper_x or scene.sheet.taper_y)
     usual = {**vars(scene.material), "thickness": scene.sheet.thickness if even else None}
     patches: list[Patch] = []
@@ -184,10 +178,8 @@ def weights(scene: SceneFields) -> tuple[PointLoad | AreaLoad, ...]:
 
 
 def mass_over_stiffness(scene: SceneFields) -> float:
-    """Return ρ/E [s²/m²] of the sheet: its mass over the integral of its membrane stiffness E h.
-
-    A taper is ignored: the thickness is the sheet's.
-    """
+    """Return ρ/E [s²/m²] of the sheet: its mass over the integral of its membrane stiffness E h. A taper is
+    ignored: the thickness is the sheet's."""
     sheet = of_sheet(scene)
     if scene.homogeneous:
         return float(sheet.per_area / sheet.stretching)
@@ -224,6 +216,6 @@ require_flat_at_rest = partial(_require, "natural_by", "sheets that are flat at 
 
 
 def require_plain(scene: SceneFields, who: str) -> None:
-    """Raise Impossible for a sheet that is not plain (`Scene.drawn_by`), which `who` does not support."""
+    """Raise Impossible for a sheet that is not plain (`Scene.drawn_by`), in the name of `who`."""
     for require in (require_uniform, require_rectangle, require_flat_at_rest):
         require(scene, who)

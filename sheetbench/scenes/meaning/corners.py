@@ -172,10 +172,8 @@ def _held_twice(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]
 
 
 def _holder(chain: Chain, end: int, chains: Mapping[str, Chain], fixed: Mapping[str, AnySupport]) -> str:
-    """Return a clause on the object that holds an end (0 or 1) of a chain along the chain, "" for none.
-
-    The chain's own base is ignored.
-    """
+    """Return a clause on the object that holds an end (0 or 1) of a chain along the chain, "" for none. The
+    chain's own base is ignored."""
     along = EDGES[chain.edge].along_axis
     edge = f"{'xy'[along]}{end}"
     if edge in fixed and along in held_axes(fixed[edge]):

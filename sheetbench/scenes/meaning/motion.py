@@ -22,10 +22,8 @@ NO_START = "the motion would start from no stable equilibrium"
 
 
 def kinks(scene: SceneFields) -> list[float]:
-    """Return the times [s], rising, of the samples of histories, commands and motions.
-
-    All prescribed values are smooth between the times.
-    """
+    """Return the times [s], rising, of the samples of histories, commands and motions. All prescribed values
+    are smooth between the times."""
     tables: list[OverTime | None] = [
         one.history for one in (scene.gravity, *scene.loads, *scene.natural_states.values()) if one
     ]
@@ -47,9 +45,7 @@ def starts_flat(scene: SceneFields) -> bool:
 
 def at_start(scene: AScene) -> AScene:
     """Return the static scene in whose equilibrium a motion starts, with supports and moved edges at t = 0.
-
-    It has the loads, commands and natural states of t = 0 if the scene has `[initial]`, else none.
-    """
+    It has the loads, commands and natural states of t = 0 if the scene has `[initial]`, else none."""
     static = scene.initial is not None
     return scene.replace(
         initial=None,

@@ -28,10 +28,8 @@ TENSOR = np.array([1.0, 1.0, 0.5])  # components over (xx, yy, 2xy)
 
 
 class Source(NamedTuple):
-    """A source of natural strain [-] and curvature [1/m], (3,) each: xx, yy, xy.
-
-    where: the part of the plan inside which (`within`) or outside which they hold, or None: the whole plan.
-    """
+    """A source of natural strain [-] and curvature [1/m], (3,) each: xx, yy, xy. where: the part of the plan
+    inside which (`within`) or outside which they hold, or None: the whole plan."""
 
     name: str
     of: Natural | Temperature
@@ -43,9 +41,7 @@ class Source(NamedTuple):
 
 class NaturalState:
     """Natural strains and curvatures (…, 2, 2) at points or of cells, or a model's function of both (`made`).
-
-    They depend on the load's share and the time; the last value is cached.
-    """
+    They depend on the load's share and the time; the last value is cached."""
 
     def __init__(self, sources: list[Source], shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]):
         """Add up sources on points or cells of a shape; share: a plan part's share of each of them."""
@@ -107,10 +103,8 @@ def natural_at(scene: SceneFields, points: np.ndarray) -> NaturalState | None:
 
 
 def natural_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> NaturalState | None:
-    """Return the state of the cells (rows, columns) between lines at x and at y [m].
-
-    A cell that several parts share has their mean. A sheet that is flat at rest has no state: None.
-    """
+    """Return the state of the cells (rows, columns) between lines at x and at y [m]. A cell that several
+    parts share has their mean. Return None for a sheet that is flat at rest."""
     sources, shape = list(sources_of(scene)), (len(y) - 1, len(x) - 1)
     return NaturalState(sources, shape, lambda area: shares_of(area, x, y)) if sources else None
 
@@ -130,10 +124,8 @@ def sources_of(scene: SceneFields) -> Iterator[Source]:
 
 
 def growth_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
-    """Return the factors of the cells' sides at rest, (rows, columns, 2), None if they are uniform.
-
-    The sides of a sheet with uniform growth are in `sheet_at_rest`.
-    """
+    """Return the factors of the cells' sides at rest, (rows, columns, 2), None if they are uniform. The sides
+    of a sheet with uniform growth are in `sheet_at_rest`."""
     parts = any(patch.natural is not None for patch in scene.patches)
     if not parts or (state := natural_of_cells(scene, x, y)) is None or not state.at()[0].any():
         return None
@@ -141,10 +133,8 @@ def growth_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> np.ndar
 
 
 def sheet_at_rest(scene: SceneFields) -> Sheet:
-    """Return the sheet with the sides of the free sheet, to which its stiffness refers.
-
-    Growth that is not uniform is left to `growth_of_cells`; a mesh keeps its size.
-    """
+    """Return the sheet with the sides of the free sheet, to which its stiffness refers. Growth that is not
+    uniform is left to `growth_of_cells`; a mesh keeps its size."""
     sources = list(sources_of(scene))
     if scene.sheet.mesh is not None or any(source.where is not None for source in sources):
         return scene.sheet

@@ -139,10 +139,8 @@ def _expanded(pattern: str, most: int) -> Iterator[str]:
 
 
 def put(scene: AScene, name: str, value: float) -> AScene:
-    """Return the scene with a parameter at another value.
-
-    Raises BadInput if the scene has no parameter of this name, and SceneError if the value is impossible.
-    """
+    """Return the scene with a parameter at another value. Raises BadInput if the scene has no parameter of
+    this name, and SceneError if the value is impossible."""
     paths = _paths(scene, name)
     try:
         if name == "thickness":

@@ -37,10 +37,8 @@ def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> lis
 
 
 def sides_of_shapes(scene: SceneFields) -> Places:
-    """Return x and y [m], rising, within the edges, of axis-parallel sides of the rim and of shapes.
-
-    The shapes hold or load the sheet. Ends of the rim's sides on the edges, and held points, are included.
-    """
+    """Return x and y [m], rising, within the edges, of axis-parallel sides of the rim and of shapes. The
+    shapes hold or load the sheet. Ends of the rim's sides on the edges, and held points, are included."""
     shapes = [place(support) for support in scene.supports if not isinstance(support, Point)]
     shapes += [getattr(acting, "where", None) for acting in (*scene.loads, *scene.masses)]
     rims = [scene.region] if scene.pierced else []
@@ -71,10 +69,8 @@ def area_in(scene: SceneFields, shape: Shape | None) -> float:
 
 
 def resultant(scene: SceneFields, load: AnyLoad, length: float | None = None) -> np.ndarray:
-    """Return the force (3,) [N] of a load in full, for a pressure on the flat sheet.
-
-    length: of the load's edge [m] in a model, which may differ from the scene's.
-    """
+    """Return the force (3,) [N] of a load in full, for a pressure on the flat sheet. length: of the load's
+    edge [m] in a model, which may differ from the scene's."""
     if isinstance(load, PointLoad):
         return np.array(load.force)
     if isinstance(load, EdgeLoad):
@@ -120,9 +116,7 @@ def nearest_on_sheet(scene: SceneFields, points: np.ndarray) -> np.ndarray:
 
 def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
     """Return the supports with shapes in place of rims and holes, for a whole rectangle with its edges.
-
-    Raises ValueError for a hole that the sheet lacks, and for a rim in another object than a support.
-    """
+    Raises ValueError for a hole that the sheet lacks, and for a rim in another object than a support."""
     others = {"patch": scene.patches, "cutout": scene.cutouts, "load": scene.loads, "mass": scene.masses}
     for kind, parts in others.items():
         for number, part in enumerate(parts, start=1):

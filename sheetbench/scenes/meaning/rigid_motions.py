@@ -67,10 +67,8 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
 
 
 def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
-    """Return the edge that rests in a unit rotation about an axis that moves the centre by `moved` [m].
-
-    "" if no edge rests, for instance if the centre does.
-    """
+    """Return the edge that rests in a unit rotation about an axis that moves the centre by `moved` [m]. "" if
+    no edge rests, for instance if the centre does."""
     for name, edge in EDGES.items():
         arm = np.zeros(3)
         arm[edge.normal_axis] = (0.5 if edge.far_end else -0.5) * sheet.lengths[edge.normal_axis]
@@ -80,10 +78,8 @@ def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
 
 
 def unstopped_motions(scene: SceneFields) -> list[str]:
-    """Return the names of rigid motions that neither supports nor obstacles stop.
-
-    Obstacles stop motions out of the plane.
-    """
+    """Return the names of rigid motions that neither supports nor obstacles stop. Obstacles stop motions out
+    of the plane."""
     free = free_rigid_motions(scene)
     if not (free and scene.obstacles):
         return free
@@ -92,10 +88,9 @@ def unstopped_motions(scene: SceneFields) -> list[str]:
 
 
 def require_static(scene: SceneFields, linear: str = "") -> None:
-    """Raise SceneError if a static answer is impossible: a rigid motion is free, or obstacles have friction.
-
-    Obstacles stop motions out of the plane. linear: the name of a linear model, which cannot have obstacles.
-    """
+    """Raise SceneError if a static answer is impossible: a rigid motion is free, or obstacles have
+    friction. Obstacles stop motions out of the plane. linear: the name of a linear model, which cannot
+    have obstacles."""
     if linear:
         require_no_obstacles(scene, linear)
     require_frictionless(scene)

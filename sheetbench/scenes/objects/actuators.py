@@ -103,11 +103,9 @@ class Chain(Frozen):
         return side * (thickness / 2.0 + self.radius)
 
     def pieces(self) -> np.ndarray:
-        """Return the bounds (n + 1,), in segments, of the edge's pieces with one joint's curvature each.
-
-        A piece is nearer to its joint than to others; the outer ones reach to the ends. Without a joint the
-        whole edge is one piece.
-        """
+        """Return the bounds (n + 1,), in segments, of the edge's pieces with one joint's curvature each. A
+        piece is nearer to its joint than to others; the outer ones reach to the ends. Without a joint the
+        whole edge is one piece."""
         inner = np.arange(1, self.segments - 1) + 0.5  # between joints of whole length
         extra = {"start": 0.5, "end": self.segments - 0.5, "middle": self.segments / 2.0}.get(self.base)
         if extra is not None and self.joints == self.segments and self.joints > 1:

@@ -29,10 +29,8 @@ PLANES = {0: (1, 2, 1.0), 1: (0, 2, -1.0), 2: (0, 1, 1.0)}  # by the normal: axe
 
 
 def from_file(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the keys of a sheet with its file's mesh or outline in place of the file's name.
-
-    The corners of a drawing's holes are under "holes". Raises ValueError if the file cannot be used.
-    """
+    """Return the keys of a sheet with its file's mesh or outline in place of the file's name. The corners of
+    a drawing's holes are under "holes". Raises ValueError if the file cannot be used."""
     key = next(key for key in ("mesh", "outline") if isinstance(data.get(key), str))
     rest = {name: value for name, value in data.items() if name not in (key, "mesh_scale", "mesh_shift")}
     sides = numbers(data, {"length_x": "m", "length_y": "m"})

@@ -26,11 +26,9 @@ Places = tuple[tuple[float, ...], tuple[float, ...]]
 
 @dataclass(frozen=True)
 class Grading:
-    """Grading towards some edges, or lines moved to places.
-
-    by: from 0 to 1. edges: the edges towards which cells are finer. places: x and y [m], rising, that lines
-    are moved to. sides: of the sheet on which the places are [m].
-    """
+    """Grading towards some edges, or lines moved to places. by: from 0 to 1. edges: the edges towards which
+    cells are finer. places: x and y [m], rising, that lines are moved to. sides: of the sheet on which the
+    places are [m]."""
 
     by: float
     edges: tuple[str, ...]
@@ -60,10 +58,8 @@ def remark(grading: Graded) -> str:
 
 
 def towards(by: float, edges: Iterable[str] | None = None) -> Graded:
-    """Return the grading by a number from 0 to 1 towards some edges, or all of them (None).
-
-    Towards all edges, or by 0, it is the number. Raises BadInput for other numbers and unknown edges.
-    """
+    """Return the grading by a number from 0 to 1 towards some edges, or all of them (None). Towards all
+    edges, or by 0, it is the number. Raises BadInput for other numbers and unknown edges."""
     if not 0.0 <= by <= 1.0:
         raise BadInput(f"grading = {by:g}: 0 (all cells alike) to 1 (finest at the edges)")
     named = tuple(EDGES) if edges is None else tuple(edges)

@@ -29,11 +29,9 @@ def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
 
 
 def elements_of(sheet: Sheet, elements: int) -> tuple[int, int]:
-    """Return the numbers of elements along x and y: `elements` along the shorter side, nearly square ones.
-
-    If the sheet has a mesh of its own, 16 stands for that mesh, and other numbers for a mesh finer or coarser
-    in proportion.
-    """
+    """Return the numbers of elements along x and y: `elements` along the shorter side, nearly square ones. If
+    the sheet has a mesh of its own, 16 stands for that mesh, and other numbers for a mesh finer or coarser in
+    proportion."""
     if sheet.mesh is None:
         return near_square(sheet, elements)
     return near_square(sheet, max(1, round(elements * sheet.mesh.across / MESH)))

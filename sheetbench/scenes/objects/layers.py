@@ -54,10 +54,8 @@ def plies(layers: tuple[Layer, ...], material: Material) -> tuple[Ply, ...]:
 
 
 def plane_stress(ply: Ply) -> np.ndarray:
-    """Return a ply's plane-stress stiffness (3, 3) [Pa]: stresses (xx, yy, xy) of strains (xx, yy, 2xy).
-
-    It is the inverse of the compliance in the ply's axes, turned.
-    """
+    """Return a ply's plane-stress stiffness (3, 3) [Pa]: stresses (xx, yy, xy) of strains (xx, yy, 2xy). It
+    is the inverse of the compliance in the ply's axes, turned."""
     c, s = np.cos(ply.angle), np.sin(ply.angle)
     turn = np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
     mixed = -ply.poisson_12 / ply.young_1

@@ -120,11 +120,8 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
 
 
 class Material(Fibres):
-    """Elasticity, density, viscous damping and relaxation of a sheet.
-
-    Rubber has a law with its constants, a sheet with fibres the constants along and across them
-    (`sheetbench.scenes.objects.orthotropy`).
-    """
+    """Elasticity, density, viscous damping and relaxation of a sheet. Rubber has a law with its constants, a
+    sheet with fibres the constants along and across them (`sheetbench.scenes.objects.orthotropy`)."""
 
     model_config = ConfigDict(json_schema_extra=_constants_in_schema)
 
@@ -185,10 +182,8 @@ class Material(Fibres):
     @model_validator(mode="before")
     @classmethod
     def _young_of_constants(cls, data: Any) -> Any:
-        """Add Young's modulus of small strains from a law's constants, unless given.
-
-        For fibres, and for a material given by stiffnesses, young and poisson are mere scales.
-        """
+        """Add Young's modulus of small strains from a law's constants, unless given. For fibres, and for a
+        material given by stiffnesses, young and poisson are mere scales."""
         if not isinstance(data, dict):
             return data
         if data.get("kind") == "stiffness":  # a scene replaces it by layers
@@ -323,11 +318,9 @@ class Material(Fibres):
         return WORDS[self.law or ""].energy(*(getattr(self, key) for key in self._keys))
 
     def replace(self, **values: Any) -> Self:
-        """Return a copy with other values for some keys.
-
-        Constants of a law or of fibres are scaled with another `young`, and `young` follows other constants.
-        Raises SceneError for values that are impossible.
-        """
+        """Return a copy with other values for some keys. Constants of a law or of fibres are scaled with
+        another `young`, and `young` follows other constants. Raises SceneError for values that are
+        impossible."""
         kinds = {self.kind, values.get("kind", self.kind)}
         scaled, derived = tuple[str, ...](), {"young"}
         if "orthotropic" in kinds:

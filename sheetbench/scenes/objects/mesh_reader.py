@@ -36,10 +36,8 @@ NO_OUTLINE = ("TEXT", "MTEXT", "ATTDEF", "ATTRIB", "DIMENSION", "LEADER", "MULTI
 
 
 def read(path: Path, kind: str) -> dict[str, np.ndarray]:
-    """Return the arrays of a file in a format of meshio or of this module.
-
-    Raises ValueError with a clause on the reason.
-    """
+    """Return the arrays of a file in a format of meshio or of this module. Raises ValueError with a clause on
+    the reason."""
     if kind == "obj":
         return _obj(path)
     if kind not in DRAWINGS:

@@ -54,11 +54,8 @@ class Fibres(Frozen):
 
 
 class Ply(NamedTuple):
-    """A ply of a laminate.
-
-    low, high: heights of its faces over the thickness, −½ to ½. Constants, angle [rad] of axis 1 from x and
-    density [kg/m³] are numbers, or arrays over points or cells.
-    """
+    """A ply of a laminate. low, high: heights of its faces over the thickness, −½ to ½. Constants, angle
+    [rad] of axis 1 from x and density [kg/m³] are numbers, or arrays over points or cells."""
 
     low: float
     high: float
@@ -76,11 +73,9 @@ class Ply(NamedTuple):
 
 
 def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the constants of a ply from the keys of a material, patch or layer.
-
-    A missing constant of an orthotropic material is taken from another axis; `young` and `poisson` are
-    the constants of an isotropic material.
-    """
+    """Return the constants of a ply from the keys of a material, patch or layer. A missing constant of an
+    orthotropic material is taken from another axis; `young` and `poisson` are the constants of an isotropic
+    material."""
     constants = {key: value for key, value in own.items() if key in Ply._fields}
     if "young_1" in own:
         shear, poisson = dict.fromkeys(("shear_13", "shear_23"), own["shear_12"]), own["poisson_12"]

@@ -125,10 +125,8 @@ def read_file(path: Path, formats: Mapping[str, str] = FORMATS) -> tuple[np.ndar
 
 
 def mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
-    """Return the mesh of plan points (n, 2) [m] and of polygons of 3 and of 4 corners.
-
-    Raises ValueError if a corner names a point that is missing or not finite.
-    """
+    """Return the mesh of plan points (n, 2) [m] and of polygons of 3 and of 4 corners. Raises ValueError if a
+    corner names a point that is missing or not finite."""
     for kind, corners in cells.items():
         if corners.dtype.kind not in "iu":
             raise ValueError(f"a {kind}'s corners are no whole numbers")

@@ -64,11 +64,9 @@ def _not_too_small(value: float) -> float:
 
 
 class Real:
-    """A finite number, no text, within bounds (`gt`, `ge`, `lt`, `le`), with a further check.
-
-    It makes its schema as a whole: pydantic would apply each part of an annotation anew at every use. hint: a
-    value to write in place of a number beyond the bounds, for the JSON Schema.
-    """
+    """A finite number, no text, within bounds (`gt`, `ge`, `lt`, `le`), with a further check. It makes its
+    schema as a whole: pydantic would apply each part of an annotation anew at every use. hint: a value to
+    write in place of a number beyond the bounds, for the JSON Schema."""
 
     def __init__(self, check: Callable[[float], float] | None = None, hint: str = "", **bounds: Any):
         self.check, self.hint, self.bounds = check, hint, bounds
@@ -178,10 +176,8 @@ class Frozen(BaseModel, frozen=True, metaclass=Documented):
         return repr(self)
 
     def _faults(self) -> Iterator[object]:
-        """Yield sentences on values that contradict each other; false values are ignored.
-
-        The first sentence is reported.
-        """
+        """Yield sentences on values that contradict each other; false values are ignored. The first sentence
+        is reported."""
         yield from ()
 
     @model_validator(mode="after")

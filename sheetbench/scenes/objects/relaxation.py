@@ -48,11 +48,8 @@ class Relaxation(Frozen):
 
 
 class BranchStep(NamedTuple):
-    """Branches within a step or stage: R = w X + c of each.
-
-    weight: w (b,). constant: c (b, 2, m). gain: 1 + Σ a w, the factor of the elastic stress. past: Σ a c_s
-    (m,), the stress added to it.
-    """
+    """Branches within a step or stage: R = w X + c of each. weight: w (b,). constant: c (b, 2, m). gain: 1 +
+    Σ a w, the factor of the elastic stress. past: Σ a c_s (m,), the stress added to it."""
 
     weight: np.ndarray
     constant: np.ndarray
@@ -119,10 +116,8 @@ class Branches(NamedTuple):
         return 0.5 * float(np.array(self.stiffness) @ (memory[1:, 0] * memory[1:, 1]).sum(axis=1))
 
     def dissipated(self, before: np.ndarray, after: np.ndarray) -> float:
-        """Return the energy [J] that the branches dissipate from one memory to the next.
-
-        It is the work of their mean stresses less the increase of their stored energy.
-        """
+        """Return the energy [J] that the branches dissipate from one memory to the next. It is the work of
+        their mean stresses less the increase of their stored energy."""
         mean = 0.5 * np.tensordot(np.array(self.stiffness), before[1:, 0] + after[1:, 0], 1)
         work = float(mean @ (after[0, 1] - before[0, 1]))
         return work - self.stored(after) + self.stored(before)
@@ -130,10 +125,8 @@ class Branches(NamedTuple):
 
 @cache
 def constant_loss(loss_factor: float, low: float, high: float) -> Branches:
-    """Return branches that keep a loss factor from a low to a high frequency [Hz].
-
-    Raises BadInput for an empty or too wide band, and if they miss the loss factor by more than HELD_WITHIN.
-    """
+    """Return branches that keep a loss factor from a low to a high frequency [Hz]. Raises BadInput for an
+    empty or too wide band, and if they miss the loss factor by more than HELD_WITHIN."""
     band = f"band = [{low:g}, {high:g}] Hz"
     if not low < high:
         raise BadInput(f"{band}: the second frequency must be the higher one")

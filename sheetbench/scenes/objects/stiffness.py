@@ -50,9 +50,7 @@ class Stiffnesses(Frozen):
 
 def as_laminate(data: Mapping[str, Any], material: Any) -> dict[str, Any]:
     """Return a scene's keys with thickness, orthotropic material and layers in place of the stiffnesses.
-
-    Raises ValueError for stiffnesses that no laminate has.
-    """
+    Raises ValueError for stiffnesses that no laminate has."""
     rest = {
         key: value for key, value in dict(data["material"]).items() if key not in (*KEYS, "poisson", "kind")
     }

@@ -173,10 +173,8 @@ def held_axes(support: AnySupport) -> tuple[int, ...]:
 
 
 def encloses_volume(supports: Iterable[AnySupport]) -> bool:
-    """Return whether every edge is held across itself, so that none sweeps an area.
-
-    A pressure then has a potential, − p times the volume between the sheet and its plan.
-    """
+    """Return whether every edge is held across itself, so that none sweeps an area. A pressure then has a
+    potential, − p times the volume between the sheet and its plan."""
     on_edges = [support for support in supports if place(support) is None]
     held = {support.edge for support in on_edges if EDGES[support.edge].normal_axis in held_axes(support)}
     return held == set(EDGES)

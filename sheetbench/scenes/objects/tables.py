@@ -21,10 +21,8 @@ Values = Sequence[float] | Sequence[Sequence[float]]
 
 
 class PiecewiseCurve:
-    """Curve through values (n, …) at increasing times (n,) [s], linear or smooth, constant outside.
-
-    A smooth curve of two samples is a line.
-    """
+    """Curve through values (n, …) at increasing times (n,) [s], linear or smooth, constant outside. A smooth
+    curve of two samples is a line."""
 
     def __init__(self, time: Sequence[float], values: Values, interpolation: Interpolation = "linear"):
         self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)

@@ -1,4 +1,4 @@
-"""Docstrings as reStructuredText: plain text as they are, code and names in backticks, formulas indented."""
+"""Docstrings as reStructuredText: plain text, code and names in backticks, indented formulas, sections."""
 
 from __future__ import annotations
 
@@ -6,7 +6,26 @@ import re
 
 
 def as_restructured(lines: list[str]) -> list[str]:
-    """The lines with what is indented set as it stands, and everything else without markup but backticks."""
+    """Return the lines without markup but backticks, indented text set verbatim.
+
+    Sections of numpydoc, from their headings on, become definition lists, and their examples code.
+    """
+    rules = [n for n, line in enumerate(lines) if re.fullmatch("-{3,}", line) and n and lines[n - 1]]
+    starts = [n - 1 for n in rules]
+    out = _prose(lines[: starts[0]] if starts else lines)
+    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+        body = lines[start + 2 : end]
+        listed = any(line.startswith(" ") for line in body)
+        defined = [line if not line.strip() else f"{_indent(line)}{_escaped(line.strip())}" for line in body]
+        out += ["", f"**{lines[start]}**", "", *(defined if listed else _prose(body)), ""]
+    return out
+
+
+def _indent(line: str) -> str:
+    return line[: len(line) - len(line.lstrip())]
+
+
+def _prose(lines: list[str]) -> list[str]:
     out: list[str] = []
     verbatim = listing = False
     for line in lines:

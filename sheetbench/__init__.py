@@ -17,9 +17,9 @@ from sheetbench.choices import FUNCTIONS as _FUNCTIONS
 
 _MODULES = {  # `__init__.pyi`, which type checkers read, is made of these and of the verbs: make stubs
     "comparisons.codes.cell": "Cell cell_of=cell",
-    "comparisons.comparison.comparison": "error",
     "comparisons.identification.measurements": "Displacements",
     "comparisons.models.spec": "Elements External Lattice",
+    "comparisons.sweep.differences": "error",
     "sheetbench.answers.history": "History",
     "sheetbench.answers.solution": "Solution Status",
     "sheetbench.face": "solve study",

@@ -122,7 +122,11 @@ class History(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a table with a row per probe: its last displacement and its largest component."""
-        rows = [ExcursionRow(name, *u[-1], np.abs(u).max()) for name, u in self.probes.items() if len(u)]
+        rows = [
+            ExcursionRow(name, *u[-1].tolist(), *[np.abs(u).max()])
+            for name, u in self.probes.items()
+            if len(u)
+        ]
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and its largest component during the motion"
         return (Table.of(ExcursionRow, rows, caption, "probes"),)

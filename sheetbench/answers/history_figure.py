@@ -40,8 +40,8 @@ def compose(history: History, title: str, style: FigureStyle = PLAIN) -> Figure:
     panels[-1].legend(ncols=3 if style.narrow else 5, fontsize=6.5, **ABOVE)
     for axis in panels:
         axis.margins(x=0)
-    left = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
-    text = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{left}"
+    omitted = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
+    text = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{omitted}"
     if style.titled:
         figure.suptitle(text, fontsize=8)
     return figure

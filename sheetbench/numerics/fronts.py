@@ -29,16 +29,16 @@ class CoupledCells(NamedTuple):
 class Fronts(NamedTuple):
     """Layout of F fronts, each after its two halves.
 
-    order: (n,) the unknown at each place. own, first: (F,) number of places that a front eliminates, and the
-    first of them. rows: places of all fronts' unknowns, own ones first, from `starts` (F + 1,) on. halves:
+    order: (n,) the unknown at each place. pivots, first: (F,) number of places that a front eliminates, and
+    the first of them. rows: places of all fronts' unknowns, pivots first, from `starts` (F + 1,) on. halves:
     (F, 2), −1 for none. target, source: for every entry of the lower triangle its place in its front, and in
     the matrix's data, by front from `entries` (F + 1,) on. diagonal: (n,) the diagonal's places in the data.
-    kept: (F + 1,) starts of the fronts' columns in the factors. widest: width of the largest front. waiting:
-    largest size of the fronts' updates.
+    columns: (F + 1,) starts of the fronts' columns in the factors. widest: width of the largest front.
+    updates: largest total size of the fronts' updates.
     """
 
     order: np.ndarray
-    own: np.ndarray
+    pivots: np.ndarray
     first: np.ndarray
     rows: np.ndarray
     starts: np.ndarray
@@ -47,9 +47,9 @@ class Fronts(NamedTuple):
     source: np.ndarray
     entries: np.ndarray
     diagonal: np.ndarray
-    kept: np.ndarray
+    columns: np.ndarray
     widest: int
-    waiting: int
+    updates: int
 
 
 def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> Fronts:
@@ -70,8 +70,8 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
         owner = np.where(below < 0, owner, below)
     order = np.argsort(owner, kind="stable")
     place = np.argsort(order)
-    own = np.bincount(owner, minlength=len(parts))
-    first = np.cumsum(own) - own
+    pivots = np.bincount(owner, minlength=len(parts))
+    first = np.cumsum(pivots) - pivots
 
     above = np.full(len(parts), -1)
     above[halves[halves >= 0]] = np.nonzero(halves >= 0)[0]
@@ -88,15 +88,15 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
     by_part = having.tocsc()
     rows, begin = by_part.indices.astype(np.int64), by_part.indptr.astype(np.int64)
     width = np.diff(begin)
-    updates = np.append((width - own) ** 2, 0)
-    waiting = np.cumsum(updates[:-1] - updates[halves].sum(axis=1))
-    kept = np.append(0, np.cumsum(own * width))
-    target, source, entries, diagonal = _targets(columns, starts, order, place, own, first, rows, begin)
+    update = np.append((width - pivots) ** 2, 0)
+    updates = np.cumsum(update[:-1] - update[halves].sum(axis=1))
+    factor_columns = np.append(0, np.cumsum(pivots * width))
+    target, source, entries, diagonal = _targets(columns, starts, order, place, pivots, first, rows, begin)
     if np.any(diagonal < 0):
         raise ValueError("the pattern lacks a part of its diagonal")
-    widest, most = int(width.max()), int(waiting.max())
     return Fronts(
-        order, own, first, rows, begin, halves, target, source, entries, diagonal, kept, widest, most
+        *(order, pivots, first, rows, begin, halves, target, source, entries, diagonal, factor_columns),
+        int(width.max()), int(updates.max()),
     )  # fmt: skip
 
 
@@ -171,7 +171,7 @@ def _targets(
     starts: np.ndarray,
     order: np.ndarray,
     place: np.ndarray,
-    own: np.ndarray,
+    pivots: np.ndarray,
     first: np.ndarray,
     rows: np.ndarray,
     begin: np.ndarray,
@@ -179,14 +179,14 @@ def _targets(
     """Return target, source, entries and diagonal of `Fronts`, −1 for a missing diagonal entry."""
     lower = (len(columns) + len(order)) // 2
     target, source = empty(lower, np.int32), empty(lower, np.int32)
-    entries, diagonal = zeros(len(own) + 1, np.int64), empty(len(order), np.int64)
+    entries, diagonal = zeros(len(pivots) + 1, np.int64), empty(len(order), np.int64)
     local, filled = empty(len(order), np.int64), 0
     diagonal[:] = -1
-    for f in range(len(own)):
+    for f in range(len(pivots)):
         width = begin[f + 1] - begin[f]
         for i in range(width):
             local[rows[begin[f] + i]] = i
-        for i in range(own[f]):
+        for i in range(pivots[f]):
             u = order[first[f] + i]
             for at in range(starts[u], starts[u + 1]):
                 if columns[at] == u:

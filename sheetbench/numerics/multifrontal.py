@@ -37,7 +37,7 @@ GROWTH = 1e3
 def signed_factors(data: np.ndarray, fronts: Fronts) -> tuple[Callable[[np.ndarray], np.ndarray], int] | None:
     """Return a solver of A x = b (n,) and the number of negative eigenvalues of A. data: of A, in the fronts'
     pattern. Return None if a pivot vanishes or is not finite, or the factors grow."""
-    factors, signs = np.empty(fronts.kept[-1]), np.ones(len(fronts.order))
+    factors, signs = np.empty(fronts.columns[-1]), np.ones(len(fronts.order))
     if not factor(data, fronts, factors, signs):
         return None
     return partial(solve, factors, signs, fronts), int(np.count_nonzero(signs < 0.0))
@@ -47,17 +47,17 @@ def signed_factors(data: np.ndarray, fronts: Fronts) -> tuple[Callable[[np.ndarr
 def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndarray) -> bool:
     """Compute a matrix's factors from its data into `factors` and `signs` (n,); False if there are none."""
     front, panel = empty((fronts.widest + 1) * fronts.widest), empty(PANEL * fronts.widest)
-    waiting, top = empty(fronts.waiting), 0
+    updates, top = empty(fronts.updates), 0
     where, local = empty(len(fronts.order), np.int64), empty(fronts.widest, np.int64)
     diagonal, indefinite = empty(len(fronts.order)), False
     for i in range(len(diagonal)):
         diagonal[i] = abs(data[fronts.diagonal[i]])
-    for f in range(len(fronts.own)):
-        own, start, end = fronts.own[f], fronts.starts[f], fronts.starts[f + 1]
+    for f in range(len(fronts.pivots)):
+        pivots, start, end = fronts.pivots[f], fronts.starts[f], fronts.starts[f + 1]
         width = end - start
         dense = front[: (width + 1) * width].reshape(width + 1, width)
         dense[:] = 0.0
-        flat = front[: own * width]
+        flat = front[: pivots * width]
         for t in range(fronts.entries[f], fronts.entries[f + 1]):
             flat[fronts.target[t]] = data[fronts.source[t]]
         for i in range(width):
@@ -65,37 +65,37 @@ def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndar
         for h in range(1, -1, -1):  # the second half's update lies on top
             half = fronts.halves[f, h]
             if half >= 0:
-                left = fronts.rows[fronts.starts[half] + fronts.own[half] : fronts.starts[half + 1]]
-                rest = len(left)
+                border = fronts.rows[fronts.starts[half] + fronts.pivots[half] : fronts.starts[half + 1]]
+                rest = len(border)
                 top -= rest * rest
-                update = waiting[top : top + rest * rest].reshape(rest, rest)
+                update = updates[top : top + rest * rest].reshape(rest, rest)
                 for i in range(rest):
-                    local[i] = where[left[i]]
+                    local[i] = where[border[i]]
                 for j in range(rest):
                     column = dense[local[j]]
                     for i in range(j, rest):
                         column[local[i]] += update[j, i]
         first = fronts.first[f]
         room = panel[: PANEL * width].reshape(PANEL, width)
-        if not _eliminate(dense, diagonal[first : first + own], signs[first : first + own], room):
+        if not _eliminate(dense, diagonal[first : first + pivots], signs[first : first + pivots], room):
             return False
-        for k in range(own):
+        for k in range(pivots):
             indefinite = indefinite or signs[first + k] < 0.0
-        for k in range(own if indefinite else 0):
+        for k in range(pivots if indefinite else 0):
             for i in range(k, width):
                 if not dense[k, i] ** 2 <= GROWTH * diagonal[fronts.rows[start + i]]:
                     return False
-        kept = fronts.kept[f]
+        columns = fronts.columns[f]
         for i in range(len(flat)):
-            factors[kept + i] = flat[i]
-        for k in range(own):
-            factors[kept + k * width + k] = 1.0 / dense[k, k]
-        rest = width - own
-        update = waiting[top : top + rest * rest].reshape(rest, rest)
+            factors[columns + i] = flat[i]
+        for k in range(pivots):
+            factors[columns + k * width + k] = 1.0 / dense[k, k]
+        rest = width - pivots
+        update = updates[top : top + rest * rest].reshape(rest, rest)
         for j in range(rest):
-            column = dense[own + j]
+            column = dense[pivots + j]
             for i in range(j, rest):
-                update[j, i] = column[own + i]
+                update[j, i] = column[pivots + i]
         top += rest * rest
     return True
 
@@ -105,10 +105,10 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel
     """Turn the first columns of a lower triangle into columns of its factor, and the others into the update.
     dense: the columns as rows, with a spare one. panel: workspace (PANEL, width), zero for missing columns.
     Return False at a pivot that is not finite, or rounding."""
-    width, own = dense.shape[1], len(signs)
+    width, pivots = dense.shape[1], len(signs)
     shares, sign, rows = zeros((PANEL, PANEL)), zeros(PANEL), panel.ravel()
-    for k0 in range(0, own, PANEL):
-        start = min(own, k0 + PANEL)
+    for k0 in range(0, pivots, PANEL):
+        start = min(pivots, k0 + PANEL)
         if start < k0 + PANEL:
             panel[:] = 0.0
             shares[:] = 0.0
@@ -158,43 +158,43 @@ def solve(factors: np.ndarray, signs: np.ndarray, fronts: Fronts, b: np.ndarray)
     """Solve A x = b for x (n,)."""
     y = b[fronts.order]
     local = empty(fronts.widest)
-    for f in range(len(fronts.own)):
-        own, first = fronts.own[f], fronts.first[f]
+    for f in range(len(fronts.pivots)):
+        pivots, first = fronts.pivots[f], fronts.first[f]
         rows = fronts.rows[fronts.starts[f] : fronts.starts[f + 1]]
-        at, width = fronts.kept[f], len(rows)
-        for i in range(own):
+        at, width = fronts.columns[f], len(rows)
+        for i in range(pivots):
             local[i] = y[first + i]
-        local[own : len(rows)] = 0.0
-        whole = own - own % PANEL
+        local[pivots : len(rows)] = 0.0
+        whole = pivots - pivots % PANEL
         for k0 in range(0, whole, PANEL):
             solve_forward(factors, at + k0 * width + k0, width, local, k0, width - k0 - PANEL)
-        for k in range(whole, own):
+        for k in range(whole, pivots):
             column = factors[at + k * width : at + (k + 1) * width]
             local[k] *= column[k]
             share = local[k]
             for i in range(k + 1, len(rows)):
                 local[i] -= share * column[i]
-        for i in range(own):
+        for i in range(pivots):
             y[first + i] = local[i]
-        for i in range(own, len(rows)):
+        for i in range(pivots, len(rows)):
             y[rows[i]] += local[i]
-    for f in range(len(fronts.own) - 1, -1, -1):
-        own, first = fronts.own[f], fronts.first[f]
+    for f in range(len(fronts.pivots) - 1, -1, -1):
+        pivots, first = fronts.pivots[f], fronts.first[f]
         rows = fronts.rows[fronts.starts[f] : fronts.starts[f + 1]]
-        at, width = fronts.kept[f], len(rows)
-        for i in range(own):
+        at, width = fronts.columns[f], len(rows)
+        for i in range(pivots):
             local[i] = signs[first + i] * y[first + i]
-        for i in range(own, len(rows)):
+        for i in range(pivots, len(rows)):
             local[i] = y[rows[i]]
-        whole = own - own % PANEL
-        for k in range(own - 1, whole - 1, -1):
+        whole = pivots - pivots % PANEL
+        for k in range(pivots - 1, whole - 1, -1):
             column, value = factors[at + k * width : at + (k + 1) * width], local[k]
             for i in range(k + 1, len(rows)):
                 value -= column[i] * local[i]
             local[k] = value * column[k]
         for k0 in range(whole - PANEL, -1, -PANEL):
             solve_backward(factors, at + k0 * width + k0, width, local, k0, width - k0 - PANEL)
-        for i in range(own):
+        for i in range(pivots):
             y[first + i] = local[i]
     x = empty(y.shape)
     for i in range(len(y)):

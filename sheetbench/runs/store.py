@@ -137,21 +137,21 @@ class FolderStore:
                 text = json.dumps({"asked": self._description}, sort_keys=True)
                 partial.write_text(text, encoding="utf-8")
         try:
-            other = dict(json.loads(path.read_text(encoding="utf-8"))["asked"])
+            stored = dict(json.loads(path.read_text(encoding="utf-8"))["asked"])
         except (OSError, ValueError, TypeError, LookupError) as error:
             raise self._damaged(path, f"is damaged ({error})") from None
-        own = self._description
-        off = [name for name in {**other, **own} if other.get(name) != own.get(name)]
-        if off and set(off) <= {"version", "source"}:
+        requested = self._description
+        differing = [key for key in {**stored, **requested} if stored.get(key) != requested.get(key)]
+        if differing and set(differing) <= {"version", "source"}:
             raise BadInput(
                 f"{self.folder}: holds a run that another state of sheetbench's code began "
-                f"({other.get('version')}, source {other.get('source')}), which this one does not go on "
+                f"({stored.get('version')}, source {stored.get('source')}), which this one does not go on "
                 "with; choose another folder or remove this one"
             )
-        if off:
+        if differing:
             raise BadInput(
-                f"{self.folder}: holds another run (of another {', '.join(off)}); choose another folder or "
-                "remove this one"
+                f"{self.folder}: holds another run (of another {', '.join(differing)}); "
+                "choose another folder or remove this one"
             )
 
     def _cut(self, sizes: dict[str, int]) -> None:

@@ -18,8 +18,8 @@ WIDTH = 100  # characters of a line
 class Documented(type(BaseModel)):  # type: ignore[misc]
     # Metaclass: `__doc__` of a class is its text with the section of parameters, made when it is read.
     @property
-    def __doc__(cls) -> str | None:  # type: ignore[override]
-        text = vars(cls)["__doc__"]
+    def __doc__(cls: Any) -> str | None:  # type: ignore[override]
+        text: str | None = vars(cls)["__doc__"]
         if not text or not cls.model_fields:
             return text
         return "\n".join([cleandoc(text), "", "Parameters", "----------", *_parameters(cls), ""])

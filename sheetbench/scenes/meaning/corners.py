@@ -64,8 +64,8 @@ def conflicts(
     yield _held_twice(actuators, supports)
     for motion in actuators:
         if isinstance(motion, EdgeMotion):
-            for other in (*on_edges, *(each for each in actuators if each is not motion)):
-                yield _at_corner("actuator", motion, other, driven, sheet)
+            for holder in (*on_edges, *(each for each in actuators if each is not motion)):
+                yield _at_corner("actuator", motion, holder, driven, sheet)
 
 
 def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:

@@ -40,7 +40,7 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){tapers}, {1e3 * mass:.3g} g",
     )
     rubber = f" at small strains, rubber by the law {material.law}" if material.law else ""
-    rubber += f" ({own})" if (own := _own(material.given(CONSTANTS))) else ""
+    rubber += f" ({constants})" if (constants := _own(material.given(CONSTANTS))) else ""
     dampers = f", dampers of {1e3 * time:.4g} ms · k" if (time := material.dashpot_time) else ""
     drag = f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""
     elasticity = f"{_elasticity(material)}, {_own({'density': material.density})}"

@@ -45,9 +45,9 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
     inner = plan.buffer(-0.5 * neck)
     if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
         drawn = "sheet.mesh: it covers" if sheet.mesh is not None else "sheet.outline: it encloses"
-        what = "cutout: they leave" if cutouts else drawn
+        subject = "cutout: they leave" if cutouts else drawn
         parts = f"{count} parts that are connected at points at most" if count else "no part"
-        raise ValueError(f"{what} {parts}; a sheet is one piece")
+        raise ValueError(f"{subject} {parts}; a sheet is one piece")
     if plan.geom_type != "Polygon":  # slivers beside it
         plan = max(plan.geoms, key=lambda part: part.area)
     return plan

@@ -120,8 +120,11 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
 
 
 class Material(Fibres):
-    """Elasticity, density, viscous damping and relaxation of a sheet. Rubber has a law with its constants, a
-    sheet with fibres the constants along and across them (`sheetbench.scenes.objects.orthotropy`)."""
+    """Elasticity, density, viscous damping and relaxation of a sheet.
+
+    Rubber has a law with its constants, a sheet with fibres the constants along and across them
+    (`sheetbench.scenes.objects.orthotropy`).
+    """
 
     model_config = ConfigDict(json_schema_extra=_constants_in_schema)
 

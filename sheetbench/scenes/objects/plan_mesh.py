@@ -103,9 +103,9 @@ def read_file(path: Path, formats: Mapping[str, str] = FORMATS) -> tuple[np.ndar
     """
     kind = formats.get(path.suffix.lower())
     if kind is None:
-        known, what = ", ".join(formats), "mesh" if formats is FORMATS else "drawing"
+        endings, subject = ", ".join(formats), "mesh" if formats is FORMATS else "drawing"
         more = ": convert it, as with meshio convert" * (formats is FORMATS)
-        raise ValueError(f"a {what} file's name ends in one of {known}{more}")
+        raise ValueError(f"a {subject} file's name ends in one of {endings}{more}")
     if not path.is_file():
         raise ValueError("no such file")
     size = path.stat().st_size

@@ -128,8 +128,11 @@ VOLUME_KEPT = "write 0.4999 for a material that keeps its volume"
 PoissonRatio = Annotated[float, Real(hint=VOLUME_KEPT, gt=-1, lt=0.5)]  # of isotropic materials
 
 
+METACLASS: Any = {"metaclass": Documented}  # which type checkers need not see
+
+
 @dataclass_transform(frozen_default=True, field_specifiers=(Field,))
-class Frozen(BaseModel, frozen=True, metaclass=Documented):
+class Frozen(BaseModel, frozen=True, **METACLASS):
     """Base of the scene objects: immutable, and unknown keys are refused.
 
     A sentence below each key gives its meaning and its sign; docstrings, the JSON Schema, the reference page

@@ -22,7 +22,7 @@ AT_128CD25B = {  # clauses of each kind in the three packages at that commit, by
 IGNORED = {  # numpydoc's codes
     "SA01": "no See Also: the reference is in reading order, and the site links every name",
     "ES01": "a summary may be the whole text: Parameters, Returns and Notes have the rest",
-    "EX01": "an Examples section only where a short one runs; the pages of docs have longer ones, also tested",
+    "EX01": "an Examples section only where a short one runs; the pages of docs have others",
     "GL01": "the summary is on the opening line, as everywhere in the house",
     "GL02": "the closing quotes may end the last line of a short text",
     "GL03": "follows from GL01 and GL02",

@@ -15,7 +15,6 @@ from comparisons.codes.cell_moduli import CellModuli
 from comparisons.codes.inverse import SheetOfCode
 from comparisons.codes.setup import CodeSetup
 from comparisons.comparison.answer import Comparison
-from comparisons.comparison.comparison import error as error
 from comparisons.comparison.crosscheck_answer import Crosscheck
 from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.comparison.simulation import Simulation
@@ -33,6 +32,7 @@ from comparisons.modes.state_space import Linearisation
 from comparisons.scoring.score import Score
 from comparisons.scoring.suite import Suite
 from comparisons.stability.answer import Stability
+from comparisons.sweep.differences import error as error
 from comparisons.sweep.variation import Variation
 from comparisons.tradeoff.advice import Advice
 from comparisons.tradeoff.answer import DynamicTradeoff

@@ -27,7 +27,7 @@ class _Obstacle(Frozen):
     friction: NonNegative = Field(default=0.0, kw_only=True)
     """Coefficient of friction, in motion only."""
     contact_damping: Annotated[NonNegative, Unit("s/m")] = Field(default=0.0, kw_only=True)
-    """τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
+    """Time τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
     obstacle at a speed v ≪ 1/τ leaves it at about (1 − 2 τ v/3) v."""
 
     def _faults(self) -> Iterator[object]:

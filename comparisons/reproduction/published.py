@@ -1,4 +1,4 @@
-"""What Habibi et al. published, as data: inputs and displacements in SI units, printed errors, known faults.
+"""Data published by Habibi et al.: inputs and displacements in SI units, printed errors, known faults.
 
 Source: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation continuum
 surfaces. See data/README.md.
@@ -40,8 +40,8 @@ def published_displacements() -> dict[tuple[int, str, str, str], float]:
 
 
 def published_inputs() -> dict[str, float]:
-    """Return every published input and figure by name, in SI units, errors as fractions; the file says what
-    each is."""
+    """Return every published input and figure by name, in SI units, errors as fractions; inputs.csv has a
+    description of each."""
     return {row["quantity"]: float(row["value"]) * _SI.get(row["unit"], 1.0) for row in _rows("inputs.csv")}
 
 

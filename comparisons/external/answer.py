@@ -24,11 +24,9 @@ BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
 
 @runtime_checkable
 class ExternalCode(Model, Protocol):
-    """A plug-in around another program.
-
-    called: full name of the program; needs: the packages or programs to install; meshes: numbers of elements
-    along the shorter side on which its convergence is measured, coarsest first.
-    """
+    """A plug-in around another program. called: full name of the program; needs: the packages or programs to
+    install; meshes: numbers of elements along the shorter side on which its convergence is measured, coarsest
+    first."""
 
     called: str
     needs: str
@@ -80,11 +78,9 @@ def refusal(
 
 
 class Reached(NamedTuple):
-    """A static answer of a code: nodal displacement (n, 3) [m] at the last load factor that converged.
-
-    note: the reason for an early end, "" if there was none; seconds: time of the solve alone; held: number of
-    unknowns fixed by supports.
-    """
+    """A static answer of a code: nodal displacement (n, 3) [m] at the last load factor that converged. note:
+    the reason for an early end, "" if there was none; seconds: time of the solve alone; held: number of
+    unknowns fixed by supports."""
 
     displacement: np.ndarray
     load_factor: float = 0.0

@@ -49,11 +49,9 @@ REVERSED = [0, 3, 2, 1, 7, 6, 5, 4]  # a face's nodes in the opposite sense of r
 
 @dataclass(frozen=True)
 class Bricks:
-    """The mesh of bricks.
-
-    plan: straight-sided or biquadratic; counts: requested elements along x and y; z (2 layers + 1,): heights
-    of a column's nodes [m]; taper (p,): thickness over each plan node divided by the sheet's thickness.
-    """
+    """The mesh of bricks. plan: straight-sided or biquadratic; counts: requested elements along x and y; z (2
+    layers + 1,): heights of a column's nodes [m]; taper (p,): thickness over each plan node divided by the
+    sheet's thickness."""
 
     plan: MeshQuad
     counts: tuple[int, int]
@@ -64,11 +62,8 @@ class Bricks:
 
     @classmethod
     def of(cls, scene: Scene, elements: int, layers: int, grading: str) -> Bricks:
-        """Extrude the shell's plan mesh.
-
-        elements: number along the shorter side; grading "edges": finest at the edges, for meshes made of
-        lines along x and y.
-        """
+        """Extrude the shell's plan mesh. elements: number along the shorter side; grading "edges": finest at
+        the edges, for meshes made of lines along x and y."""
         counts = divisions(scene.sheet, elements)
         plan = mesh_of(scene, counts, grading == "edges" and has_lines(scene))
         heights = np.linspace(-0.5, 0.5, 2 * layers + 1) * scene.sheet.thickness
@@ -172,8 +167,7 @@ class Bricks:
         return np.concatenate(faces), np.tile(lengths / self.layers, self.layers)
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Nodes of the mid-surface's faces at plan points (p, 2) [m], and their shape functions, both (p,
-        8)."""
+        """Return nodes and shape functions (p, 8) of mid-surface faces at plan points (p, 2) [m]."""
         element, place = locate(self.plan, points)
         return self.number[plan_of(self.plan).elements[element, :8], self.layers], serendipity(*place)
 
@@ -189,12 +183,9 @@ class Tie:
 
 @dataclass(frozen=True)
 class Held:
-    """Supported components of the nodes' displacement.
-
-    axes (n, 3, 3): a node's axes, one per row; fixed (n, 3): whether a component along an axis is prescribed;
-    value (n, 3): its prescribed displacement [m]; tied: constraints on column means at hinges; turned (n,):
-    whether a node's axes differ from x, y, z.
-    """
+    """Supported components of the nodes' displacement. axes (n, 3, 3): a node's axes, one per row; fixed (n,
+    3): whether a component along an axis is prescribed; value (n, 3): its prescribed displacement [m]; tied:
+    constraints on column means at hinges; turned (n,): whether a node's axes differ from x, y, z."""
 
     axes: np.ndarray
     fixed: np.ndarray
@@ -286,8 +277,7 @@ def serendipity(r: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 
 def point_loads(scene: Scene, mesh: Any) -> np.ndarray:
-    """Return nodal forces (n, 3) [N] of point loads and of payloads at points; mesh: any with `positions` and
-    `weights`."""
+    """Return nodal forces (n, 3) [N] of point loads and point payloads, for any mesh with `weights`."""
     out = np.zeros_like(mesh.positions)
     for load in (*scene.loads, *weights(scene)):
         if isinstance(load, PointLoad):

@@ -79,10 +79,8 @@ def names() -> list[str]:
 
 
 def plugin(name: str) -> Model:
-    """Return the plug-in of a name or of `FILE.py:OBJECT`.
-
-    Raises BadInput if it cannot be loaded, is not a `Model`, or has a name that is no valid file name.
-    """
+    """Return the plug-in of a name or of `FILE.py:OBJECT`. Raises BadInput if it cannot be loaded, is not a
+    `Model`, or has a name that is no valid file name."""
     try:
         model = _load(name)
     except (Exception, SystemExit) as error:  # any fault on import is reported with the plug-in's name
@@ -124,10 +122,8 @@ def shown_name(name: str) -> str:
 
 
 def digest(name: str) -> str | None:
-    """Return a digest that identifies a plug-in's version, None for a model that is no plug-in.
-
-    The digest is made from its Python files or its program, and from name and version of its distribution.
-    """
+    """Return a digest that identifies a plug-in's version, None for a model that is no plug-in. The digest is
+    made from its Python files or its program, and from name and version of its distribution."""
     if is_program(name):
         return Program(name.removeprefix(PREFIX)).digest()
     if (file := from_file(name)) is not None:

@@ -65,8 +65,8 @@ class Program:
         """Return the program's answer at the probes, NaN elsewhere. Raises BadInput if the program refuses
         the scene or a limit is invalid."""
         seconds, megabytes = _limits(settings)
-        own = {key: value for key, value in settings.items() if key not in SETTINGS}
-        options = [f"--{key}" if value is True else f"--{key}={written(value)}" for key, value in own.items()]
+        passed = {key: value for key, value in settings.items() if key not in SETTINGS}
+        options = [f"--{key}" if v is True else f"--{key}={written(v)}" for key, v in passed.items()]
         question = json.dumps(scene.document()).encode()
         try:
             ended = run([str(self.path.resolve()), *options], question, seconds, megabytes)
@@ -94,7 +94,7 @@ class Program:
         return Solution(
             model=self.name,
             label=document.get("label", " ".join([self.name, *options])),
-            settings=own,
+            settings=passed,
             status=Status(document["status"]) if document else Status.FAILED,
             unknowns=int(document.get("unknowns", 0)),
             iterations=int(document.get("iterations", 0)),

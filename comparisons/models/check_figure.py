@@ -39,8 +39,8 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         axis.add_collection(PolyCollection(elements, facecolors="none", edgecolors=HELD, linewidths=0.3))
     for number, patch in enumerate(scene.patches, start=1):
         colour = colormaps[PATCHES](0.2 + 0.6 * number / (len(scene.patches) + 1))
-        style_of_patch = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
-        _part(axis, scene, patch.shape, f"patch {number}", **style_of_patch)
+        face = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
+        _part(axis, scene, patch.shape, f"patch {number}", **face)
     for name, support in named(scene.supports).items():
         if (shape := place(support)) is not None:
             _part(axis, scene, shape, name, facecolor=HELD, edgecolor="none", alpha=0.6)
@@ -54,15 +54,8 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
             _part(axis, scene, shape, f"load {number}", facecolor=LOAD, edgecolor=LOAD, alpha=0.2)
     for number, payload in enumerate(scene.masses, start=1):
         if payload.where is not None:
-            _part(
-                axis,
-                scene,
-                payload.where,
-                f"mass {number}",
-                facecolor=PAYLOAD,
-                edgecolor=PAYLOAD,
-                alpha=0.4,
-            )
+            face = {"facecolor": PAYLOAD, "edgecolor": PAYLOAD, "alpha": 0.4}
+            _part(axis, scene, payload.where, f"mass {number}", **face)
         elif payload.at is not None:
             axis.plot(*1e3 * np.array(payload.at), "s", markersize=7, color=PAYLOAD)
     for obstacle in scene.obstacles:
@@ -99,8 +92,7 @@ def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
 
 
 def _part(axis: Axes, scene: Scene, shape: Shape, name: str, **drawn_as: Any) -> None:
-    """Draw the part of the sheet inside a shape, with its name at the upper left, a patch's at the lower
-    right."""
+    """Draw the part of the sheet inside a shape, with its name at the upper left or lower right."""
     area = scene.region.intersection(shape.area)
     if not area.area:  # a rim, drawn as a line by the caller
         return

@@ -18,11 +18,9 @@ from sheetbench.answers.solution import Solution
 
 @dataclass(frozen=True)
 class Context:
-    """The settings of solves.
-
-    large: allow models that need more memory than is free; progress: called with the current work at its
-    start and at every iteration; solved: called with every answer of a comparison as soon as it exists.
-    """
+    """The settings of solves. large: allow models that need more memory than is free; progress: called with
+    the current work at its start and at every iteration; solved: called with every answer of a comparison as
+    soon as it exists."""
 
     large: bool = False
     progress: Progress = silent

@@ -56,11 +56,8 @@ ROUNDING = 1e-9  # of the largest displacement
 
 @dataclass(frozen=True)
 class ExpectedError:
-    """An estimated grid error.
-
-    value: fraction of the largest displacement, in the norm of `error`; grid, solve_seconds: the finer grid
-    and its solve time.
-    """
+    """An estimated grid error. value: fraction of the largest displacement, in the norm of `error`; grid,
+    solve_seconds: the finer grid and its solve time."""
 
     value: float
     grid: Grid
@@ -100,8 +97,7 @@ def finer_grid(grid: Grid) -> Grid:
 
 
 def converges(lattice: Lattice, finer: Grid) -> bool:
-    """Return whether answers of a resolved lattice converge to the sheet's and the finer grid has at most
-    MOST masses."""
+    """Return whether a lattice converges to the sheet and its finer grid has at most MOST masses."""
     modified = lattice.k or lattice.layer_distance or lattice.linear
     convergent = lattice.calibration in EXTRAPOLATED and finer[2] == LAYERS
     return convergent and not modified and prod(finer[:2]) <= MOST
@@ -114,8 +110,7 @@ def resolves(scene: Scene, grid: Grid) -> bool:
 
 
 def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
-    """Return the finer grid of a resolved lattice and its ratio of cells in plan, or the reason for no
-    estimate."""
+    """Return a lattice's finer grid and its ratio of cells in plan, or the reason for no estimate."""
     grid = scene_grid(scene, lattice.grid)
     finer = finer_grid(grid)
     if converges(lattice, finer):
@@ -128,10 +123,8 @@ def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
 def expected_error(
     scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
 ) -> ExpectedError | NoEstimate:
-    """Return the expected grid error of a lattice's solution, or the reason for no estimate.
-
-    lattice: the resolved lattice; solve: solves the finer lattice, None if it needs too much memory.
-    """
+    """Return the expected grid error of a lattice's solution, or the reason for no estimate. lattice: the
+    resolved lattice; solve: solves the finer lattice, None if it needs too much memory."""
     if solution.status is not Status.CONVERGED:
         return NoEstimate(f"the lattice is {solution.status}")
     refinement = finer_of(scene, lattice)
@@ -178,8 +171,7 @@ def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: floa
 
 
 def largest_stretch(scene: Scene, solution: Solution, grid: Grid) -> float:
-    """Return the largest elongation of the mid-surface between neighbours on a lattice's grid, along grid
-    lines and diagonals."""
+    """Return the largest elongation of the mid-surface between neighbours on a lattice's grid."""
     lines = [np.linspace(0.0, a, n) for a, n in zip(scene.sheet.lengths, grid[:2], strict=True)]
     flat = np.stack([*np.meshgrid(*lines, indexing="ij"), np.zeros([len(line) for line in lines])], axis=-1)
     plan = flat[..., :2].reshape(-1, 2)

@@ -101,10 +101,7 @@ def _moved_lines_note(scene: Scene, grid: Sequence[int], grading: Grading) -> st
 
 def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the reasons for an automatic grading and calibration, a sentence each, from an answer's
-    settings.
-
-    A `grading` without a reason belongs to a solid or a plug-in and is ignored.
-    """
+    settings. A `grading` without a reason belongs to a solid or a plug-in and is ignored."""
     notes = []
     if reason := settings.get("grading_reason"):
         grading = settings.get("grading")  # text of a specification, None if none was given

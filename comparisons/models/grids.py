@@ -17,10 +17,7 @@ Elements = int | tuple[int, int]
 
 def parse_elements(text: Elements | str, option: str = "--elements") -> Elements:
     """Return the elements of `N`, near-square along the shorter side, or `NxM`, along x and y; numbers pass
-    unchanged.
-
-    Raises BadInput naming the option.
-    """
+    unchanged. Raises BadInput naming the option."""
     if not isinstance(text, str):
         return text
     numbers = _numbers(text)

@@ -19,8 +19,8 @@ from sheetbench.scenes import Chain, Curved, Scene
 
 @dataclass(frozen=True, order=True)
 class Layer:
-    """A boundary layer; width [m]; cause: its origin in words; bent_edge: whether a bent edge causes it, and
-    not the load."""
+    """A boundary layer; width [m]; cause: in words; bent_edge: whether a bent edge, not the load, causes
+    it."""
 
     width: float
     cause: str

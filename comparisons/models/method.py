@@ -36,11 +36,8 @@ STRETCHED = 0.1
 
 
 def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> tuple[str | None, str]:
-    """Return the name of a lattice's calibration and the reason for a choice made here.
-
-    The name is None if none is requested. A choice is made for "auto", and for an open calibration beside the
-    grading "auto".
-    """
+    """Return the name of a lattice's calibration and the reason for a choice made here. The name is None if
+    none is requested. A choice is made for "auto", and for an open calibration beside the grading "auto"."""
     is_open = lattice.calibration is lattice.k is lattice.layer_distance is None
     if scene.material.law is not None and lattice.k is None and lattice.calibration in (None, AUTO):
         return RUBBER, f"the material has the law {scene.material.law}"

@@ -84,11 +84,8 @@ class Resolved(Generic[S]):
         return replace(self, scene=scene)
 
     def calibrated(self, training: Sequence[Scene] | None = None) -> Calibration:
-        """Return the springs; training: scenes of fitted calibrations (`comparisons.models.training`).
-
-        Raises BadInput for options that a calibration does not take; warns about an implausible layer
-        distance.
-        """
+        """Return the springs; training: scenes of fitted calibrations (`comparisons.models.training`). Raises
+        BadInput for options that a calibration does not take; warns about an implausible layer distance."""
         import lumped
 
         spec: Spec = self.spec
@@ -168,10 +165,8 @@ def resolve(
 def resolve_each(
     scene: Scene, lattices: Sequence[Lattice], grading: GradingLike = None
 ) -> tuple[list[Lattice], tuple[str, ...]]:
-    """Return lattices with all choices made, and the reasons.
-
-    grading: applies to lattices whose calibration and layers take one. Raises BadInput if none takes one.
-    """
+    """Return lattices with all choices made, and the reasons. grading: applies to lattices whose calibration
+    and layers take one. Raises BadInput if none takes one."""
     for lattice in lattices:
         _check_lattice(lattice)
     takers = [lattice for lattice in lattices if not one_size(scene_grid(scene, lattice.grid), lattice)]
@@ -238,7 +233,7 @@ def _check_elements(spec: Elements) -> None:
 
 
 def _check_external(spec: External) -> None:
-    known = [*OURS, *plugins.names()]
-    if spec.name not in known and not plugins.is_outside(spec.name):
-        raise BadInput(f"model = '{spec.name}': unknown, choose one of {', '.join(known)}. {plugins.OWN}")
+    names = [*OURS, *plugins.names()]
+    if spec.name not in names and not plugins.is_outside(spec.name):
+        raise BadInput(f"model = '{spec.name}': unknown, choose one of {', '.join(names)}. {plugins.OWN}")
     plugins.settings_of(plugins.plugin(spec.name), spec.settings)

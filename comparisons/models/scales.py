@@ -25,8 +25,7 @@ from sheetbench.scenes.objects.supports import held_axes, place
 
 @dataclass(frozen=True)
 class Scales:
-    """The dimensionless numbers of a scene; load, normal_load: per area [Pa]; span [m]; span_load_number:
-    q L³/D."""
+    """Dimensionless numbers of a scene; load, normal_load [Pa]; span [m]; span_load_number: q L³/D."""
 
     slenderness: float
     load: float

@@ -37,11 +37,8 @@ COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
 def solve(model: Resolved[Any], name: str = "") -> Solution:
-    """Return the static answer of a model after its warm-up; name: shown in place of its own.
-
-    The context's progress is called at the start and at every iteration. A failed solve is reported as a
-    status.
-    """
+    """Return the static answer of a model after its warm-up; name: shown in place of its own. The context's
+    progress is called at the start and at every iteration. A failed solve is reported as a status."""
     spec, scene = model.spec, model.scene
     doing = f"solving {name or plugins.shown_name(spec.model)}"
     work = Work(", ".join(filter(None, [doing, mesh(scene, spec)])), model.size)
@@ -134,10 +131,7 @@ def _unanswered(scene: Scene, spec: Elements, reason: str) -> Solution:
 
 def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings: Any) -> History:
     """Return a model's motion over `duration` [s]; doing: text for progress; settings: keywords of the
-    model's `simulate`.
-
-    Raises BadInput for a plug-in without motion.
-    """
+    model's `simulate`. Raises BadInput for a plug-in without motion."""
     spec, scene, progress = model.spec, model.scene, context().progress
     doing, pace = doing or f"simulating {plugins.shown_name(spec.model)}", Pace(duration)
     progress(Work(doing))
@@ -163,8 +157,7 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
 
 @cache
 def warm(model: str) -> None:
-    """Import and compile a model's code, once per process, by a solve of a coarse sheet; or load a
-    plug-in."""
+    """Import and compile a model's code, once per process, by a solve of a coarse sheet."""
     for coarse in COARSE:
         if coarse.model == model:
             _solve(resolve(load("one-edge-clamped"), coarse), None)

@@ -84,8 +84,7 @@ class Spec(ABC):
 
     @property
     def series(self) -> str:
-        """Label of a mesh refinement series: the model's name, calibration and settings other than its
-        size."""
+        """Label of a mesh refinement series: the model's name and settings without its size."""
         settings = self.settings
         grid = settings.get("grid")
         parts = [str(settings.get("calibration", ""))]
@@ -173,7 +172,7 @@ class Elements(Spec):
 
 @dataclass(frozen=True)
 class External(Spec):
-    """An external model; name: installed name, `FILE.py:OBJECT` or `exec:PROGRAM`; own: settings, plain JSON
+    """An external model; name: installed, `FILE.py:OBJECT` or `exec:PROGRAM`; own: settings, plain JSON
     data."""
 
     name: str
@@ -192,30 +191,28 @@ class External(Spec):
 
 
 def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
-    """Return the spec of a name and JSON settings. Raises BadInput for an unknown setting of a lattice or a
-    reference."""
+    """Return the spec of a name and JSON settings. Raises BadInput for an unknown setting."""
     if model not in (Lattice.NAME, *REFERENCES):
         return External(model, settings)
-    own: dict[str, Any] = {
+    values: dict[str, Any] = {
         key: tuple(value) if isinstance(value, list) else value for key, value in settings.items()
     }
     names = [entry.name for entry in fields(Lattice if model == Lattice.NAME else Elements)]
     if model == Lattice.NAME:
-        if unknown := [key for key in own if key not in names]:
+        if unknown := [key for key in values if key not in names]:
             raise BadInput(f"{model}: no setting '{unknown[0]}'; it has {', '.join(names)}")
-        return Lattice(**own)
-    if set(own) - {"elements", *names[1:]}:
+        return Lattice(**values)
+    if set(values) - {"elements", *names[1:]}:
         import fem_reference
 
         fem_reference.check(model, settings)
-    return Elements(model, own.pop("elements", None), **own)
+    return Elements(model, values.pop("elements", None), **values)
 
 
 def lattices(
     scene: Scene, grids: Iterable[GridLike], calibrations: Iterable[str], base: Lattice | None = None
 ) -> list[Lattice]:
-    """Return every calibration on every grid, in this order; base: their other settings. Raises BadInput for
-    an invalid grid."""
+    """Return every calibration on every grid; base: other settings. Raises BadInput for an invalid grid."""
     shapes = [scene_grid(scene, grid) for grid in grids]
     return [(base or Lattice()).but(grid=n, calibration=name) for name in calibrations for n in shapes]
 

@@ -30,8 +30,7 @@ def template(
     clamped: Sequence[str] = ("x0",),
     pressure: float = 0.0,
 ) -> str:
-    """Return commented TOML of a sheet under its own weight and a pressure [Pa], clamped at the named
-    edges."""
+    """Return commented TOML of a sheet under its weight and a pressure [Pa], clamped at some edges."""
     scene = Scene(
         name=name,
         sheet=sheet,

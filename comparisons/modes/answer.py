@@ -75,8 +75,7 @@ class Spectra(Answer):
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Natural frequencies of the lattice (count,) [Hz]; the first reference's are
-        `self[1].frequencies`."""
+        """Natural frequencies of the lattice (count,) [Hz]; `self[1].frequencies`: of a reference."""
         return self[0].frequencies
 
     @cached_property
@@ -231,11 +230,9 @@ def _paired_table(
     kinds: Sequence[str | None] = (),
     expected: Sequence[float | None] = (),
 ) -> Table:
-    """Return a table with a row per mode of the first model.
-
-    A row has the mode's value, its expected error if known, number and value of the mode of equal shape in
-    each other model, and difference and MAC from the second model.
-    """
+    """Return a table with a row per mode of the first model. A row has the mode's value, its expected error
+    if known, number and value of the mode of equal shape in each other model, and difference and MAC from the
+    second model."""
     (first, first_values), *others = models
     columns: list[tuple[Column, Sequence[Any]]] = [(NUMBER("d", "mode"), range(1, len(first_values) + 1))]
     columns += [(Column("kind"), kinds)] if any(kinds) else []

@@ -21,8 +21,7 @@ from sheetbench.scenes import Material
 
 @dataclass(frozen=True)
 class ModeDamping:
-    """Damping of a mode: its damped frequency [Hz], and the requested (None if there is none) and obtained
-    damping ratio."""
+    """Damping of a mode: its damped frequency [Hz], requested (if any) and obtained damping ratio."""
 
     number: Annotated[int, NUMBER("d", "mode")]
     frequency_hz: Annotated[float, HERTZ(".4g", "frequency")]

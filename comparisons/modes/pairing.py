@@ -37,11 +37,9 @@ LEAST = 0.5  # MAC from which two shapes count as one mode
 
 @dataclass(frozen=True)
 class Pair:
-    """Mode `number` of model `of`, from 1, and the mode of model `against` with an equal shape.
-
-    is_: the latter's number, None without a counterpart; mac: of both shapes; relative: difference of
-    frequency or load factor over the reference's; kind: of the shape, None about a deformed sheet.
-    """
+    """Mode `number` of model `of`, from 1, and the mode of model `against` with an equal shape. is_: the
+    latter's number, None without a counterpart; mac: of both shapes; relative: difference of frequency or
+    load factor over the reference's; kind: of the shape, None about a deformed sheet."""
 
     of: str
     number: int
@@ -62,8 +60,7 @@ class Pair:
 
 
 def pairs_of(first: ModeSet, others: Sequence[ModeSet], kinds: Sequence[str | None]) -> tuple[Pair, ...]:
-    """Pair every mode of the first model with each other model's mode of equal shape; kinds: of the
-    first's."""
+    """Pair every mode of the first model with each other model's; kinds: of the first's modes."""
     pairs, (of, first_values, first_shapes) = [], first
     for model, values, shapes in others:
         mac = assurance(first_shapes, shapes, values)

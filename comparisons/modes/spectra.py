@@ -86,10 +86,8 @@ def _buckling(
 
 
 def _expected(lattice: Resolved[Lattice], coarse: Buckling) -> tuple[float | None, ...] | NoEstimate:
-    """Return the expected grid error of each of a lattice's load factors, or the reason for no estimate.
-
-    The estimate compares modes of equal shape on the finer grid of `comparisons.models.expected_error`.
-    """
+    """Return the expected grid error of each of a lattice's load factors, or the reason for no estimate. The
+    estimate compares modes of equal shape on the finer grid of `comparisons.models.expected_error`."""
     import lumped
 
     scene, count = lattice.scene, len(coarse.load_factors)

@@ -172,8 +172,7 @@ class Linearisation(Answer):
 
 
 def unit_of(name: str) -> str:
-    """Return the unit of an input by the last word of its name; "factor" for the scene's loads and
-    gravity."""
+    """Return the unit of an input by its name's last word; "factor" for the scene's loads and gravity."""
     return UNITS.get(name.replace(".", " ").split()[-1], "factor")
 
 

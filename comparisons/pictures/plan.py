@@ -26,10 +26,8 @@ LEAST_SHARE = 0.05  # of a cell's area on the sheet: cells below are not drawn
 
 
 def plan_mesh(scene: Scene, cells: int = PLAN_CELLS) -> FieldMesh:
-    """Return quadrilaterals on the flat sheet, `cells` along the shorter side, without fields.
-
-    x runs fastest; points of cells at rims other than the rectangle's are moved to the rim.
-    """
+    """Return quadrilaterals on the flat sheet, `cells` along the shorter side, without fields. x runs
+    fastest; points of cells at rims other than the rectangle's are moved to the rim."""
     sheet = scene.sheet
     nx, ny = near_square(sheet, cells)
     y, x = np.meshgrid(
@@ -69,8 +67,7 @@ def on_sheet(scene: Scene, points: np.ndarray) -> np.ndarray:
 
 
 def plan_lines(scene: Scene, cells: int) -> list[np.ndarray]:
-    """Return plan lines (n, 2) [m] that divide the sheet into near-square cells, `cells` along the shorter
-    side."""
+    """Return plan lines (n, 2) [m] that divide the sheet into `cells` along the shorter side."""
     if cells == 0:
         return []
     (nx, ny), (lx, ly) = near_square(scene.sheet, cells), scene.sheet.lengths
@@ -152,8 +149,7 @@ def load_arrows(scene: Scene, normals: Callable[[np.ndarray], np.ndarray]) -> tu
 
 
 def edge_plan(scene: Scene, edge: str, shares: np.ndarray, where: Shape | None = None) -> np.ndarray:
-    """Return plan points (n, 2) [m] at fractions of every part of an edge on the sheet; where: the part
-    inside a shape."""
+    """Return plan points (n, 2) [m] at fractions of every part of an edge; where: the part inside a shape."""
     ends = np.array(edge_ends(scene, edge, where))
     return np.vstack([start + shares[:, None] * (end - start) for start, end in ends])
 

@@ -83,8 +83,7 @@ class Stage:
         self.plotter.add_mesh(balls, smooth_shading=True, **shown)
 
     def obstacles(self, time: float | None = None) -> np.ndarray:
-        """Draw obstacles near the sheet at a time [s], by default at their last positions; return points of
-        their surfaces (n, 3) [m]."""
+        """Draw obstacles near the sheet, at a time [s] or at last; return points on them (n, 3) [m]."""
         middle = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0])
         points, side = [np.empty((0, 3))], 1.3 * self.size
         for obstacle in self.scene.obstacles:
@@ -120,8 +119,7 @@ class Stage:
         colours: Colours,
         lines: int,
     ) -> None:
-        """Draw the mid-surface coloured by a value per plan point, with lines that mark `lines` cells along
-        the shorter side."""
+        """Draw the mid-surface coloured by a value per plan point; lines: marked cells per side."""
         plan = plan_mesh(self.scene)
         quads = plan.cells[0][1]
         faces = np.insert(quads, 0, 4, axis=1).ravel()
@@ -138,10 +136,8 @@ class Stage:
         return flat + self.scale * solution.displacement(plan)
 
     def take(self, seen: np.ndarray, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the image (height, width, 3) and the pixels (n, 2) of the points `marked` (n, 3) in it.
-
-        The camera's view just includes the points `seen` (m, 3) and depends on the scene alone.
-        """
+        """Return the image (height, width, 3) and the pixels (n, 2) of the points `marked` (n, 3) in it. The
+        camera's view just includes the points `seen` (m, 3) and depends on the scene alone."""
         toward, right, up = self._axes()
         across, along = seen @ right, seen @ up
         centre = right * _middle(across) + up * _middle(along) + toward * _middle(seen @ toward)

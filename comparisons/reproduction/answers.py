@@ -26,7 +26,6 @@ from comparisons.models.grids import Elements
 from comparisons.models.spec import Lattice
 from comparisons.pictures.work import Work
 from comparisons.reproduction.published import PROBES, published_displacements, published_inputs
-from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.parameters import put
 
@@ -115,8 +114,3 @@ def published_springs(distance: float) -> lumped.Calibration:
     return lumped.calibrate(
         first.sheet, first.material, grid=masses(), method="uniform", k=k, layer_distance=distance
     )
-
-
-def of_model(answer: ReproducedTest, model: str) -> Solution:
-    """Return the solution of a model by its name."""
-    return next(solution for solution in answer.comparison.solutions if solution.model == model)

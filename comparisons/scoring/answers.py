@@ -44,11 +44,8 @@ class Answer:
 def read_answers(
     path: Path, suite: str | None = None, chosen: Sequence[str] = ()
 ) -> tuple[list[Answer], list[Reference]]:
-    """Return the answers to a suite, or to chosen cases of it, and the open cases.
-
-    suite: by default from the header. Raises BadInput naming an unknown case, or a case's missing or repeated
-    row.
-    """
+    """Return the answers to a suite, or to chosen cases of it, and the open cases. suite: by default from the
+    header. Raises BadInput naming an unknown case, or a case's missing or repeated row."""
     columns = read_columns(path)
     suite = suite or _suite_of(columns.names, [*chosen, *(row.cells.get("case", "") for row in columns.rows)])
     known = references(suite)

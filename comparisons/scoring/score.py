@@ -46,8 +46,7 @@ class Row:
 
 @dataclass(frozen=True)
 class CaseRow:
-    """A case: its largest error, the reference's bar, whether the error exceeds it, and the time if given
-    [s]."""
+    """A case: its largest error, the reference's bar, whether the error exceeds it, and the time [s]."""
 
     case: str
     error: Annotated[float, PERCENT(".3g")]
@@ -192,10 +191,8 @@ class Score(ShownAnswer):
 
 
 def score(path: Path, suite: str | None = None, case: str | Sequence[str] = ()) -> Score:
-    """Score a file of answers to a suite, or to one or some of its cases.
-
-    suite: by default from the file's header. Raises BadInput for an incomplete or invalid file.
-    """
+    """Score a file of answers to a suite, or to one or some of its cases. suite: by default from the file's
+    header. Raises BadInput for an incomplete or invalid file."""
     answers, unanswered = read_answers(path, suite, [case] if isinstance(case, str) else case)
     return Score(answers[0].reference.suite, tuple(answers), tuple(case.name for case in unanswered))
 

@@ -108,8 +108,7 @@ def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str
 
 
 def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return whether unknowns are prescribed (n, 6), and their values by load factor (steps, n, 6) [m,
-    rad]."""
+    """Return whether unknowns are prescribed (n, 6), and at what values (steps, n, 6) [m, rad]."""
     held = np.zeros((len(mesh.positions), 6), dtype=bool)
     value = np.zeros((len(load_factors), *held.shape))
     for support in scene.supports:
@@ -156,11 +155,8 @@ MOMENTS = "moments on Kratos' nodes do not follow the edge"
 
 
 class Kratos(Code):
-    """Kratos as a plug-in.
-
-    settings: elements, near-square cells along the shorter side, each of two triangles; time_limit [s] of
-    each attempt.
-    """
+    """Kratos as a plug-in. settings: elements, near-square cells along the shorter side, each of two
+    triangles; time_limit [s] of each attempt."""
 
     name, called = "kratos", "Kratos' thin shell"
     needs = "the wheels of Kratos; pip install 'sheetbench[kratos]'"

@@ -17,7 +17,7 @@ from sheetbench.choices import FUNCTIONS as _FUNCTIONS
 
 _MODULES = {  # `__init__.pyi`, which type checkers read, is made of these and of the verbs: make stubs
     "comparisons.codes.cell": "Cell cell_of=cell",
-    "comparisons.comparison.comparison": "error",
+    "comparisons.sweep.differences": "error",
     "comparisons.identification.measurements": "Displacements",
     "comparisons.models.spec": "Elements External Lattice",
     "sheetbench.answers.history": "History",

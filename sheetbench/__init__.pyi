@@ -15,7 +15,7 @@ from comparisons.codes.cell_moduli import CellModuli
 from comparisons.codes.inverse import SheetOfCode
 from comparisons.codes.setup import CodeSetup
 from comparisons.comparison.answer import Comparison
-from comparisons.comparison.comparison import error as error
+from comparisons.sweep.differences import error as error
 from comparisons.comparison.crosscheck_answer import Crosscheck
 from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.comparison.simulation import Simulation

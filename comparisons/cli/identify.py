@@ -38,10 +38,10 @@ def command(
 ) -> Annotated[Identification | TensileFit, "tensile: TensileFit"]:
     """Fit material or support values to measurements of a sheet.
 
-    With 95 % intervals. The search starts at the scene's values; at others too if that fit is poor. Without
-    --lumped the lattice is refined until the error of its grid is below the noise. Lengths are in metres
-    unless a column's header says otherwise (uz [mm]), in the scene's axes. --tensile fits a rubber's law
-    and its constants instead.
+    Values have 95 % intervals. The search starts at the scene's values, and at others if that fit is poor.
+    Without --lumped the lattice is refined until the error of its grid is below the noise. Lengths are in
+    metres or the unit in a column's header (uz [mm]), in the scene's axes. --tensile fits a rubber's law and
+    its constants instead.
 
     Args:
         scene ([SCENE], argument): Catalogue name or path; not needed for --tensile.
@@ -54,17 +54,17 @@ def command(
             young.
         tensile (FILES): A tensile test instead: CSV with stretch, strain or displacement, and
             engineering_stress, true_stress or force, each with its unit (force [N]); pure-shear=FILE or
-            equibiaxial=FILE of other tests.
-        up_to (STRETCH): With --tensile: ignore data beyond this stretch.
-        area (M2): With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².
-        gauge (M): With --tensile and a displacement: undeformed length, 33mm.
+            equibiaxial=FILE for other tests.
+        up_to (STRETCH): Largest stretch of data to use (with --tensile).
+        area (M2): Undeformed cross-section, 1.8e-5 or 18mm² (with --tensile and a force).
+        gauge (M): Undeformed length, 33mm (with --tensile and a displacement).
         model (MODEL): lumped, shell or solid. Default: lumped.
         elements (N): The shell's or solid's elements along the shorter side, or 8x4 along x and y; default:
             {ELEMENTS}.
         offset (M): Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.
-        uncertainty (M): Standard deviation of every measured number, 0.001 or 1mm; a column sd [mm] has that
-            of each row. Default: that of the residuals.
-        refine: Look at other cells or elements too, for their error.
+        uncertainty (M): Standard deviation of every measured number, 0.001 or 1mm; a column sd [mm] gives it
+            row by row. Default: standard deviation of the residuals.
+        refine: Solve with other cells or elements too, for their error.
     """
     from sheetbench.errors import BadInput
 

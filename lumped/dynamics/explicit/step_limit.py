@@ -28,7 +28,6 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from lumped.dynamics.system import System
 
 SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and where obstacles are touched (`lumped.contact`)
-STEPS, GROWN = 400, 100.0  # of a measured limit, and times the start from which on motions are unbounded
 
 
 @dataclass(frozen=True)
@@ -83,36 +82,6 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
     exact = system.damping.proportional
     safety = TOUCHING if system.items else SAFETY
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact, safety)
-
-
-def measured_limit(system: System, u: np.ndarray) -> float:
-    """Return the longest step [s], within 1 %, for which `STEPS` steps of small motions about a displacement
-    (size, 3) [m] stay bounded, whatever kinds of dampers there are: between half and 2.5 times
-    `step_limit`."""
-    moving, nothing, limit = ~system.algebraic, np.zeros_like(u), step_limit(system, u).step
-    stiffness, damping = (
-        system.problem.system.matrix(system.matrix(u, nothing, 0.0, 0.0, *shares))[moving][:, moving]
-        for shares in ((0.0, 1.0), (1.0, 0.0))
-    )
-    start = np.random.default_rng(0).standard_normal(stiffness.shape[0])
-
-    def bounded(h: float) -> bool:
-        x, v = start, np.zeros_like(start)
-        a = -system.solve_mass(stiffness @ x)
-        for _ in range(STEPS):
-            x, w, v = x + h * v + 0.5 * h * h * a, v + h * a, v + 0.5 * h * a
-            force = stiffness @ x
-            v -= 0.5 * h * system.solve_mass(force + damping @ w)
-            a = -system.solve_mass(force + damping @ v)
-            if not np.abs(x).max() < GROWN * np.abs(start).max():
-                return False
-        return True
-
-    low, high = 0.5 * limit, 2.5 * limit
-    while high > 1.01 * low:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if bounded(middle) else (low, middle)
-    return low
 
 
 def soften_items(system: System) -> None:

@@ -1,7 +1,8 @@
 """A lattice in motion as C99 without a library: sheet.h, sheet.c, and main.c that tests them by check.csv.
 
 The program is `scripts/sheet.c`, velocity Verlet as `lumped` has it, after tables that are written here:
-springs that are alike share a row of constants. What it has not is refused by name.
+springs that are alike share a row of constants; of rubber and of balls and bars it has `scripts/rubber.c` and
+`scripts/patch.c`. Chains and branches are refused.
 """
 
 from __future__ import annotations
@@ -37,17 +38,6 @@ LARGEST = 1.0  # strain of a spring in a run that is one
 NONE = 255  # no second source
 
 
-def refuse(scene: Scene, system: System) -> None:
-    """Raise BadInput for features that the program does not have."""
-    for why in (
-        scene.actuators and f"actuators: {', '.join(scene.named_actuators())} bring equations of their own",
-        not system.assembly.conservative and "springs of unequal stiffness along x, y and z: no energy",
-    ):
-        if why:
-            raise BadInput(f"--for c: {why}; not in the C program")
-    require_no_branches(scene.material, "the C program")
-
-
 @dataclass(frozen=True)
 class Program:
     """texts: the files by name; points, bodies, sources: names of what it takes and answers; step: [s]."""
@@ -67,7 +57,11 @@ def program(
     require_choice("--precision", precision, tuple(PRECISIONS))
     system, start = lumped.in_motion(scene, calibration)
     scene = system.problem.scene
-    refuse(scene, system)
+    if scene.actuators:
+        own = ", ".join(scene.named_actuators())
+        raise BadInput(f"--for c: actuators: {own} bring equations of their own; not in the C program")
+    system.assembly.require_energy()
+    require_no_branches(scene.material, "the C program")
     limit = lumped.step_limit(system, start.u)
     step, check, message = limit.advised, "", ""
     steps = FEW if system.growing is not None else steps
@@ -106,29 +100,26 @@ def program(
     names = [f"#define SHEET_{name} {len(of)}" for name, of in numbers.items()]
     for group, of in every.items():
         first = len(supports) if group == "OBSTACLE" else 0
-        own = identifiers(f"SHEET_{group}", (re.sub("^(support|obstacle) ", "", each) for each in of))
-        if own:
-            names.append("enum { " + ", ".join(f"{name} = {first + k}" for k, name in enumerate(own)) + " };")
+        plain = (re.sub("^(support|obstacle) ", "", each) for each in of)
+        listed = [f"{name} = {first + k}" for k, name in enumerate(identifiers(f"SHEET_{group}", plain))]
+        names += ["enum { " + ", ".join(listed) + " };"] if listed else []
     nx, ny, layers = lattice.grid
     rubber = system.assembly.any_strain
     given: dict[str, Any] = dict(
         title=re.sub(r"[^ -~]|\*/", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
         version=version(), real=tables.real, names="\n".join(names), step=tables.number(step), steps=steps,
         largest=f"{limit.step:.4g}", safety=f"{step / limit.step:.3g}", masses=n, layers=layers, nx=nx, ny=ny,
-        gravity=tables.values(gravity, False), slip=SLIP_SPEED**2,
-        libm="`sqrt`" + rubber * ", `exp`, `log`",
+        gravity=tables.values(gravity, False), slip=SLIP_SPEED**2, libm="`sqrt`" + rubber * ", `exp`, `log`",
         dragged=n if scene.air else 1, touching=max(1, touching), grown=max(1, grown),
         rubber=f"#define RUBBER {int(rubber)}\n" + rubber * script("rubber.c"),
         patch=(patches > 0) * script("patch.c"), tables="\n".join(tables.text),
+        points=", ".join(scene.probes) or "none", bodies=", ".join(bodies) or "none",
+        sources=", ".join(sources) or "none",
     )  # fmt: skip
     texts = {name: Template(script(name)).substitute(given) for name in ("sheet.h", "sheet.c")}
-    texts |= {"main.c": script("main.c"), "check.csv": check}
-    listed = {
-        name: ", ".join(of) or "none"
-        for name, of in (("points", scene.probes), ("bodies", bodies), ("sources", sources))
-    }
-    given |= listed | {"size": f"{len(texts['sheet.c']) / 1e3:.0f}"}
+    given["size"] = f"{len(texts['sheet.c']) / 1e3:.0f}"
     texts["README.md"] = Template(script("sheet.md")).substitute(given)
+    texts |= {"main.c": script("main.c"), "check.csv": check}
     return Program(texts, every["POINT"], bodies, sources, step)
 
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 PRECISIONS: dict[str, tuple[str, Any]] = {"double": ("double", np.float64), "single": ("float", np.float32)}
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
-LARGEST = 1.0  # strain of a spring in a run that is one
+LARGEST = 1.0  # strain of a spring in a run that is one, but of rubber
 NONE = 255  # no second source
 
 
@@ -63,14 +63,14 @@ def program(
     system.assembly.require_energy()
     require_no_branches(scene.material, "the C program")
     limit = lumped.step_limit(system, start.u)
-    step, check, message = limit.advised, "", ""
-    steps = FEW if system.growing is not None else steps
+    step, message, steps = limit.advised, "", FEW if system.growing is not None else steps
     for _ in range(TRIES):
         step = float(PRECISIONS[precision][1](step))
-        check, message = checked(system, start, step, steps)
-        if check:
+        try:
+            check = checked(system, start, step, steps)
             break
-        step *= SHORTER
+        except lumped.StepFailed as error:
+            step, message = SHORTER * step, str(error)
     else:
         raise BadInput(f"--for c: the check of its steps ends early: {message}")
     tables = Tables(PRECISIONS[precision][0])
@@ -86,8 +86,8 @@ def program(
         tables.sparse(name, lumped.MidSurface(lattice, points, order=order).shared(np.eye(len(points)), n).T)
     add_loads(tables, system, calibration)
     touching, patches = add_contact(tables, system)
-    motions = [one.motion for one in (*scene.supports, *scene.obstacles)]
-    tables.add("MOTION", [tables.course(one, "displacement") for one in motions], "int")
+    movable = (*scene.supports, *scene.obstacles)
+    tables.add("MOTION", [tables.course(one.motion, "displacement") for one in movable], "int")
     grown = add_growth(tables, system)
     tables.add("KNOT", np.reshape(tables.knots, (-1, 4)))
     tables.add("FIRST", [*tables.firsts, 0], "int")
@@ -180,6 +180,7 @@ def add_masses(tables: Tables, system: System) -> None:
                 owner[rows[own], axis] = number
     tables.add("OWNER", owner, "")
     rows, columns, values = constraints.summed
+    rows = np.append(rows, np.full(3 * len(system.items), rows[-1]))  # none of obstacles
     tables.sparse("SUMMED", sp.csr_array((values, columns, rows), shape=(len(rows) - 1, owner.size)))
 
 
@@ -212,6 +213,7 @@ def add_loads(tables: Tables, system: System, calibration: Calibration) -> None:
         tables.add(f"{name}_AT", np.concatenate(places), "entry")
         tables.add(name, np.concatenate(values))
         tables.add(f"{name}_PART", owners, "unsigned char")
+    tables.define(STILL=int(sum(len(each) for each in dead[:1])))
     cells = corners if scene.air else corners[:0]
     tables.define(DRAG_CELLS=len(cells), DRAGGED=lattice.mass_count if scene.air else 0)
     tables.add("DRAG_AT", cells, "entry")
@@ -293,13 +295,21 @@ def add_growth(tables: Tables, system: System) -> int:
     return size
 
 
-def checked(system: System, start: State, step: float, steps: int) -> tuple[str, str]:
+def checked(system: System, start: State, step: float, steps: int) -> str:
     """Return the text of check.csv, probes [m], forces of supports and obstacles [N] and energies [J] in so
-    many of `lumped`'s own steps, "" where they fail, and why."""
+    many of `lumped`'s own steps. Raises StepFailed."""
     scene, every = system.scene, max(1, steps // MOMENTS)
     probes = lumped.MidSurface(system.assembly.lattice, scene.probe_points())
+    largest = np.inf if system.assembly.any_strain else LARGEST
     rows, state, integrator = [], start, lumped.INTEGRATORS["verlet"](system, step)
-    while True:
+    for left in (0, *[every] * (steps // every)):
+        while left:
+            advance = integrator.march(state, step, left)
+            state, left = advance.state, left - advance.steps
+        if not system.assembly.links.largest_strain(state.u) < largest:
+            raise lumped.StepFailed(
+                f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times as long as at rest"
+            )
         placed = system.prescribed.support_acceleration(state.time)
         energies, exerted = system.balance(replace(state, a=state.a + placed))
         forces = [*system.problem.constraints.reactions(exerted)[0].values()]
@@ -307,21 +317,10 @@ def checked(system: System, start: State, step: float, steps: int) -> tuple[str,
         forces += [item.exerted(at, state.v).sum(axis=0) for item in system.items]
         row: list[Any] = [[state.time], probes.of(state.u).ravel(), *forces, [*energies.values()]]
         rows.append(np.concatenate(row).tolist())
-        if len(rows) > steps // every:
-            break
-        left = every
-        try:
-            while left:
-                advance = integrator.march(state, step, left)
-                state, left = advance.state, left - advance.steps
-        except lumped.StepFailed as error:
-            return "", str(error)
-        if not system.assembly.links.largest_strain(state.u) < LARGEST:
-            return "", f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times as long as at rest"
     bodies = [*named(scene.supports), *scene.named_obstacles()]
     names = [f"{name}_{axis}" for name in (*scene.probes, *bodies) for axis in "xyz"]
     header = [re.sub("[ ,\n]", "_", name) for name in ("time", *names, *energies)]
-    return "\n".join([",".join(header), *(",".join(map(repr, row)) for row in rows)]) + "\n", ""
+    return "\n".join([",".join(header), *(",".join(map(repr, row)) for row in rows)]) + "\n"
 
 
 def c_files(scene: Scene, calibration: Calibration, precision: str) -> dict[str, Write]:

@@ -157,9 +157,8 @@ function frame(now) {
   window.measured = { frames, milliseconds: spent / frames, time, corner, known };
 }
 
-const pointer = event => [event.offsetX, event.offsetY];
 by("sheet").addEventListener("pointerdown", event => {
-  const [x, y] = looking = pointer(event);
+  const [x, y] = looking = [event.offsetX, event.offsetY];
   by("sheet").setPointerCapture(event.pointerId);
   for (let p = 0, least = 45; program && p <= LAST; p++) {
     const q = project(place(p)), d = Math.hypot(q[0] - x, q[1] - y);
@@ -167,7 +166,7 @@ by("sheet").addEventListener("pointerdown", event => {
   }
 });
 by("sheet").addEventListener("pointermove", event => {
-  const [x, y] = pointer(event);
+  const { offsetX: x, offsetY: y } = event;
   if (grabbed) grabbed = { ...grabbed, x, y };
   else if (looking) turn += (x - looking[0]) / 150, tilt = Math.min(1.5, Math.max(-0.3, tilt + (y - looking[1]) / 150)), looking = [x, y];
 });

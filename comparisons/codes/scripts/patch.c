@@ -13,16 +13,10 @@ static int roots(const double *c, int n, double *out) { /* where a polynomial of
       for (int j = 0; j < n - degree; j++) d[k] *= k + n - degree - j;
     }
     for (int j = 0; j <= inside; j++) {
-      double a = end[j], b = end[j + 1], at = value(d, degree, a), to = value(d, degree, b), x = (a + b) / 2;
-      if (at * to >= 0) continue;
-      for (int turn = 0; turn < 80; turn++) { /* false position between bisections */
-        const double f = value(d, degree, x);
-        if (f * at > 0) a = x, at = f;
-        else b = x, to = f;
-        if (!(f * f > 0) || b - a < 1e-15) break;
-        x = turn % 3 == 2 ? (a + b) / 2 : a - at * (b - a) / (to - at);
-      }
-      next[++count] = x;
+      double a = end[j], b = end[j + 1], at = value(d, degree, a);
+      if (at * value(d, degree, b) >= 0) continue;
+      for (int turn = 0; turn < 56; turn++) *(at * value(d, degree, (a + b) / 2) > 0 ? &a : &b) = (a + b) / 2;
+      next[++count] = (a + b) / 2;
     }
     next[count + 1] = 1, inside = count;
     for (int j = 0; j < 7; j++) end[j] = next[j];

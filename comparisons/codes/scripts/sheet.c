@@ -190,7 +190,10 @@ static void forces(sheet *s) { /* of all that acts, inwards, at the velocity w *
   for (int b = 0; b < SHEET_BODIES; b++) EACH(e) s->pressed[b][e] = 0;
   for (int p = 0; p < SHEET_POINTS; p++)
     for (int n = NEAR[p]; n < NEAR[p + 1]; n++) EACH(e) s->f[NEAR_AT[n]][e] -= NEAR_SHARE[n] * s->force[p][e];
-  for (int n = 0; n < LOADS; n++) s->f[LOAD_AT[n][0]][LOAD_AT[n][1]] -= LOAD[n] * factor[LOAD_PART[n]];
+  for (int n = 0; n < STILL; n++) s->f[LOAD_AT[n][0]][LOAD_AT[n][1]] -= LOAD[n];
+  s->fallen = 0;
+  MASSES(i) EACH(e) s->fallen += s->f[i][e] * s->u[i][e];
+  for (int n = STILL; n < LOADS; n++) s->f[LOAD_AT[n][0]][LOAD_AT[n][1]] -= LOAD[n] * factor[LOAD_PART[n]];
   for (int m = 0; m < PRESSES; m++) press(s, PRESS_AT[m], -PRESS[m] * factor[PRESS_PART[m]], s->f);
   for (int m = 0; m < COUPLES; m++) { /* an edge's moment, about the chord of the columns beside */
     const entry *c = COUPLE_AT[m];
@@ -282,17 +285,12 @@ void sheet_reaction(sheet *s, int body, real force[3]) {
   MASSES(i) EACH(e) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->bend[OWNER[i][e] - 1][e] : 0);
   EACH(e) {
     force[e] = s->pressed[body][e];
-    for (int n = body < SHEET_SUPPORTS ? SUMMED[3 * body + e] : 0; body < SHEET_SUPPORTS && n < SUMMED[3 * body + e + 1]; n++)
+    for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
       force[e] += SUMMED_SHARE[n] * (momentum(s->w, (int)SUMMED_AT[n] / 3, e) + s->f[SUMMED_AT[n] / 3][e]);
   }
 }
 real sheet_energy(sheet *s, int kind) {
-  real sum = kind == SHEET_ELASTIC ? s->stored : 0;
+  real sum = kind == SHEET_ELASTIC ? s->stored : kind == SHEET_POTENTIAL ? s->fallen : 0;
   if (kind == SHEET_KINETIC) MASSES(i) EACH(e) sum += s->v[i][e] * momentum(s->v, i, e) / 2;
-  if (kind != SHEET_POTENTIAL) return sum;
-  MASSES(i) EACH(e) sum -= WEIGHT[i] * s->gravity[e] * s->u[i][e];
-  for (int p = 0; p < SHEET_POINTS; p++)
-    for (int n = NEAR[p]; n < NEAR[p + 1]; n++) EACH(e) sum -= NEAR_SHARE[n] * s->force[p][e] * s->u[NEAR_AT[n]][e];
-  for (int n = 0; n < LOADS; n++) sum -= (LOAD_PART[n] ? 0 : LOAD[n]) * s->u[LOAD_AT[n][0]][LOAD_AT[n][1]];
   return sum;
 }

@@ -15,7 +15,7 @@ typedef struct {
   sheet_real time, step;                      /* s; a step may be shorter than SHEET_STEP */
   sheet_real gravity[3];                      /* m/s^2, may be written to */
   sheet_real u[SHEET_MASSES][3], v[SHEET_MASSES][3], a[SHEET_MASSES][3]; /* of the masses: m, m/s, m/s^2 */
-  sheet_real f[SHEET_MASSES][3], w[SHEET_MASSES][3], stored; /* the rest is the steps' own */
+  sheet_real f[SHEET_MASSES][3], w[SHEET_MASSES][3], stored, fallen; /* the rest is the steps' own */
   sheet_real area[$dragged][3], touch[$touching][6], grown[$grown]; /* of masses in air, points, links and cells */
   sheet_real force[SHEET_POINTS + 1][3];
   sheet_real place[SHEET_BODIES + 1][3], rate[SHEET_BODIES + 1][3], bend[SHEET_BODIES + 1][3];
@@ -35,7 +35,7 @@ void sheet_set_curvature(sheet *s, int source, sheet_real factor);
 void sheet_move_support(sheet *s, int body, const sheet_real displacement[3], const sheet_real velocity[3]);
 void sheet_probe(const sheet *s, int point, sheet_real displacement[3]);
 void sheet_reaction(sheet *s, int body, sheet_real force[3]); /* of a support or obstacle on the sheet */
-sheet_real sheet_energy(sheet *s, int kind); /* J; potential: of gravity and forces that do not follow */
+sheet_real sheet_energy(sheet *s, int kind); /* J, of the last step; potential: of gravity and forces that do not follow */
 #ifdef __cplusplus
 }
 #endif

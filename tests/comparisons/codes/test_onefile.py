@@ -67,6 +67,10 @@ LIKE = (
     "gent",
     "mooney-rivlin",
 )
+ROUGH = (
+    "lifted",
+    "bimetal",
+)  # in single numbers: friction that turns within 1 mm/s; a small difference of energies
 ALL = OWN | {name: SCENES[name] for name in LIKE}
 
 
@@ -139,7 +143,8 @@ def test_the_program_takes_the_steps_that_lumped_takes(name, tmp_path):
 
 
 @needs_gcc
-@pytest.mark.parametrize("name", ["settling", "rate", "skew"])
+@pytest.mark.sweep(8)
+@pytest.mark.parametrize("name", [name for name in ALL if name not in ROUGH])
 def test_single_numbers_are_off_by_their_rounding(name, tmp_path):
     sheet, stiffness = made(name, tmp_path, "single")
     (moved, pulled, stored), (peak, force, energy) = off(sheet)

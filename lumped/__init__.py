@@ -25,7 +25,7 @@ from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
     from lumped.description import Description, describe
-    from lumped.dynamics.explicit.step_limit import measured_limit, step_limit
+    from lumped.dynamics.explicit.step_limit import step_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
     from lumped.dynamics.runs.initial import in_motion
@@ -66,7 +66,6 @@ __all__ = [
     "identifiability",
     "in_motion",
     "linearise",
-    "measured_limit",
     "modes",
     "moduli",
     "require_alike",

@@ -28,7 +28,6 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from lumped.dynamics.system import System
 
 SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and with obstacles (`lumped.contact`)
-STEPS, GROWN = 400, 100.0  # steps of a measured limit, and growth from which on motions are unbounded
 
 
 @dataclass(frozen=True)
@@ -103,48 +102,6 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
     exact = system.damping.proportional
     safety = TOUCHING if system.items else SAFETY
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact, safety)
-
-
-def measured_limit(system: System, u: np.ndarray) -> float:
-    """Return the longest step for which small motions about a state at rest stay bounded, by trial.
-
-    Parameters
-    ----------
-    system : System
-        Equations of motion, with dampers of any kind.
-    u : ndarray of shape (size, 3)
-        Displacement [m].
-
-    Returns
-    -------
-    float
-        Step [s], within 1 %, between half and 2.5 times the step of `step_limit`; a motion counts as bounded
-        if it grows less than a hundredfold in 400 steps.
-    """
-    moving, rest, limit = ~system.algebraic, np.zeros_like(u), step_limit(system, u).step
-    stiffness, damping = (
-        system.problem.system.matrix(system.matrix(u, rest, 0.0, 0.0, *shares))[moving][:, moving]
-        for shares in ((0.0, 1.0), (1.0, 0.0))
-    )
-    start = np.random.default_rng(0).standard_normal(stiffness.shape[0])
-
-    def bounded(h: float) -> bool:
-        x, v = start, np.zeros_like(start)
-        a = -system.solve_mass(stiffness @ x)
-        for _ in range(STEPS):
-            x, w, v = x + h * v + 0.5 * h * h * a, v + h * a, v + 0.5 * h * a
-            force = stiffness @ x
-            v -= 0.5 * h * system.solve_mass(force + damping @ w)
-            a = -system.solve_mass(force + damping @ v)
-            if not np.abs(x).max() < GROWN * np.abs(start).max():
-                return False
-        return True
-
-    low, high = 0.5 * limit, 2.5 * limit
-    while high > 1.01 * low:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if bounded(middle) else (low, middle)
-    return low
 
 
 def soften_items(system: System) -> None:

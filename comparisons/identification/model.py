@@ -1,7 +1,7 @@
 """The model that is fitted: what it has at the measured points, and its slopes by the unknowns.
 
-statics through the lattice     exact derivatives (`lumped.sensitivity`)
-statics through a reference     central differences of whole solutions
+statics                         derivatives of the equilibrium, a solution with its factors each; of the
+                                solid, which has none, central differences of whole solutions
 motion from rest                central differences of whole runs, of the lattice or of a reference, cubic in
                                 time between samples
 """
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,13 +22,10 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from sheetbench.answers.history import History
-from sheetbench.answers.solution import Status
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grading import as_settings
-
-if TYPE_CHECKING:
-    from lumped import Calibration
 
 STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
 MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
@@ -70,27 +67,11 @@ def lattice_model(scene: Scene, requested: Lattice) -> Model:
     chosen = resolve(scene, requested, own=False)
     grading = fixed(chosen.spec.grading) or lines_on_shapes(scene, chosen.grid, chosen.spec)
 
-    def springs(here: Scene) -> Calibration:
-        return chosen.on(here).springs
-
     def run(here: Scene, end: float) -> History:
-        return lumped.simulate(here, springs(here), end, error=MOTION_ERROR)
+        return lumped.simulate(here, chosen.on(here).springs, end, error=MOTION_ERROR)
 
-    def predict(
-        unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray, time: np.ndarray | None
-    ) -> Prediction:
-        if time is not None:
-            return _by_differences(scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
-        here, names = set_in(scene, unknowns, x), [u.name for u in unknowns]
-        try:
-            found = lumped.sensitivity(here, springs(here), names, points, springs)
-        except (BadInput, NoEquilibrium) as error:
-            raise NotReached(str(error)) from None
-        slopes = [found.derivatives[u.name] * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
-        return Prediction(found.displacement, slopes)
-
-    settings = {**chosen.settings, **as_settings(grading)}
-    return Model(settings, surface.plan_grid(scene.sheet.lengths, chosen.grid[:2]), predict)
+    axes = surface.plan_grid(scene.sheet.lengths, chosen.grid[:2])
+    return Model({**chosen.settings, **as_settings(grading)}, axes, partial(_predict, chosen, run))
 
 
 def reference_model(model: Resolved[Elements]) -> Model:
@@ -111,21 +92,41 @@ def reference_model(model: Resolved[Elements]) -> Model:
             here, model.spec.model, end, elements=(along_x, along_y), **steps, **options
         )
 
-    def still(here: Scene, points: np.ndarray) -> np.ndarray:
-        solution = solve(model.on(here))
-        if solution.status is not Status.CONVERGED:
-            raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
-        return solution.displacement(points)
-
-    def predict(
-        unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray, time: np.ndarray | None
-    ) -> Prediction:
-        if time is None:
-            return _by_differences(scene, still, STATIC_STEP, unknowns, x, points)
-        return _by_differences(scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
-
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
-    return Model({"elements": [along_x, along_y], **options}, axes, predict)
+    return Model({"elements": [along_x, along_y], **options}, axes, partial(_predict, model, run))
+
+
+def _predict(
+    model: Resolved[Any],
+    run: Callable[[Scene, float], History],
+    unknowns: Sequence[Unknown],
+    x: np.ndarray,
+    points: np.ndarray,
+    time: np.ndarray | None,
+) -> Prediction:
+    if time is not None:
+        return _by_differences(model.scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
+    solution = _still(model, set_in(model.scene, unknowns, x))
+    if solution.sensitivity is None:
+        at_rest = lambda here, points: _still(model, here).displacement(points)  # noqa: E731
+        return _by_differences(model.scene, at_rest, STATIC_STEP, unknowns, x, points)
+    try:
+        of = solution.sensitivity()
+        slopes = [of.moved_at(points, u.name) * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
+    except (BadInput, NoEquilibrium) as error:
+        raise NotReached(str(error)) from None
+    return Prediction(solution.displacement(points), slopes)
+
+
+def _still(model: Resolved[Any], here: Scene) -> Solution:
+    """Return the equilibrium of a scene like the model's."""
+    try:
+        solution = solve(model.on(here))
+    except (BadInput, NoEquilibrium) as error:
+        raise NotReached(str(error)) from None
+    if solution.status is not Status.CONVERGED:
+        raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
+    return solution
 
 
 def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:

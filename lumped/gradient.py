@@ -290,9 +290,14 @@ def parameter_name(name: str) -> str:
 
 
 def both_sides(
-    calibration: Calibration, problem: Problem, name: str, calibrate: Calibrate | None = None
+    calibration: Calibration,
+    problem: Problem,
+    name: str,
+    calibrate: Calibrate | None = None,
+    share: float = 0.0,
 ) -> tuple[list[tuple[Problem, Calibration]], float]:
-    """Return the problem with its springs a little below and above a parameter, and how far apart."""
+    """Return the problem with its springs a little below and above a parameter, and how far apart; share: of
+    its value, for steps by that instead."""
     scene, name = problem.scene, parameter_name(name)
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
@@ -301,6 +306,7 @@ def both_sides(
         value, low, high = found.value, found.low, found.high
     own = name.partition(".")[2] if name.startswith(PATCH) else name
     step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
+    step = share * abs(value) or step
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()

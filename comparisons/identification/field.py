@@ -79,7 +79,7 @@ class FieldIdentification(Answer):
     def printed(self) -> tuple[Table, ...]:
         values = [float(of(self.values)) for of in (np.nanmin, np.nanmedian, np.nanmax)]
         row = self.name, f"{self.told:.1f}", float(np.nanmedian(self.resolved)), unit(self.unit), *values
-        caption = f"{self.name} of {np.isfinite(self.values).sum()} cells"
+        caption = f"{self.name} of {np.isfinite(self.values).sum()} cells, χ²/n = {self.chi:.2f}"
         return (Table.listed(caption, SUMMARY, [row], "unknowns"),)
 
     def figures(self) -> tuple[Picture, ...]:
@@ -92,10 +92,9 @@ class FieldIdentification(Answer):
         return f"{self.name} from {least} to {most}; the data tell {self.told:.0f} numbers"
 
     def notes(self) -> tuple[str, ...]:
-        size = "×".join(map(str, self.settings["grid"]))
         return (
-            f"lumped {size}, smoothed until χ²/n = {self.chi:.2f}: a cell's value is the mean over a square "
-            "of about the side resolved, finer detail is not seen; its ± is that of noise alone.",
+            "smoothed as far as noise is left: a value is the mean over a square of about the side resolved, "
+            "finer detail is not seen; its ± is that of noise alone",
         )
 
     def complaints(self) -> list[str]:

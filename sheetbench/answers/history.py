@@ -78,6 +78,13 @@ class History(Answer):
         """The energies with what the rule takes, none where they are not known."""
         return {**self.energies, "numerical": self.numerical} if self.energies else {}
 
+    def gradient(self, *_: Any, **__: Any) -> None:
+        """Refuse adjoint derivatives, which motions do not have, by name: BadInput."""
+        raise BadInput(
+            "gradient: a motion has no derivatives by an adjoint in time; lumped.simulate(..., sensitivities="
+            "['young']) has those by up to 20 parameters"
+        )
+
     def heading(self) -> tuple[str, str, str]:
         return f"History of {self.label}, {self.integrator}", f"{self.status}", f"{self.steps} steps"
 

@@ -8,11 +8,14 @@ distance.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import Calibration, default
+from lumped.dynamics.implicit.sensitivities import SensitiveEsdirk, Sided, require_followed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.runs.observer import LatticeObserver
@@ -38,6 +41,7 @@ def simulate(
     integrator: str = INTEGRATOR,
     every: float | None = None,
     weights: Weights = "tributary",
+    sensitivities: Sequence[str] = (),
     **options: Any,
 ) -> History:
     """Motion of the scene's sheet over `duration` [s].
@@ -47,8 +51,10 @@ def simulate(
     limit, `generalised-alpha` and `esdirk` adapt to their error, `midpoint` takes 1/200 of the lowest period.
     every [s]: distance of samples, 1/100 of the lowest period unless given; no step is longer, and what a
     load's history does within a step may go unseen, but for `esdirk`, whose adaptive steps may be longer and
-    end where a history bends. options: the integrator's own (`radius`, `error`), and `store`, `frames` and
-    `progress` (`sheetbench.runs.record`).
+    end where a history bends. sensitivities: parameters by which the run has derivatives too, at most 20, of
+    `esdirk` alone (`lumped.dynamics.implicit.sensitivities`): `extra["sensitivities"]` has by parameter and
+    probe those of the samples (n, 3). options: the integrator's own (`radius`, `error`), and `store`,
+    `frames` and `progress` (`sheetbench.runs.record`).
 
     Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for an unknown
     integrator, a step above the limit of an explicit one, more than ten
@@ -72,6 +78,7 @@ def simulate(
     calibration = calibration or default(scene)
     system, start = in_motion(scene, calibration, weights)
     integrator, why = resolve_integrator(integrator, system, options)
+    require_followed(sensitivities, integrator, keeping)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
     settings = calibration.settings | {"layer_distance": calibration.layer_distance} | options
@@ -85,8 +92,11 @@ def simulate(
         "weights": weights,
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
-    kind = INTEGRATORS[integrator]
-    extra: dict[str, Any] = {"fixed": step is not None} if kind.adaptive else {}
+    kind: Any = INTEGRATORS[integrator]
+    sides = [Sided(scene, calibration, weights, name) for name in sensitivities]
+    if sides:
+        kind = partial(SensitiveEsdirk, sides)
+    extra: dict[str, Any] = {"fixed": step is not None} if INTEGRATORS[integrator].adaptive else {}
     recipe = Recipe(
         scene=scene,
         label=f"lumped {calibration.title}",
@@ -94,7 +104,7 @@ def simulate(
         settings=settings,
         key=key,
         schedule=schedule,
-        method=kind(system, length, **options, **extra),
+        method=(method := kind(system, length, **options, **extra)),
         observer=LatticeObserver(system, drawn),
         start=lambda: Advance(start, 0.0, 0.0),
         rows=len(drawn),
@@ -102,6 +112,12 @@ def simulate(
     history = record(recipe, keeping, began)
     history.settings.update({"largest_step": limit.step} if limit is not None else {})
     history.settings.update({"integrator_reason": why} if why else {})
+    if sides:
+        probes, times = MidSurface(system.assembly.lattice, scene.probe_points()), len(history.time)
+        found = np.concatenate([of for _, of in method.found], axis=1)[:, :times]
+        at = [np.array([probes.of(u) for u in of]).swapaxes(0, 1) for of in found]
+        by = (dict(zip(scene.probes, of, strict=True)) for of in at)
+        history.extra["sensitivities"] = dict(zip(sensitivities, by, strict=True))
     whole = history.extra["frames"]
     history.extra.update(
         {

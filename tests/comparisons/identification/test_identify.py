@@ -354,7 +354,7 @@ def test_a_field_over_the_cells_is_smoothed_until_noise_is_left(tmp_path):
     deviated = replace(data, deviation=np.full(len(POINTS), noise))
     for names, given, said in (
         ("young=field", data, "give --uncertainty"),
-        ("poisson=field", deviated, "choose from young"),
+        ("poisson=field", deviated, "choose one of young"),
         ("young=field,density", deviated, "a field alone"),
     ):
         with pytest.raises(BadInput, match=said):

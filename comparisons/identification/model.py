@@ -2,8 +2,9 @@
 
 statics                         derivatives of the equilibrium, a solution with its factors each; of the
                                 solid, which has none, central differences of whole solutions
-motion from rest                central differences of whole runs, of the lattice or of a reference, cubic in
-                                time between samples
+motion from rest                derivatives along the run of a lattice that touches nothing and has no chains,
+                                by what leaves its supports alone; else central differences of whole runs;
+                                cubic in time between samples
 """
 
 from __future__ import annotations
@@ -29,6 +30,8 @@ from sheetbench.scenes.objects.grading import as_settings
 
 STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
 MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
+FOLLOWED_ERROR = 1e-6  # of the step of a lattice whose run has the derivatives
+OF_SUPPORTS = ("tilt_", "curvature_", "support", "actuator")
 MOTION_ERROR = 1e-7  # of a lattice's step, which changes with the unknowns: differences must not see it
 STEPS_PER_PERIOD = 100  # of a reference, fixed: frequencies within (2π/100)²/12, E within twice that, 0.07 %
 
@@ -67,8 +70,9 @@ def lattice_model(scene: Scene, requested: Lattice) -> Model:
     chosen = resolve(scene, requested, own=False)
     grading = fixed(chosen.spec.grading) or lines_on_shapes(scene, chosen.grid, chosen.spec)
 
-    def run(here: Scene, end: float) -> History:
-        return lumped.simulate(here, chosen.on(here).springs, end, error=MOTION_ERROR)
+    def run(here: Scene, end: float, names: Sequence[str] = ()) -> History:
+        error = FOLLOWED_ERROR if names else MOTION_ERROR
+        return lumped.simulate(here, chosen.on(here).springs, end, error=error, sensitivities=names)
 
     axes = surface.plan_grid(scene.sheet.lengths, chosen.grid[:2])
     return Model({**chosen.settings, **as_settings(grading)}, axes, partial(_predict, chosen, run))
@@ -98,14 +102,24 @@ def reference_model(model: Resolved[Elements]) -> Model:
 
 def _predict(
     model: Resolved[Any],
-    run: Callable[[Scene, float], History],
+    run: Callable[..., History],
     unknowns: Sequence[Unknown],
     x: np.ndarray,
     points: np.ndarray,
     time: np.ndarray | None,
 ) -> Prediction:
+    names = [u.name for u in unknowns]
     if time is not None:
-        return _by_differences(model.scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
+        others = model.scene.actuators or model.scene.obstacles or not isinstance(model.spec, Lattice)
+        if not others and not any(name.startswith(OF_SUPPORTS) for name in names):
+            here = set_in(model.scene, unknowns, x)
+            moved, *slopes = _moved(partial(run, names=names), time, here, points)
+            return Prediction(
+                moved, [of * u.slope(at) for of, u, at in zip(slopes, unknowns, x, strict=True)]
+            )
+        return _by_differences(
+            model.scene, lambda *at: _moved(run, time, *at)[0], MOTION_STEP, unknowns, x, points
+        )
     solution = _still(model, set_in(model.scene, unknowns, x))
     if solution.sensitivity is None:
         at_rest = lambda here, points: _still(model, here).displacement(points)  # noqa: E731
@@ -139,7 +153,8 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
 def _moved(
     run_of: Callable[[Scene, float], History], time: np.ndarray, here: Scene, points: np.ndarray
 ) -> np.ndarray:
-    """Displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s]."""
+    """Displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s], and derivatives
+    that the run has, (1 + parameters, n, 3)."""
     from scipy.interpolate import CubicSpline
 
     places, which = np.unique(points, axis=0, return_inverse=True)
@@ -147,8 +162,10 @@ def _moved(
     run = run_of(here.replace(probes=probes), float(time.max()))
     if run.status is not Status.CONVERGED:
         raise NotReached(f"{run.label}: {run.status}: {run.message}")
-    moved = CubicSpline(run.time, np.stack([run.probes[name] for name in probes], axis=1))(time)
-    return np.asarray(moved[np.arange(len(time)), which.ravel()])
+    series = [run.probes, *run.extra.get("sensitivities", {}).values()]
+    of_probes = np.array([[of[name] for name in probes] for of in series])
+    moved = CubicSpline(run.time, of_probes, axis=2)(time)
+    return np.asarray(moved[:, which.ravel(), np.arange(len(time))])
 
 
 def _by_differences(

@@ -46,9 +46,7 @@ def require_followed(names: Sequence[str], integrator: str, keeping: Mapping[str
     if names and integrator != Esdirk.name:
         raise BadInput(f"sensitivities: integrator = 'esdirk' has them, '{integrator}' has none")
     if len(names) > MOST:
-        raise BadInput(
-            f"sensitivities: {len(names)} parameters, {MOST} at most: adjoints in time are not here"
-        )
+        raise BadInput(f"sensitivities: {len(names)} parameters, {MOST} at most, and no adjoint in time")
     if names and keeping.get("store"):
         raise BadInput("sensitivities: a run that is stored cannot take them up: leave the store out")
 

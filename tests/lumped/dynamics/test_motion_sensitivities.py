@@ -22,12 +22,12 @@ def run(scene, **options):
 def test_derivatives_by_e_loss_and_curvature_are_those_of_differences():
     """Within 1e-5; the run is the one without them, adaptive or not."""
     names = ["young", "loss_factor", "natural.kxx"]
-    found = run(SCENE, step=2e-3, sensitivities=names)
+    found = run(SCENE, step=1e-3, sensitivities=names)
     for name in names:
         value = parameter(SCENE, name).value
 
         def slope(h, name=name, value=value):
-            up, down = (run(put(SCENE, name, value + end), step=2e-3).probes["P4"] for end in (h, -h))
+            up, down = (run(put(SCENE, name, value + end), step=1e-3).probes["P4"] for end in (h, -h))
             return (up - down) / (2.0 * h)
 
         h = 5e-3 * value

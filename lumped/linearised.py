@@ -34,7 +34,7 @@ from scipy.sparse.linalg import splu
 
 from lumped.calibration import Calibration, default
 from lumped.dynamics.system import System
-from lumped.gradient import rates
+from lumped.gradient import both_sides, rates
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.state_space import StateSpace
@@ -226,7 +226,8 @@ def _inputs(
         probe = list(scene.probes)[number // 3]
         columns.append((f"{probe} f{'xyz'[number % 3]}", row, zero, zero))
     for edge in _bent(scene):
-        force, g, _ = rates(calibration, problem, u, f"curvature_{edge}")
+        both = both_sides(calibration, problem, f"curvature_{edge}")
+        force, g, _ = rates(problem, u, both)
         columns.append((f"{edge} curvature", force.ravel(), -drag @ g.ravel(), g.ravel()))
     for name, support in named(scene.supports).items():
         rows, axes = problem.constraints.holders[name]
@@ -238,7 +239,7 @@ def _inputs(
             columns.append((f"{name} {'xyz'[axis]}", -spring @ g, -drag @ g, g))
     bent = [of for of in scene.natural_states if of != "temperature"]
     for name in (f"{of}.{key}" for of in bent for key in ("kxx", "kyy", "kxy")):
-        pull, *_ = rates(calibration, problem, u, name)
+        pull, *_ = rates(problem, u, both_sides(calibration, problem, name))
         columns.append((name, pull.ravel(), zero, zero))
     names, *values = zip(*columns, strict=True)
     force, rate, displacement = (np.stack(value, axis=1) for value in values)

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +32,7 @@ from sheetbench.scenes.meaning.natural_state import NaturalState
 XX_YY_XY = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
 COMPONENTS = (0, 0), (1, 1), (0, 1), (1, 0)
 # powers of a cell's area and of its sides' squares in the constants of `laws.of_stiffness`
-SIZE_POWERS = np.array(
+OF_SIZE = np.array(
     [[-1, 0, 0], [1, -2, 0], [1, 0, -2], [1, -1, -1], [1, -1, -1], [1, -1.5, -0.5], [1, -0.5, -1.5]]
 )
 
@@ -59,22 +60,17 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
     ]
 
 
-def pulled(
-    lattice: Lattice,
-    families: Sequence[Family],
-    state: tuple[np.ndarray, np.ndarray],
-    by: list[np.ndarray],
-    curvature: bool,
-) -> np.ndarray:
-    """Return the derivatives (rows, columns, 3) of a quantity by every cell's natural strain xx, yy and xy,
-    or by its natural curvature. by: derivatives of the quantity by constants and natural δg₀ of the families
-    (`AllFamilies.powers_by_constants`); families: of the flat sheet; state: strain and curvature, (rows,
-    columns, 2, 2)."""
-    derivatives = np.zeros((lattice.cell_areas.size, 3))
-    for springs, power in zip(_natural(lattice, families), by, strict=False):
-        if springs is not None:
-            derivatives += springs.pulled(*state, power, len(derivatives), curvature)
-    return derivatives.reshape(*lattice.cell_areas.shape, 3)
+def rates(
+    lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray], curvature: bool
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return of families, which are those of a flat sheet, the cells beside each spring (q, m), and the rates
+    (q, m, n, 3) of its constants and natural δg₀ by their natural strain xx, yy and xy, or curvature; state:
+    strain and curvature, (rows, columns, 2, 2)."""
+    nothing = np.zeros((1, 0), int), np.zeros((1, 0, 1, 3))
+    return [
+        nothing if one is None else (one.cells.T, one.rates(*state, curvature))
+        for one in _natural(lattice, families)
+    ]
 
 
 @dataclass(frozen=True)
@@ -123,36 +119,30 @@ class _Natural:
             return replace(self.family, rest_length=natural[0], natural=natural[1])
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    def pulled(
-        self, strain: np.ndarray, k: np.ndarray, by: np.ndarray, count: int, curvature: bool
-    ) -> np.ndarray:
-        """Return derivatives (cells, 3); see `pulled` above."""
+    def rates(self, strain: np.ndarray, k: np.ndarray, curvature: bool) -> np.ndarray:
+        """Return the rates (q, m, n, 3), as `rates` above."""
         plan, growth = self._growth(strain, k)
-        weight = by[:, -self.sides.shape[2] :, None]
-        sides = zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True)
-        out = np.zeros((*self.cells.shape, 3))
-        for a, other, other_growth, z in sides:
+        by_change: Any = 0.0
+        for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
             b, of_spring = other + other_growth, -z[:, None] if curvature else 1.0
-            xx, yy, xy, yx = (
-                (weight[:, None] * a[..., [i]] * b[..., [j]]).sum(axis=(2, 3)) for i, j in COMPONENTS
-            )
-            out += np.stack([xx, yy, xy + yx], axis=-1) * (self.shares * of_spring)[..., None]
-        if isinstance(self.family, SpringCells) and not curvature:
-            out[:, 0] += self._of_stiffness(strain, by)
-        flat = self.cells.ravel()
-        sums = [np.bincount(flat, values.ravel(), count) for values in np.moveaxis(out, 2, 0)]
-        return np.stack(sums, axis=1)
+            xx, yy, xy, yx = (a[..., i] * b[..., j] for i, j in COMPONENTS)
+            by_change += np.stack([xx, yy, xy + yx], axis=-1) * (self.shares * of_spring)[..., None, None]
+        by_change = by_change.swapaxes(0, 1)
+        if not isinstance(self.family, SpringCells):
+            return np.concatenate([np.zeros_like(by_change), by_change], axis=2)
+        by_size = self._of_stiffness(strain)
+        return np.concatenate([0.0 * by_size if curvature else by_size, by_change], axis=2)
 
-    def _of_stiffness(self, strain: np.ndarray, by: np.ndarray) -> np.ndarray:
-        """Return the part (c, 3) of a cell's derivatives by constants that depend on the natural sides."""
+    def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
+        """Return those of the constants, which are of the natural sides, of cells (1, c, n, 3)."""
         drawn = self.family.sides[..., :2]  # type: ignore[union-attr]
-        constants = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
-        work = (by[:, : constants.shape[1]] * constants) @ SIZE_POWERS
+        now = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
         sides = drawn + drawn @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]
-        change = np.einsum("cij,wjk->wcik", drawn, XX_YY_XY)
-        of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), change)
-        of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, change) / (sides**2).sum(axis=2)[:, :, None]
-        return np.asarray(work[:, :1] * of_area + np.einsum("ci,ciw->cw", work[:, 1:], of_sides))
+        moved = np.einsum("cij,wjk->wcik", drawn, XX_YY_XY)
+        of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), moved)
+        of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, moved) / (sides**2).sum(axis=2)[:, :, None]
+        of_size = np.concatenate([of_area[:, None], of_sides], axis=1)
+        return np.asarray(now[:, :, None] * (OF_SIZE @ of_size))[None]
 
 
 def _natural(lattice: Lattice, families: Sequence[Family]) -> list[_Natural | None]:

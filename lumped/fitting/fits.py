@@ -4,7 +4,7 @@ Both start from the springs of `consistent` and vary the logarithms of the sprin
 and the area springs as shares of the diagonal ones; layer distance, kz, the edges' twist and the strain
 springs that share the stretching with the axial links, of which data determine the sum alone, are kept; on a
 graded grid the cells' springs of a family are scaled equally. Gauss–Newton with exact Jacobians: of
-displacements from `lumped.sensitivity`; of frequencies from Rayleigh's quotient, dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M
+displacements from `lumped.gradient`; of frequencies from Rayleigh's quotient, dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M
 φ). Residuals are relative: displacements to the largest of their field, frequencies to themselves. A pull
 towards the start (`prior`, in units of the residuals) keeps combinations that the data do not determine; the
 report names them. fit-modal has Gregory's masses, which remove most of the frequencies' error before a spring
@@ -27,7 +27,7 @@ from lumped.calibration.consistent import consistent
 from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.lattice import Grid
-from lumped.sensitivity import sensitivity
+from lumped.sensitivity import Differentiable
 from lumped.spring_constants import EDGES_OWN, RIMS_OWN
 from lumped.vibration import frequency_slopes
 from sheetbench.answers.table import PERCENT, Table
@@ -53,9 +53,9 @@ class StaticTarget:
     def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Return the springs' relative misses (m,), and their derivatives (m,) by each constant."""
         scale = np.abs(self.displacement).max() * np.sqrt(len(self.points))
-        result = sensitivity(self.scene, springs, names, self.points)
-        slopes = {name: (result.derivatives[name] / scale).ravel() for name in names}
-        return ((result.displacement - self.displacement) / scale).ravel(), slopes
+        displacement, slopes = Differentiable(self.scene, springs).at_points(self.points, names)
+        slopes = {name: (slope / scale).ravel() for name, slope in slopes.items()}
+        return ((displacement - self.displacement) / scale).ravel(), slopes
 
 
 @dataclass(frozen=True)

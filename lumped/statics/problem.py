@@ -26,6 +26,7 @@ from lumped.statics.correction import advance, unbalanced_force
 from lumped.statics.faults import inspect
 from lumped.supports import Constraints
 from sheetbench.numerics import banded
+from sheetbench.numerics.cache import frozen
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
@@ -113,7 +114,8 @@ class Problem(Structure[LatticeState, Residual]):
         else:
             multipliers = abs(transform).T @ coupling.algebraic.ravel() > 0.0
             self.system = ReducedSystem(assembly.pattern, transform, self.symmetric, multipliers)
-        self._moves = bool(self.prescribed(1.0).any())
+        self._placed = frozen(self._prescribed(1.0))
+        self._moves = bool(self._placed.any())
         self._iterates = self.descends and self.system.unknowns > ITERATED
         self.factor = self.system.factor
 
@@ -146,6 +148,9 @@ class Problem(Structure[LatticeState, Residual]):
 
     def prescribed(self, load_factor: float) -> np.ndarray:
         """Return the displacement (n, 3) [m] that supports and actuators prescribe, 0 of other masses."""
+        return self._placed if load_factor == 1.0 else self._prescribed(load_factor)
+
+    def _prescribed(self, load_factor: float) -> np.ndarray:
         g = self.constraints.prescribed(load_factor)
         if self.assembly.coupling is not None:
             g = g + self.assembly.coupling.driven(Drive(load_factor))

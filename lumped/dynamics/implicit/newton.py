@@ -135,6 +135,17 @@ class Newton:
         factor = self._factor if self._key == by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
 
+    def correction(self, left: np.ndarray) -> np.ndarray | None:
+        """Return the change (n, 3) [m] with which the factors kept take a residual (m,) off, None without."""
+        problem, band = self._system.problem, self._system.problem.system.band
+        if self._factored is not None and band is not None:
+            found = banded.solve_unrefined(self._factors, band.width, band.order, left)
+        elif self._factor is not None:
+            found = self._factor.solve(left, SOLVED)
+        else:
+            return None
+        return problem.expand(found)
+
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be
         done, as where the tangent is not positive definite. tolerance [m]: as in `solve_equation`. Raises

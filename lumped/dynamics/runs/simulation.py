@@ -8,11 +8,14 @@ distance.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import Calibration, default
+from lumped.dynamics.implicit.sensitivities import SensitiveEsdirk, Sided, require_followed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.runs.observer import LatticeObserver
@@ -38,6 +41,7 @@ def simulate(
     integrator: str = INTEGRATOR,
     every: float | None = None,
     weights: Weights = "tributary",
+    sensitivities: Sequence[str] = (),
     **options: Any,
 ) -> History:
     """Return the motion of a scene's sheet from rest.
@@ -60,6 +64,9 @@ def simulate(
         steps of "esdirk", which end at the kinks of histories; other integrators may step over kinks.
     weights : {"tributary", "full"}, default "tributary"
         Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
+    sensitivities : sequence of str, optional
+        At most 20 parameters, of "esdirk" alone (`lumped.dynamics.implicit.sensitivities`):
+        `extra["sensitivities"]` has by parameter and probe the derivatives of the samples, (k, 3).
     **options
         Options of the integrator (`radius`, `error`), and `store`, `frames` and `progress` of
         `sheetbench.runs.record`.
@@ -101,6 +108,7 @@ def simulate(
     calibration = calibration or default(scene)
     system, start = in_motion(scene, calibration, weights)
     integrator, why = resolve_integrator(integrator, system, options)
+    require_followed(sensitivities, integrator, keeping)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
     settings = calibration.settings | {"layer_distance": calibration.layer_distance} | options
@@ -114,8 +122,11 @@ def simulate(
         "weights": weights,
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
-    kind = INTEGRATORS[integrator]
-    extra: dict[str, Any] = {"fixed": step is not None} if kind.adaptive else {}
+    kind: Any = INTEGRATORS[integrator]
+    sides = [Sided(scene, calibration, weights, name) for name in sensitivities]
+    if sides:
+        kind = partial(SensitiveEsdirk, sides)
+    extra: dict[str, Any] = {"fixed": step is not None} if INTEGRATORS[integrator].adaptive else {}
     recipe = Recipe(
         scene=scene,
         label=f"lumped {calibration.title}",
@@ -123,7 +134,7 @@ def simulate(
         settings=settings,
         key=key,
         schedule=schedule,
-        method=kind(system, length, **options, **extra),
+        method=(method := kind(system, length, **options, **extra)),
         observer=LatticeObserver(system, drawn),
         start=lambda: Advance(start, 0.0, 0.0),
         rows=len(drawn),
@@ -131,6 +142,12 @@ def simulate(
     history = record(recipe, keeping, start_time)
     history.settings.update({"largest_step": limit.step} if limit is not None else {})
     history.settings.update({"integrator_reason": why} if why else {})
+    if sides:
+        probes, count = MidSurface(system.assembly.lattice, scene.probe_points()), len(history.time)
+        rates = np.concatenate([block for _, block in method.found], axis=1)[:, :count]
+        at = [np.array([probes.of(u) for u in by]).swapaxes(0, 1) for by in rates]
+        by_probe = (dict(zip(scene.probes, values, strict=True)) for values in at)
+        history.extra["sensitivities"] = dict(zip(sensitivities, by_probe, strict=True))
     frames = history.extra["frames"]
     history.extra.update(
         {

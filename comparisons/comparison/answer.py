@@ -53,12 +53,12 @@ FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 
 
 def settling(scene: Scene) -> str:
-    """Return which motion brings a sheet to rest that statics do not."""
+    """Return which motion may bring a sheet to rest that statics do not."""
     material = scene.material
     damped = material.damping_rate or material.dashpot_time or material.branches.times or scene.dampers
-    rate = material.damping_rate or SLOW
-    before = "" if damped or scene.air else f"with [material] damping_rate = {SLOW:g} "
-    return f"{before}its motion comes to rest: sheetbench simulate SCENE --duration {AT_REST / rate:.2g}"
+    until = AT_REST / (material.damping_rate or SLOW)
+    watched = f"; to watch it: sheetbench simulate SCENE --duration {until:.2g}"
+    return "--settle begins where its motion comes to rest" + watched * bool(damped or scene.air)
 
 
 @dataclass(frozen=True, repr=False)
@@ -220,7 +220,7 @@ class Comparison(Compared, Answer):
         unsettled = (Status.STEP_LIMIT, Status.DIVERGED)
         return [*([self.disagreement] if self.disagreement else [])] + [
             ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
-            + f"; {settling(self.scene)}" * (s.status in unsettled)
+            + f"; {settling(self.scene)}" * (s.status in unsettled and "begun" not in s.settings)
             for s in self.solutions
             if s.status is not Status.CONVERGED
         ]

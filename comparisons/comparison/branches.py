@@ -12,6 +12,7 @@ reason (`far_apart`).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -44,14 +45,14 @@ def joined(
     import fem_reference
     import lumped
 
-    again = lumped.solve(scene, lattice.springs, near=shape(scene, reference, first.mesh.points))
+    again = lumped.solve(scene, lattice.springs, near=shape(scene, reference.displacement, first.mesh.points))
     if _on_branch(again, points, right, own):
         return _begun(again, first, reference), reference, _converged_text(first, reference, own, right)
     if reference.model != "shell":
         return None
     begun = {"elements": against.spec.elements, **against.spec.but(branch=None).options}
     again = fem_reference.solve(
-        scene, model="shell", near=lambda places: shape(scene, first, places), **begun
+        scene, model="shell", near=lambda places: shape(scene, first.displacement, places), **begun
     )
     if _on_branch(again, points, own, right):
         return first, _begun(again, reference, first), _converged_text(reference, first, right, own)
@@ -87,19 +88,22 @@ def _converged_text(moved: Solution, kept: Solution, own: np.ndarray, other: np.
     )
 
 
-def shape(scene: Scene, reference: Solution, places: np.ndarray) -> np.ndarray:
-    """Displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in a solution's shape."""
+Field = Callable[[np.ndarray], np.ndarray]  # displacement (n, 3) [m] at plan points (n, 2) [m]
+
+
+def shape(scene: Scene, displacement: Field, places: np.ndarray) -> np.ndarray:
+    """Displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in a mid-surface's shape."""
     plan = on_sheet(scene, places[:, :2])
     slopes = []
     for axis in np.eye(3)[:2]:
         step = STEP * min(scene.sheet.lengths) * axis[:2]
         low, high = _beside(scene, plan, -step), _beside(scene, plan, step)
         distance = np.abs(high - low).sum(axis=1)
-        change = reference.displacement(high) - reference.displacement(low)
+        change = displacement(high) - displacement(low)
         slopes.append(change / np.where(distance > 0.0, distance, 1.0)[:, None] + axis)
     normal = np.cross(*slopes)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    moved: np.ndarray = reference.displacement(plan) + places[:, 2:] * (normal - [0.0, 0.0, 1.0])
+    moved: np.ndarray = displacement(plan) + places[:, 2:] * (normal - [0.0, 0.0, 1.0])
     return moved
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from comparisons.comparison import branches
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import CHEAP, error_bar
 from comparisons.comparison.far_apart import far_apart_note
+from comparisons.comparison.settle import require_settling, settled
 from comparisons.external.plugins import shown_name
 from comparisons.models.context import context
 from comparisons.models.expected_error import expected_error
@@ -43,11 +45,13 @@ def compare(
     uncertainty: bool | None = None,
     companion: bool = True,
     models: Sequence[Spec | str] = (),
+    settle: bool = False,
 ) -> Comparison:
     """Return the answers of a lattice and a reference side by side, as `comparisons.cli.compare` says.
 
     companion: also uniform springs in cells of one size, as `lumped-uniform`, where the lattice leaves its
     calibration open. The reference has the lattice's branch. A name of `models` that is taken is changed.
+    settle: begin every model where its motion comes to rest (`comparisons.comparison.settle`).
 
     Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
     solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
@@ -58,26 +62,33 @@ def compare(
     first = resolve(scene, lattice)
     named: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
     left_open = lattice.calibration is None and lattice.k is None and first.spec.calibration is not None
-    if companion and left_open and not scene.drawn_by:
+    if companion and left_open and not scene.drawn_by and not settle:
         named[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
     for other in models:
         beside = resolve(scene, parse(other))
         named[unlike(shown_name(beside.spec.model), named)] = beside
     if not compiled_before(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first on this machine
         warm_both(first.spec.model, against.spec.model)
+    require_settling(named.values() if settle else ())
     rows = []
     for name, model in named.items():
-        rows.append(here(model, name))
-        context().solved(rows[-1].answer)
+        near, ended = settled(model) if settle else (None, "")
+        row = here(model, name, near=near)
+        if settle:
+            answer, settings = row.answer, {**row.answer.settings, "begun": "motion"}
+            answer = replace(answer, settings=settings, remarks=(*answer.remarks, *filter(None, [ended])))
+            row = replace(row, answer=answer)
+        rows.append(row)
+        context().solved(row.answer)
     solutions = [row.answer for row in rows]
     disagreement = ""
-    several = begun = other_branch = False
+    several, begun, other_branch = settle, settle, False
     one_branch = branches.joined(first, against, *solutions[:2])
     if one_branch is not None:
-        several, begun = True, one_branch[1] is not solutions[1]
+        several, begun = True, settle or one_branch[1] is not solutions[1]
         solutions[0], solutions[1], disagreement = one_branch
     finer = partial(with_room, scene)
-    expected = expected_error(scene, first.spec, solutions[0], finer)
+    expected = None if settle else expected_error(scene, first.spec, solutions[0], finer)
     bar = None
     alone = begun or solutions[1].status is Status.UNSTABLE  # coarser meshes may be on another branch
     wanted = against.spec.kind in CHEAP if uncertainty is None else uncertainty

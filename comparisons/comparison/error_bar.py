@@ -60,7 +60,7 @@ class ErrorBar:
             why = "no change but rounding"
         else:
             swing = int(np.sum(~found.trusted))
-            why = f"in {swing} of {found.trusted.size} components the change does not fall with the mesh"
+            why = f"{swing} of {found.trusted.size} displacements did not settle: a guess"
         meshes = f"{', '.join(finer)} and {coarsest} elements"
         return f"{model}: mesh error ± {few(100.0 * self.error)} % (from {meshes}; {why})."
 

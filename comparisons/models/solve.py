@@ -36,8 +36,9 @@ EVEN, SETTLED = 0.02, 5.0  # of the duration, or s, until which steps grow and t
 COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
-def solve(model: Resolved[Any], name: str = "") -> Solution:
-    """Return the static answer of a model, on warm code; name: what to call it instead of its own.
+def solve(model: Resolved[Any], name: str = "", near: Any = None) -> Solution:
+    """Return the static answer of a model, on warm code; name: what to call it instead of its own; near: a
+    shape to begin at, as `lumped.solve` and `fem_reference.solve` take it.
 
     The context's progress is called with what is being done, and with every iteration. A solve that fails is
     a status.
@@ -56,7 +57,7 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
     if spec.MASSES:
         assert model.springs
     preparing = now() - began
-    solution = _solve(model, watch)
+    solution = _solve(model, watch, near)
     spent = solution.setup_seconds + preparing
     drawn = solution.mesh
     if not scene.uniform or scene.pierced:
@@ -76,23 +77,23 @@ def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
     return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **of_cells})
 
 
-def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
+def _solve(model: Resolved[Any], watch: Watch | None, near: Any = None) -> Solution:
     spec, scene = model.spec, model.scene
     if isinstance(spec, Lattice):
         import lumped
 
         branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
         calibrate = None if model.fitted or spec.calibration is None else partial(_springs, model)
-        solution = lumped.solve(
-            scene, model.springs, linear=spec.linear, branch=branch, progress=watch, calibrate=calibrate
-        )
+        own: dict[str, Any] = {"linear": spec.linear, "branch": branch, "near": near, "calibrate": calibrate}
+        solution = lumped.solve(scene, model.springs, progress=watch, **own)
         return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference
 
         elements = tuple(spec.counts(scene)[:2])
         try:
-            return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
+            own = {"elements": elements, "near": near, **spec.options}
+            return fem_reference.solve(scene, spec.kind, progress=watch, **own)
         except NoMesh as error:
             return _unanswered(
                 scene, spec, f"no mesh of {spec.size} elements, other numbers may have one: {error}"

@@ -30,8 +30,8 @@ BALANCED = "balanced"
 UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
 UNITS |= dict.fromkeys(("kxx", "kyy", "kxy"), "1/m")
 EXPLANATION = (
-    "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
-    "load or gravity",
+    "static: steady displacement for an input of one unit; factor: 1 is the load or the gravity as the scene "
+    "has it",
     "--out DIR writes M, C, K, F, F_rate, G, H and ss_A to ss_D to linear.npz and linear.mat",
 )
 

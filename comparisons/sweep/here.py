@@ -44,9 +44,10 @@ class SolvedHere(Solved):
         return median(self.samples)
 
 
-def here(model: Resolved[Any], name: str = "", repeats: int = 1) -> SolvedHere:
-    """Return the row of a model; name: what to call it instead of its own; repeats: of a quick solve."""
-    answer = solve(model, name)
+def here(model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = None) -> SolvedHere:
+    """Return the row of a model; name: what to call it instead of its own; repeats: of a quick solve; near: a
+    shape to begin at."""
+    answer = solve(model, name, near)
     samples = [answer.solve_seconds]
     with running(progress=silent):
         while len(samples) < repeats and answer.solve_seconds < QUICK:

@@ -52,7 +52,7 @@ def warnings(costs: Iterable[Mapping[str, Any]], samples: Iterable[Sequence[floa
     if busy:
         times = "times are" if len(known) == 1 else f"{len(busy)} of {len(known)} times are"
         load = "load {:.3g} on {} processors".format(*max(busy))
-        sentences.append(f"{times} too long: the machine was busy ({load})")
+        sentences.append(f"{times} not reliable: the machine was busy ({load})")
     ratios = [max(times) / min(times) for times in samples if len(times) > 1 and min(times) > 0.0]
     wide = [ratio for ratio in ratios if ratio > SCATTER]
     if wide:

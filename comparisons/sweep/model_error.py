@@ -82,11 +82,11 @@ class ModelError:
         named = ", ".join(f"{name} {_percent(part)}" for name, part in parts.items() if part > 0.0)
         sentences = [f"model error ± {_percent(self.value)} ({named})"] if named else []
         if self.clamp > 0.0:
-            change = f"(up to {_percent(self.clamp)})"
-            sentences.append(f"not included: a clamp that also holds the thickness {change}")
+            change = _percent(self.clamp)
+            sentences.append(f"if the clamp also stops the sheet from thinning, add up to {change}")
         if self.hinge > 0.0:
-            change = f"(up to {_percent(self.hinge)} less)"
-            sentences.append(f'not included: hard simple supports, twist = "held" {change}')
+            change = _percent(self.hinge)
+            sentences.append(f'with hard simple supports, twist = "held", it moves up to {change} less')
         return "; ".join(sentences)
 
     def as_dict(self) -> dict[str, float | dict[str, float]]:

@@ -51,14 +51,14 @@ def trace_path(
     """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
 
     inspect, settle: as of `Path`; progress: called once an iteration. near: a state close to the equilibrium,
-    to begin at; where that leads to none that is stable, or with obstacles, the path begins at rest.
+    to begin at; where that leads to none that is stable, the path begins at rest.
     slenderness: thickness over size; where it is given, the factors of a last correction that is next to
     nothing tell the stability. buckled: leave an unstable equilibrium for the stable one that `settle` finds.
     """
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        ended = stiffened(path, _traced) if structure.contacts else _traced(path, near)
+        ended = stiffened(path, _traced, near) if structure.contacts else _traced(path, near)
         path.fault = ended
         path.status, note = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:

@@ -29,7 +29,7 @@ class Patch(Frozen):
     angle: Angle | None = Field(default=None, kw_only=True)
     """Of an orthotropic material's axis 1 from x towards y; the material's unless given."""
     natural: Natural | None = Field(default=None, kw_only=True)
-    """Natural strain and curvature in place of the sheet's, there."""
+    """Natural strain and curvature inside the patch, which replace the sheet's."""
 
     def _faults(self) -> Iterator[object]:
         yield not self.own and not self.natural and f"needs one of {', '.join((*CONSTANTS, 'natural'))}"

@@ -126,9 +126,9 @@ class SpringSet(Frozen):
     """The same over one diagonal alone, which couples shears along x and y: that along x and y where it is
     > 0, the other where it is < 0."""
     edge_shear: EdgeStiffness = 0.0
-    """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
+    """Correction of the twist in the cells along a free, hinged or held edge whose facing edge is clamped."""
     strip_shear: EdgeStiffness = 0.0
-    """The same where the opposite edge is free, hinged or held too."""
+    """Correction of the twist there where the facing edge is free, hinged or held as well."""
     edge_coupling: EdgeCoupling = 0.0
     """Of cells with fibres at an angle: what edge_shear and strip_shear resist is γ + edge_coupling ε, ε the
     strain along the edge."""

@@ -59,8 +59,8 @@ def moduli(calibration: dict[str, Any]) -> Table:
         Column("off target by", "", "%", 100.0, "z.2f"),
     )
     note = (
-        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh to cancel the shear error of "
-        "cells of length l"
+        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh on purpose: cells of length l "
+        "are too stiff in shear by l²/12D11"
     )
     return Table(
         "Moduli of the sheet and of the lattice",

@@ -202,9 +202,10 @@ def solve_from_best_start(
     lattice, from the equilibrium of the lattice with half as many cells a side."""
     if near is not None and near.shape != problem.loads.dead.shape:
         raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
-    if problem.assembly.coupling is not None or problem.items:  # their unknowns depend on the grid
+    if problem.assembly.coupling is not None:  # its unknowns depend on the grid
         return solve_path(problem, progress=progress)
-    large = near is None and problem.descends and problem.system.unknowns > FROM
+    whole = near is None and not problem.items  # whose points are others on another grid
+    large = whole and problem.descends and problem.system.unknowns > FROM
     springs = halved(problem.scene, calibration) if large else None
     if springs is None:
         return solve_path(problem, "path", near, progress)

@@ -50,14 +50,14 @@ def trace_path(
     """Return the path to the equilibrium at load factor 1, or to the last one, with the reason of its end.
 
     inspect, settle: as in `Path`. progress: called at every iteration. near: a start close to the
-    equilibrium; if it leads to no stable one, or with obstacles, the path begins at rest. slenderness:
-    thickness over size; if given, the factors before a negligible last correction are used for stability.
-    buckled: leave an unstable equilibrium for the stable one of `settle`.
+    equilibrium; if it leads to no stable one, the path begins at rest. slenderness: thickness over size; if
+    given, the factors before a negligible last correction are used for stability. buckled: leave an unstable
+    equilibrium for the stable one of `settle`.
     """
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        ended = stiffened(path, _traced) if structure.contacts else _traced(path, near)
+        ended = stiffened(path, _traced, near) if structure.contacts else _traced(path, near)
         path.fault = ended
         path.status, note = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:

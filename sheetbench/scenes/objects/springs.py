@@ -125,7 +125,7 @@ class SpringSet(Frozen):
     """Strain springs as face_shear over one diagonal alone, which couple the shears along x and y: if > 0 the
     diagonal from the corner of least x and y, if < 0 the other one."""
     edge_shear: EdgeStiffness = 0.0
-    """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
+    """Correction of the twist in the cells along a free, hinged or held edge whose facing edge is clamped."""
     strip_shear: EdgeStiffness = 0.0
     """Strain springs as edge_shear if the opposite edge is free, hinged or held too."""
     edge_coupling: EdgeCoupling = 0.0

@@ -149,8 +149,9 @@ def command(
             line = command_line(output.verb, output.terminal)
             out.notes.append(exchange.export(export, loaded, springs, line, output.overwrite))
         values = {entry.name: getattr(springs, entry.name) for entry in fields(Calibration)}
-        files = ({}, [])
-        if for_ is not None:
-            files = exchange.lattice_files(loaded, springs, for_, precision or "double")
+        no_files: tuple[dict[str, Any], list[str]] = ({}, [])
+        files = (
+            no_files if for_ is None else exchange.lattice_files(loaded, springs, for_, precision or "double")
+        )
         answer = SheetCalibration(**values, found=springs, scene=loaded, expected=estimate, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(material) if toml else None)

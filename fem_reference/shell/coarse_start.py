@@ -64,12 +64,10 @@ def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[
     fields = np.concatenate([*changes, strain.reshape(-1, 4)], axis=1)
     interpolated = interpolate(plan.mesh, plan.elements, fields, sheet.plan.nodes)
     displacement, turn, flat = np.split(interpolated, (3, 6), axis=1)
-    director = turn + UP
-    director /= np.linalg.norm(director, axis=1, keepdims=True)
     stretched = np.zeros(finer.stiffness.shape[:2])
     at_sites = (AT_SITES @ flat[sheet.plan.elements]).reshape(-1, len(AT_SITES), 2, 2)
     stretched[:, MEMBRANE] = sampled(sheet.plan.corners, at_sites)
-    return _start(sheet, displacement, director - UP, stretched)
+    return _start(sheet, displacement, turn, stretched)
 
 
 def shaped(shape: Shape, sheet: DiscreteShell) -> Start[StaticState]:
@@ -85,8 +83,10 @@ def shaped(shape: Shape, sheet: DiscreteShell) -> Start[StaticState]:
 def _start(
     sheet: DiscreteShell, displacement: np.ndarray, turn: np.ndarray, strain: np.ndarray
 ) -> Start[StaticState]:
-    """Return the state of displacements, changes of directors (n, 3) and stresses of strains (m, 54)."""
-    q, static = sheet.of_vectors(displacement, turn), Static(sheet)
+    """Return the state of displacements, directors (n, 3), upright along held tilts, and strains (m, 54)."""
+    director = np.where(np.pad(sheet.supports.tilt, ((0, 0), (0, 1))), 0.0, turn + UP)
+    director /= np.linalg.norm(director, axis=1, keepdims=True)
+    q, static = sheet.of_vectors(displacement, director - UP), Static(sheet)
     no_rods = tuple(np.zeros_like(body.elements.stiffness) for body in sheet.bodies)
     state = StaticState(q, sheet.element.stress(strain), on_rods=no_rods)
     return Start(state, 1.0, static.length(static.rest(), state), static.potential(state, 1.0)[1])

@@ -160,21 +160,10 @@ def _error(displacement: np.ndarray, truth: np.ndarray) -> float:
     return float(np.abs(displacement - truth).max() / np.abs(truth).max())
 
 
-HEAD = '''\
-"""The moduli of the calibration `central` by Poisson's ratio: `make central` finds and writes them.
-
-ν, then a, b, c with D11 = a D, D12 = D66 = b D, A11 = c A, A12 = A66 = (b/a) c A, D and A the sheet's own;
-the worst error that a sheet of these moduli makes on the training scenes that bend, on those that stretch,
-and that of `cauchy` on those that bend. Trained on: `studies.transfer.training`.
-"""
-
-ROWS = (
-'''
-
-
 def write_table() -> Path:
-    """Train the calibration `central`, write its table, and return the file."""
-    rows = (f"    ({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
+    """Train the calibration `central`, and write the rows of its table; return the table's path."""
+    rows = (f"    Row({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
     table = Path(lumped.__file__).parent / "calibration" / "central_table.py"
-    write_text(table, HEAD + "".join(rows) + ")\n")
+    head = table.read_text(encoding="utf-8").partition("ROWS = (\n")
+    write_text(table, "".join([*head[:2], *rows, ")\n"]))
     return table

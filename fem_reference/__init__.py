@@ -43,7 +43,7 @@ def solve(
     model : {"plate", "shell", "solid"}
         The reference model.
     near : callable, optional
-        Of the shell: a function from points (n, 3) [m] of the flat sheet to their displacement (n, 3) [m] in
+        For the shell: a function from points (n, 3) [m] of the flat sheet to their displacement (n, 3) [m] in
         an estimate of the shape. The equilibrium is sought from there first.
     progress : callable, optional
         Called with an `Iteration` after each iteration.

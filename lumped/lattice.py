@@ -216,8 +216,8 @@ def build(
     nodes, step, cells, shares = _links(grid)
     if present is not None:
         shares = shares * present.ravel()[cells]
-    kept = shares.any(axis=0)
-    nodes, step, cells, shares = nodes[kept], step[kept], cells[:, kept], shares[:, kept]
+    on_sheet = shares.any(axis=0)
+    nodes, step, cells, shares = nodes[on_sheet], step[on_sheet], cells[:, on_sheet], shares[:, on_sheet]
     if weights == "full":
         shares = shares / shares.sum(axis=0)
     row, column = (np.minimum(*of[nodes.T]).clip(max=cells - 2) for of, cells in ((j, ny), (i, nx)))

@@ -64,9 +64,23 @@ LAST = 1e9  # s: every history has its last value, as in statics
 
 @dataclass(frozen=True, eq=False)
 class Linear:
-    """A linearised lattice. mass, damping, stiffness: sparse (m, m); force, force_rate: F, F′ (m, inputs);
-    output, direct: G (outputs, m), H (outputs, inputs); inputs, outputs: names; displacement: (n, 3) [m] of
-    the masses at the equilibrium."""
+    """A lattice linearised about an equilibrium, M q̈ + C q̇ + K q = F w + F′ ẇ, y = G q + H w.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : sparse array of shape (m, m)
+        Matrices M, C and K of the free unknowns [kg, N·s/m, N/m].
+    force, force_rate : ndarray of shape (m, inputs)
+        Forces F and F′ [N, N·s, per unit of the input].
+    output : ndarray of shape (outputs, m)
+        Matrix G [-].
+    direct : ndarray of shape (outputs, inputs)
+        Matrix H [m per unit of the input].
+    inputs, outputs : tuple of str
+        Names of inputs and outputs.
+    displacement : ndarray of shape (n, 3)
+        Displacement [m] of the masses at the equilibrium.
+    """
 
     mass: sp.csc_array
     damping: sp.csc_array
@@ -168,8 +182,8 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     def reduced(mass: float, damping: float, stiffness: float) -> tuple[sp.csr_array, sp.csc_array]:
         blocks = system.matrix(u, rest, LAST, mass, damping, stiffness)
         pattern = problem.assembly.pattern
-        whole = sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr)))
-        return whole, sp.csc_array(motions.T @ whole @ motions)
+        full = sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr)))
+        return full, sp.csc_array(motions.T @ full @ motions)
 
     (_, mass), (drag, damping), (spring, stiffness) = (reduced(*factors) for factors in np.eye(3).tolist())
     probes = MidSurface(problem.assembly.lattice, scene.probe_points())

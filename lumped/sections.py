@@ -181,26 +181,26 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> CellSection 
     Returns
     -------
     CellSection, optional
-        Stiffness per width and mass per area of each cell, (rows, columns, …); None if the sheet is uniform
-        and isotropic. sheet. A cell that the outline cuts has stiffness and mass times its share of sheet.
+        Stiffness per width and mass per area of each cell, (rows, columns, …), or None for a uniform
+        isotropic sheet. A cell that the outline cuts has stiffness and mass times its share of sheet.
 
     Notes
     -----
     Several parts in a cell are homogenised as divisions in series (Kohn and Vogelius 1984).
     """
     lines = grid_lines(scene.sheet, grid, grading)
-    whole, clamped = _as_if_whole(scene, grid, lines), clamped_stiffness(scene, lines)
+    uncut, clamped = _as_if_whole(scene, grid, lines), clamped_stiffness(scene, lines)
     cut = bool(np.any(np.abs(clamped - 1.0) > COINCIDENT))
     growth = growth_of_cells(scene, lines[0].at, lines[1].at)
     if not (scene.pierced or cut or growth is not None):
-        return whole
-    if whole is None:
-        whole = of_cells(Cells.of(scene.sheet, scene.material), grid)
-    whole = replace(whole, growth=growth)
+        return uncut
+    if uncut is None:
+        uncut = of_cells(Cells.of(scene.sheet, scene.material), grid)
+    uncut = replace(uncut, growth=growth)
     if cut:
-        whole = replace(_times(whole, clamped), per_area=whole.per_area)
+        uncut = replace(_times(uncut, clamped), per_area=uncut.per_area)
     if not scene.pierced:
-        return whole
+        return uncut
     share = shares_of(scene.region, lines[0].at, lines[1].at)
     # a held area beyond the rim bends as part of the cell: `clamped` is the factor of the cell's free part
     held = [s for s in scene.supports if place(s) and not isinstance(s, Point) and held_axes(s) == (0, 1, 2)]
@@ -208,9 +208,9 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> CellSection 
     if held:
         with_held = scene.region.union(union_of(held))
         bent = np.where(share > 0.0, shares_of(with_held, lines[0].at, lines[1].at), 0.0)
-    of_mass = _times(whole, share).per_area
+    of_mass = _times(uncut, share).per_area
     rims = oblique_rims(scene, lines, share)
-    return replace(_times(whole, bent), per_area=of_mass, rims=rims, share=share)
+    return replace(_times(uncut, bent), per_area=of_mass, rims=rims, share=share)
 
 
 def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> CellSection | None:

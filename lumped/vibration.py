@@ -37,8 +37,23 @@ COINCIDENT = 1e-6  # relative difference up to which two frequencies coincide
 
 @dataclass(frozen=True, repr=False)
 class Modes(NaturalModes):
-    """Natural modes of a lattice. Shapes are displacements of the masses of `lattice`, with the largest
-    component 1; gradient_of: derivatives of the frequency of a mode by number."""
+    """Natural modes of a lattice.
+
+    Parameters
+    ----------
+    frequencies : ndarray of shape (count,)
+        Natural frequencies [Hz], rising.
+    shapes : ndarray of shape (count, n, 3)
+        Displacements of the masses, with the largest component 1.
+    rigid : int
+        Number of rigid motions, which are left out.
+    unknowns : int
+        Number of free unknowns.
+    lattice : Lattice
+        Lattice of the masses.
+    gradient_of : callable, optional
+        Function of a mode's number that returns the derivatives of its frequency.
+    """
 
     lattice: Lattice
     gradient_of: Callable[[int], Any] | None = None

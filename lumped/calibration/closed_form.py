@@ -136,7 +136,7 @@ def closed_form(
 
     anisotropic = _anisotropic(bending)
 
-    given = layer_distance is not None
+    distance_given = layer_distance is not None
     lz2 = np.full(len(p), layer_distance**2 if layer_distance is not None else 0.0)
     iterating = np.ones(len(p), dtype=bool)
     for _ in range(50):  # δ is small and depends little on lz: a fixed point
@@ -152,14 +152,14 @@ def closed_form(
         if gradients:
             on_sides = layers * axial + (layers - 1) * along
             needed = np.maximum(needed, (on_sides / _on_sides(membrane)).max(axis=1))
-        if given:
+        if distance_given:
             break
         iterating &= (needed > 0.0) & ~(np.abs(needed - lz2) < 1e-15 * needed)
         if not iterating.any():
             break
         lz2 = np.where(iterating, needed, lz2)
     exists = (lz2 > 0.0) & (layer[:, 2, 2] > 0.0) & (axial.min(axis=1) >= 0.0)
-    if given:
+    if distance_given:
         exists &= needed <= lz2 * (1.0 + 1e-9)
     if fibres.any():
         exists[fibres] &= np.linalg.eigvalsh(layer[fibres])[:, 0] > 0.0
@@ -179,7 +179,7 @@ def closed_form(
         of |= {"face_shear": faces.T * lz2, "face_diagonal_shear": over * lz2}
     else:
         of = _of_layer(layer, of_mean, sides)
-    lz2 = np.where(exists, lz2, 1.0 if not given else lz2)
+    lz2 = np.where(exists, lz2, 1.0 if not distance_given else lz2)
     middle = membrane * lz2[:, None, None] - lattice
     mid_area = np.where(fibres, 0.0, middle[:, 0, 1])
     of |= {

@@ -23,22 +23,24 @@ def report(
     grid_cells: GridCells,
     springs: Springs,
     more: Sequence[str] = (),
-    whole: moduli.Moduli | None = None,
+    cell_moduli: moduli.Moduli | None = None,
 ) -> Calibration:
     """Return the calibration with its moduli report, notes on moduli that it misses and the notes `more`.
 
     For unequal cells each modulus is reported for the cell with the largest miss, the stiffest among equal
-    misses. whole: the moduli of the springs, if computed before. Raises BadInput where area springs leave a
+    misses. cell_moduli: of the springs, if computed before. Raises BadInput where area springs leave a
     cell without positive energy.
     """
     (sides, section), sheet = grid_cells.present, grid_cells.target
-    whole = moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2]) if whole is None else whole
-    covered = np.broadcast_to(grid_cells.covered, whole.shear.shape[:2])
-    got = moduli.Moduli(*(part[covered] for part in vars(whole).values()))
-    rigidity, other = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
+    cell_moduli = (
+        moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2]) if cell_moduli is None else cell_moduli
+    )
+    covered = np.broadcast_to(grid_cells.covered, cell_moduli.shear.shape[:2])
+    got = moduli.Moduli(*(part[covered] for part in vars(cell_moduli).values()))
+    rigidity, rigidity_y = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
     square = np.abs(sides[:, 0] - sides[:, 1]) < EQUAL * sides[:, 0]
     oblique, mixed = bool(sheet.oblique.any()), bool(sheet.mixed.any())
-    square &= (np.abs(rigidity - other) < EQUAL * rigidity) & (not mixed)
+    square &= (np.abs(rigidity - rigidity_y) < EQUAL * rigidity) & (not mixed)
     named = not oblique and bool(np.all(square)), oblique, mixed
     names = sheet.named(*named)
     targets, results = (np.array([*of.values()]) for of in (names, got.named(*named)))

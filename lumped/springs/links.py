@@ -174,11 +174,11 @@ def add_tangent(
     and with M + share (D − M), to the 3×3 blocks on and below the diagonal. extrapolated: whether `stress`
     holds predicted ½ k e [N], which then also give D − M."""
     flat = blocks.reshape(-1, 9)
-    own = len(stress) == 0
+    stress_at_u = len(stress) == 0
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links, m)
         _, at_u, material, rest = elongation(change, square, length, links.constants[m])
-        s, curved = share * at_u if own else stress[m], share * rest
+        s, curved = share * at_u if stress_at_u else stress[m], share * rest
         if extrapolated:
             s /= np.sqrt(square)
             curved = -0.5 * s / square

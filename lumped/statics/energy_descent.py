@@ -67,7 +67,9 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
         start, end = (u, drive), (u + share * move, drive)
-        share *= min((one.near(end).share_of_way(one.near(start)) for one in problem.contacts), default=1.0)
+        share *= min(
+            (contact.near(end).share_of_way(contact.near(start)) for contact in problem.contacts), default=1.0
+        )
         before = problem.potential(u, load_factor)
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= before + 1e-4 * share * slope:

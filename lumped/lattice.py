@@ -258,7 +258,7 @@ def _links(grid: Grid) -> tuple[np.ndarray, ...]:
         inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
         first = np.flatnonzero(inside)
         nodes = np.stack([first, first + (dj * nx + di) * layers + dk], axis=1)
-        # along x and along y the cell that the link crosses, twice, or the two beside its line
+        # along x and along y the crossed cell twice, or the two cells next to the link's line
         column, row = i[first] + min(di, 0), j[first] + min(dj, 0)
         columns = np.stack(2 * [column - (di == 0), column])
         rows = np.repeat([row - (dj == 0), row], 2, axis=0)

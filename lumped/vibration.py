@@ -147,7 +147,7 @@ def modes(
                 "of a per-direction law have none"
             )
         at = stable_equilibrium(problem).u
-    rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # obstacles stop those of an equilibrium
+    rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # an equilibrium has none
     unknowns = problem.system.unknowns
     if not 1 <= count <= unknowns - rigid:
         raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")

@@ -38,7 +38,7 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
         factor = factor or path.factored(path.tangent(state, load_factor))
         if load_factor != path.load_factor and not factor.negative:
             return state
-        for share in DISTURBANCES:  # of a saddle, as a flat sheet that has buckled
+        for share in DISTURBANCES:  # a saddle is e.g. a flat sheet that has buckled
             u = _disturbed(problem, state, factor, share)
             minimum = _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
             if not problem.assembly.natural or not path.factored(path.tangent(minimum, load_factor)).negative:

@@ -27,7 +27,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.dynamics.system import System
 
-SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and with obstacles (`lumped.contact`)
+SAFETY, TOUCHING = 0.9, 0.8  # advised share of the limit, without and with obstacles (`lumped.contact`)
 STEPS, GROWN = 400, 100.0  # steps of a measured limit, and growth from which on motions are unbounded
 
 

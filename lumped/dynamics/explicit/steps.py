@@ -121,7 +121,7 @@ def march(
             power = taking
             if not _accelerate(0.0, arrays, load, force, a, v):
                 return False, n, taken, work
-        for i in range(len(driven)):  # by the trapezoidal rule, and what the masses gain by their rates
+        for i in range(len(driven)):  # by the trapezoidal rule, and the gain of kinetic energy
             p, last = driven[i], exerted[i]
             exerted[i] = _exerted(arrays, p, a, force, load)
             work += 0.5 * (last + exerted[i]) * (place[n + 1, i] - place[n, i])

@@ -165,23 +165,30 @@ class Lattice:
         return {"x0": columns[:, 0], "x1": columns[:, -1], "y0": columns[0], "y1": columns[-1]}[edge]
 
 
-# family, direction, step in the grid; of each pair of opposite steps one is listed.
-STEPS: tuple[tuple[str, str, tuple[int, int, int]], ...] = (
-    ("axial", "x", (1, 0, 0)),
-    ("axial", "y", (0, 1, 0)),
-    ("diagonal", "", (1, 1, 0)),
-    ("diagonal", "", (-1, 1, 0)),
-    ("vertical", "", (0, 0, 1)),
-    ("cross", "x", (1, 0, 1)),
-    ("cross", "x", (-1, 0, 1)),
-    ("cross", "y", (0, 1, 1)),
-    ("cross", "y", (0, -1, 1)),
-    ("cross_diagonal", "", (1, 1, 1)),
-    ("cross_diagonal", "", (-1, 1, 1)),
-    ("cross_diagonal", "", (1, -1, 1)),
-    ("cross_diagonal", "", (-1, -1, 1)),
+class Step(NamedTuple):
+    """A kind of link by the step from its first mass to its second, along x, along y and in layers."""
+
+    family: str
+    direction: str
+    step: tuple[int, int, int]
+
+
+STEPS = (  # one of each pair of opposite steps
+    Step("axial", "x", (1, 0, 0)),
+    Step("axial", "y", (0, 1, 0)),
+    Step("diagonal", "", (1, 1, 0)),
+    Step("diagonal", "", (-1, 1, 0)),
+    Step("vertical", "", (0, 0, 1)),
+    Step("cross", "x", (1, 0, 1)),
+    Step("cross", "x", (-1, 0, 1)),
+    Step("cross", "y", (0, 1, 1)),
+    Step("cross", "y", (0, -1, 1)),
+    Step("cross_diagonal", "", (1, 1, 1)),
+    Step("cross_diagonal", "", (-1, 1, 1)),
+    Step("cross_diagonal", "", (1, -1, 1)),
+    Step("cross_diagonal", "", (-1, -1, 1)),
 )
-DIRECTIONS = np.array([step for *_, step in STEPS])
+DIRECTIONS = np.array([kind.step for kind in STEPS])
 
 
 @cached(last=16, most=SHARED_UP_TO, size=lambda sheet, grid, *_, **__: math.prod(grid))

@@ -160,7 +160,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     -----
     Modal truncation with static correction: Craig and Kurdila, Fundamentals of Structural Dynamics (2006).
     """
-    scene = _at_last(scene_of(scene))
+    scene = _last_commands(scene_of(scene))
     require_static(scene, "a linear system about the flat sheet" if about == "flat" else "")
     require_no_branches(scene.material, "a linear system")
     calibration = calibration or default(scene)
@@ -176,7 +176,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     else:
         u = stable_equilibrium(problem).u
     system = System(scene, problem)
-    motions = _allowed(system, u)
+    motions = _allowed_motions(system, u)
     rest = np.zeros_like(u)
 
     def reduced(mass: float, damping: float, stiffness: float) -> tuple[sp.csr_array, sp.csc_array]:
@@ -204,7 +204,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     )
 
 
-def _allowed(system: System, u: np.ndarray) -> sp.csr_array:
+def _allowed_motions(system: System, u: np.ndarray) -> sp.csr_array:
     """Return T on the motions that the actuators' constraints allow, the null space of their gradient."""
     if not system.constrained or system.coupling is None:
         return system.moving_part
@@ -239,7 +239,7 @@ def _inputs(
     for number, row in enumerate(observation):
         probe = list(scene.probes)[number // 3]
         columns.append((f"{probe} f{'xyz'[number % 3]}", row, zero, zero))
-    for edge in _bent(scene):
+    for edge in _bent_edges(scene):
         force, g, _ = rates(calibration, problem, u, f"curvature_{edge}")
         columns.append((f"{edge} curvature", force.ravel(), -drag @ g.ravel(), g.ravel()))
     for name, support in named(scene.supports).items():
@@ -259,7 +259,7 @@ def _inputs(
     return tuple(names), force, rate, displacement
 
 
-def _at_last(scene: Scene) -> Scene:
+def _last_commands(scene: Scene) -> Scene:
     """Return the scene with the last values of its chains' commands."""
     at_last = [
         a.replace(curvature=a.curvature.value[-1])
@@ -279,7 +279,7 @@ def _loads(scene: Scene) -> list[tuple[str, Scene]]:
     return scenes
 
 
-def _bent(scene: Scene) -> list[str]:
+def _bent_edges(scene: Scene) -> list[str]:
     """Return the edges with one chain of one curvature, or bent by a support."""
     edges = [str(a.edge) for a in scene.actuators]
     chains = [str(a.edge) for a in scene.actuators if isinstance(a, Chain) and isinstance(a.curvature, float)]

@@ -51,7 +51,7 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
     """Return the springs of the flat sheet with the stiffness of a sheet with a natural strain, (rows,
     columns, 2, 2)."""
     natural = _natural(lattice, families)
-    grown = [one and replace(one.family, stiffness=one.grown(strain)) for one in natural]
+    grown = [None if one is None else replace(one.family, stiffness=one.grown(strain)) for one in natural]
     return [one or family for family, one in zip(families, grown, strict=True)]
 
 

@@ -172,12 +172,12 @@ def modes(
     loaded = about == "deformed"
     bare = scene if loaded else scene.replace(loads=(), gravity=None)
     elastic = values[rigid:], vectors[:, rigid:]
-    gradient = partial(_gradient, bare, calibration, at, loaded, shared, *elastic)
+    gradient = partial(_frequency_gradient, bare, calibration, at, loaded, shared, *elastic)
     gradient_of = None if problem.prestrained and not loaded else gradient
     return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice, gradient_of)
 
 
-def _gradient(
+def _frequency_gradient(
     scene: Scene,
     calibration: Calibration,
     u: np.ndarray,

@@ -148,7 +148,7 @@ def closed_form(
         needed = normal / (_normal(membrane) - membrane[:, 0, 1, None])
         needed = np.maximum(needed.max(axis=1), lattice[:, 2, 2] / membrane[:, 2, 2])
         if fibres.any():
-            needed[fibres] = _largest(lattice[fibres], membrane[fibres])
+            needed[fibres] = _largest_eigenvalue(lattice[fibres], membrane[fibres])
         if gradients:
             on_sides = layers * axial + (layers - 1) * along
             needed = np.maximum(needed, (on_sides / _on_sides(membrane)).max(axis=1))
@@ -234,7 +234,7 @@ def _normal(form: np.ndarray) -> np.ndarray:
     return np.diagonal(form, axis1=1, axis2=2)[:, :2]
 
 
-def _largest(form: np.ndarray, by: np.ndarray) -> np.ndarray:
+def _largest_eigenvalue(form: np.ndarray, by: np.ndarray) -> np.ndarray:
     """Return the largest eigenvalue of forms relative to others, (m,)."""
     inverse = np.linalg.inv(np.linalg.cholesky(by))
     return np.asarray(np.linalg.eigvalsh(inverse @ form @ np.swapaxes(inverse, 1, 2))[:, -1])

@@ -57,7 +57,7 @@ def report(
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
     areas = springs["area"], springs["mid_area"]
-    constants = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
+    constants = "area = {}, mid_area = {} N/m".format(*map(_range_text, areas))
     negative = min(map(np.min, areas)) < 0.0
     coupled = springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}
     forms = (got.membrane, got.free_bending) if negative or coupled or mixed else ()
@@ -84,7 +84,7 @@ def _reference(name: str) -> str:
     return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name.replace("Sxy", "Sx")
 
 
-def _shown(values: np.ndarray) -> str:
+def _range_text(values: np.ndarray) -> str:
     """Return a number, or the least and the largest number of the cells, as text."""
     least, most = values.min(), values.max()
     return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"

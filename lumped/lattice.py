@@ -165,7 +165,7 @@ class Lattice:
         return {"x0": columns[:, 0], "x1": columns[:, -1], "y0": columns[0], "y1": columns[-1]}[edge]
 
 
-class Step(NamedTuple):
+class LinkKind(NamedTuple):
     """A kind of link by the step from its first mass to its second, along x, along y and in layers."""
 
     family: str
@@ -174,19 +174,19 @@ class Step(NamedTuple):
 
 
 STEPS = (  # one of each pair of opposite steps
-    Step("axial", "x", (1, 0, 0)),
-    Step("axial", "y", (0, 1, 0)),
-    Step("diagonal", "", (1, 1, 0)),
-    Step("diagonal", "", (-1, 1, 0)),
-    Step("vertical", "", (0, 0, 1)),
-    Step("cross", "x", (1, 0, 1)),
-    Step("cross", "x", (-1, 0, 1)),
-    Step("cross", "y", (0, 1, 1)),
-    Step("cross", "y", (0, -1, 1)),
-    Step("cross_diagonal", "", (1, 1, 1)),
-    Step("cross_diagonal", "", (-1, 1, 1)),
-    Step("cross_diagonal", "", (1, -1, 1)),
-    Step("cross_diagonal", "", (-1, -1, 1)),
+    LinkKind("axial", "x", (1, 0, 0)),
+    LinkKind("axial", "y", (0, 1, 0)),
+    LinkKind("diagonal", "", (1, 1, 0)),
+    LinkKind("diagonal", "", (-1, 1, 0)),
+    LinkKind("vertical", "", (0, 0, 1)),
+    LinkKind("cross", "x", (1, 0, 1)),
+    LinkKind("cross", "x", (-1, 0, 1)),
+    LinkKind("cross", "y", (0, 1, 1)),
+    LinkKind("cross", "y", (0, -1, 1)),
+    LinkKind("cross_diagonal", "", (1, 1, 1)),
+    LinkKind("cross_diagonal", "", (-1, 1, 1)),
+    LinkKind("cross_diagonal", "", (1, -1, 1)),
+    LinkKind("cross_diagonal", "", (-1, -1, 1)),
 )
 DIRECTIONS = np.array([kind.step for kind in STEPS])
 

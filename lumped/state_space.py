@@ -34,13 +34,13 @@ class StateSpace:
     Parameters
     ----------
     a : ndarray of shape (s, s)
-        A [1/s].
+        Matrix A [1/s].
     b : ndarray of shape (s, inputs)
-        B, in units of the states per second and of the inputs.
+        Matrix B, in units of the states per second and of the inputs.
     c : ndarray of shape (outputs, s)
-        C, in units of the outputs and of the states.
+        Matrix C, in units of the outputs and of the states.
     d : ndarray of shape (outputs, inputs)
-        D, in units of the outputs and of the inputs.
+        Matrix D, in units of the outputs and of the inputs.
     frequencies : ndarray of shape (k,)
         Frequencies [Hz], undamped ones of modes, |poles|/2π of a reduced system.
     """

@@ -99,9 +99,9 @@ def energies(
 
 @njit
 def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.ndarray, int]:
-    """Return the largest relative change of length of the links in a layer, of those with the largest and
-    least δg/g₀, at each of the displacements (k, n, 3) [m] before the first with a link no longer than the
-    `shortest` share of its length at rest; and the shortest link then, −1 if none is."""
+    """Return the largest relative change of length of the links in a layer, by the extremes of δg/g₀, at each
+    of the displacements (k, n, 3) [m] before the first with a collapsed link, no longer than the `shortest`
+    share of its length at rest; and the number of the collapsed link, −1 without one."""
     out = empty(len(states))
     for k in range(len(states)):
         least, most, collapsed, which = 0.0, 0.0, shortest * shortest, -1

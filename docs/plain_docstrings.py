@@ -13,11 +13,13 @@ def as_restructured(lines: list[str]) -> list[str]:
     rules = [n for n, line in enumerate(lines) if re.fullmatch("-{3,}", line) and n and lines[n - 1]]
     starts = [n - 1 for n in rules]
     out = _prose(lines[: starts[0]] if starts else lines)
-    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
-        body = lines[start + 2 : end]
-        listed = any(line.startswith(" ") for line in body)
-        defined = [line if not line.strip() else f"{_indent(line)}{_escaped(line.strip())}" for line in body]
-        out += ["", f"**{lines[start]}**", "", *(defined if listed else _prose(body)), ""]
+    for start, end in zip(starts, [*starts[1:], len(lines)], strict=False):
+        heading, body = lines[start], lines[start + 2 : end]
+        if heading in ("Notes", "References"):
+            body = _prose(body)
+        elif heading != "Examples":
+            body = [f"{_indent(line)}{_escaped(line.strip())}" for line in body]
+        out += ["", f"**{heading}**", "", *body, ""]
     return out
 
 

@@ -66,9 +66,7 @@ def _linear_step(path: Path[State, Forces], target: float, factor: Factor | None
             correction = structure.correct(*at, path.count)
         if correction is None:
             matrix, rows = structure.linearised(*at)
-            if (
-                structure.prestrained
-            ):  # its tangent would have the stresses of the target without displacement
+            if structure.prestrained:  # else stresses of the target without its displacement
                 matrix = path.tangent(path.state, path.load_factor)
             if factor is None or not structure.symmetric:
                 factor = path.factored(matrix)

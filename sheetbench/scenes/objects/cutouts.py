@@ -48,7 +48,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
         subject = "cutout: they leave" if cutouts else drawn
         parts = f"{count} parts that are connected at points at most" if count else "no part"
         raise ValueError(f"{subject} {parts}; a sheet is one piece")
-    if plan.geom_type != "Polygon":  # slivers beside it
+    if plan.geom_type != "Polygon":  # with slivers
         plan = max(plan.geoms, key=lambda part: part.area)
     return plan
 

@@ -113,6 +113,13 @@ class History(Answer):
         """Return the energies, with the integrator's own dissipation; empty if there are none."""
         return {**self.energies, "numerical": self.numerical} if self.energies else {}
 
+    def gradient(self, *_: Any, **__: Any) -> None:
+        """Refuse adjoint derivatives, which motions do not have, by name: BadInput."""
+        raise BadInput(
+            "gradient: a motion has no derivatives by an adjoint in time; lumped.simulate(..., sensitivities="
+            "['young']) has those by up to 20 parameters"
+        )
+
     def heading(self) -> tuple[str, str, str]:
         return f"History of {self.label}, {self.integrator}", f"{self.status}", f"{self.steps} steps"
 

@@ -73,7 +73,7 @@ def test_the_error_over_the_sheet_stands_beside_that_at_the_probes():
         at = [column.name for column in costs.columns].index("field error")
         assert [row[at] for row in costs.rows] == [pytest.approx(0.03), None]
         assert both.figures()[0].description.endswith(f"{100 * at_probe:.2f} %, over the sheet 3.00 %")
-        assert any("over the sheet more than 1.5 times" in note for note in both.notes()) == (not at_probe)
+        assert any("over the sheet is more than 1.5 times" in note for note in both.notes()) == (not at_probe)
 
 
 def test_a_sentence_says_how_far_the_lattice_is_from_the_sheet_as_described(tmp_path):

@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 
 import fem_reference
 import lumped
-from comparisons.comparison.comparison import error
+from comparisons.sweep.differences import error
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import DiscreteShell

@@ -18,6 +18,7 @@ def as_restructured(lines: list[str]) -> list[str]:
     sections = [lines[i:j] for i, j in zip(heads, [*heads[1:], len(lines)], strict=False)]
     escaped = ["", *(line for section in sections for line in _section(section))]
     fields = NumpyDocstring(escaped, Config(napoleon_use_rtype=False)).lines() if sections else []
+    fields = [re.sub(r"^(:(?:param|type) \w+)_:", r"\1\_:", line) for line in fields]  # no reference
     return _text(lines[: min(heads, default=len(lines))]) + fields
 
 

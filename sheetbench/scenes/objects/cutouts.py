@@ -37,7 +37,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
             raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
         plan = sheet.mesh.area
     neck = NECK * min(sheet.lengths)
-    if (number := _idle(plan, cutouts)) is not None:
+    if (number := _first_idle(plan, cutouts)) is not None:
         words = f"cutout {number + 1}.shape: {cutouts[number].shape.in_words()}"
         raise ValueError(f"{words}: no part of it is on what is left of the sheet")
     if cutouts:
@@ -53,7 +53,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
     return plan
 
 
-def _idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
+def _first_idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
     """Return the number, from 0, of the first cutout that lies outside the plan or in earlier cutouts."""
     import shapely
 

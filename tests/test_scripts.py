@@ -190,6 +190,7 @@ def test_a_notebook_runs_and_prints_what_it_keeps(path):
 
 
 MODULES = [
+    "comparisons.sweep.differences",
     "fem_reference",
     "fem_reference.linear_buckling",
     "fem_reference.vibration",
@@ -200,6 +201,7 @@ MODULES = [
     "lumped.statics.buckling",
     "lumped.statics.solver",
     "lumped.vibration",
+    "sheetbench.face",
     "sheetbench.numerics.eigenmodes",
     "sheetbench.numerics.cache",
     "sheetbench.numerics.stability",

@@ -40,15 +40,15 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){tapers}, {1e3 * mass:.3g} g",
     )
     rubber = f" at small strains, rubber by the law {material.law}" if material.law else ""
-    rubber += f" ({constants})" if (constants := _own(material.given(CONSTANTS))) else ""
+    rubber += f" ({constants})" if (constants := _constants(material.given(CONSTANTS))) else ""
     dampers = f", dampers of {1e3 * time:.4g} ms · k" if (time := material.dashpot_time) else ""
     drag = f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""
-    elasticity = f"{_elasticity(material)}, {_own({'density': material.density})}"
+    elasticity = f"{_elasticity(material)}, {_constants({'density': material.density})}"
     yield "material", f"{elasticity}{rubber}{_relaxation(material)}{dampers}{drag}"
     for n, layer in enumerate(scene.layers, start=1):
-        yield f"layer {n}", _own({"thickness": layer.thickness, **layer.own})
+        yield f"layer {n}", _constants({"thickness": layer.thickness, **layer.own})
     for n, patch in enumerate(scene.patches, start=1):
-        yield f"patch {n}", f"{patch.shape.in_words()}: {_own(patch.own) or 'not flat at rest'}"
+        yield f"patch {n}", f"{patch.shape.in_words()}: {_constants(patch.own) or 'not flat at rest'}"
     for n, cutout in enumerate(scene.cutouts, start=1):
         yield f"cutout {n}", cutout.shape.in_words()
     for n, payload in enumerate(scene.masses, start=1):
@@ -122,7 +122,7 @@ SYMBOLS = {
 }  # fmt: skip
 
 
-def _own(constants: Mapping[str, Any]) -> str:
+def _constants(constants: Mapping[str, Any]) -> str:
     """Return constants, by their keys, in words with commas between."""
     return ", ".join(_constant(key, value) for key, value in constants.items())
 
@@ -139,8 +139,8 @@ def _constant(key: str, value: Any) -> str:
 def _elasticity(material: Material) -> str:
     """Return E and ν, or the constants of fibres."""
     if material.kind == "isotropic":
-        return _own(material.given(("young", "poisson")))
-    constants = _own(material.given(("young_1", "young_2", "shear_12", "poisson_12")))
+        return _constants(material.given(("young", "poisson")))
+    constants = _constants(material.given(("young_1", "young_2", "shear_12", "poisson_12")))
     return f"fibres at {degrees(material.ply.angle):.4g}° from x, {constants}"
 
 
@@ -157,7 +157,7 @@ def sheet_in_words(sheet: Sheet, material: Material) -> str:
     """Return the sheet and its material in a line."""
     sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
     at_rest = " at rest" if material.branches.times else ""
-    return f"{sides} mm, {_elasticity(material)}{at_rest}, {_own({'density': material.density})}"
+    return f"{sides} mm, {_elasticity(material)}{at_rest}, {_constants({'density': material.density})}"
 
 
 def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:

@@ -35,15 +35,17 @@ def from_file(data: Mapping[str, Any]) -> dict[str, Any]:
     rest = {name: value for name, value in data.items() if name not in (key, "mesh_scale", "mesh_shift")}
     sides = numbers(data, {"length_x": "m", "length_y": "m"})
     scale, shift = (converted(data.get(name), "m") for name in ("mesh_scale", "mesh_shift"))
-    if not sides or not _sound(scale, shift):
+    if not sides or not _is_valid(scale, shift):
         return {**data, key: None}  # the keys' own checks report their faults
     try:
         path = Path(data[key])
         points, parts = read_file(path, FORMATS if key == "mesh" else DRAWINGS)
         unit = float(parts.pop("unit", np.ones(1))[0]) if scale is None else float(str(scale))
-        plan, turned = _in_plane(points, np.concatenate([np.ravel(part) for part in parts.values()]), key)
+        plan, turned = _project_to_plane(
+            points, np.concatenate([np.ravel(part) for part in parts.values()]), key
+        )
         shift = ("corner" if key == "outline" else (0.0, 0.0)) if shift is None else shift
-        places, moved = _placed(unit * plan, shift, np.array([*sides.values()]))
+        places, moved = _shift(unit * plan, shift, np.array([*sides.values()]))
         changes = [turned, f"1 unit of it is {1e3 * unit:.5g} mm" * (unit != 1.0), moved]
         note = ", ".join(filter(None, [path.name, *changes]))
         if key == "mesh":
@@ -55,7 +57,7 @@ def from_file(data: Mapping[str, Any]) -> dict[str, Any]:
         raise ValueError(f"{key}: {data[key]}: {error}") from None
 
 
-def _sound(scale: Any, shift: Any) -> bool:
+def _is_valid(scale: Any, shift: Any) -> bool:
     def number(value: Any) -> bool:
         return isinstance(value, float | int) and isfinite(value)
 
@@ -64,7 +66,7 @@ def _sound(scale: Any, shift: Any) -> bool:
     return placed and (scale is None or (number(scale) and scale > 0.0))
 
 
-def _in_plane(points: np.ndarray, used: np.ndarray, key: str) -> tuple[np.ndarray, str]:
+def _project_to_plane(points: np.ndarray, used: np.ndarray, key: str) -> tuple[np.ndarray, str]:
     """Return plan points (n, 2) of points (n, 2 or 3), and a clause on their turning, "" without one."""
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise ValueError("a point has two or three coordinates")
@@ -83,7 +85,7 @@ def _in_plane(points: np.ndarray, used: np.ndarray, key: str) -> tuple[np.ndarra
     return points[:, [first, second]] * [1.0, sign], f"turned from its {plane} plane" * (normal != 2)
 
 
-def _placed(plan: np.ndarray, shift: Any, sides: np.ndarray) -> tuple[np.ndarray, str]:
+def _shift(plan: np.ndarray, shift: Any, sides: np.ndarray) -> tuple[np.ndarray, str]:
     """Return plan points [m] shifted, and scaled onto the rectangle if nearly on it, and a clause on that."""
     low = plan.min(axis=0, initial=np.inf)
     by = -low if shift == "corner" else 0.5 * sides if shift == "centre" else np.array(shift)

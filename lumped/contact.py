@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.cell_surface import CellSurface, shapes
+from lumped.cell_surface import LINEAR, CellSurface, shapes
 from lumped.items import LatticeItem, Placed, Since
 from lumped.masses import over_tributary
 from lumped.patch import integrate
@@ -203,8 +203,8 @@ class Contact(LatticeItem):
             by -= np.einsum("mab,ij->maibj", both, projector(self.obstacle)).reshape(by.shape)
         if self.bent:
             sides, linear = sides[:, on], self.surface.linear
-            first = self.surface.slopes(sides).reshape(-1, 36, 48)
-            by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, 16, 3, 16, 3)
+            first = self.surface.slopes(sides).reshape(-1, 36, 3 * LINEAR)
+            by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, LINEAR, 3, LINEAR, 3)
             if not definite:
                 pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], found.slope[on])
                 by -= self.surface.second(sides, pull)

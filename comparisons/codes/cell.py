@@ -55,8 +55,7 @@ class Cell:
 
     periods (2, 2) [m]; nodes (n, 3) [m], z from the mid-surface; triangles of three places each; hinge: the
     weight of the hinges between triangles, "" for none; springs: two places and the name of a coefficient;
-    bricks of eight places each.
-    Raises BadInput for what is no cell.
+    bricks of eight places each. Raises BadInput for an invalid cell.
     """
 
     name: str
@@ -128,7 +127,7 @@ class Cell:
 
 
 def from_toml(path: Path) -> Cell:
-    """A cell of a file, with lengths in metres. Raises BadInput with the file and what is wrong."""
+    """A cell of a file, with lengths in metres. Raises BadInput with the file and the fault."""
     try:
         data: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
         if unknown := set(data) - KEYS:
@@ -217,8 +216,8 @@ def cell_of(
     """The cell of a mesh's name, with its nodes `spacing` [m] apart, or of a file that ends in .toml.
 
     thickness [m]: of bricks, of which one is in the thickness; hinge: the energy of the others' hinges, of
-    `comparisons.codes.cell.HINGES`, "length" unless given. Raises BadInput for another name, for what is
-    missing, and for what has no effect on this cell.
+    `comparisons.codes.cell.HINGES`, "length" unless given. Raises BadInput for another name, for an option
+    that is missing, and for one that has no effect on this cell.
     """
     if cell.endswith(".toml"):
         require_effect(f"on {cell}, which has its own", {"spacing": spacing, "hinge": hinge})
@@ -264,7 +263,7 @@ def _equilateral() -> _Parts:
 
 
 def _unstructured() -> _Parts:
-    """Delaunay triangles of points of a grid that are moved at random, the same ones on every machine."""
+    """Delaunay triangles of points of a grid that are moved at random, alike on every machine."""
     grid = np.array([[i, j] for i in range(SIDE) for j in range(SIDE)], dtype=float)
     points = (grid + JITTER * np.random.default_rng(SEED).uniform(-1.0, 1.0, grid.shape)) % SIDE
     tiles = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]

@@ -1,15 +1,15 @@
-"""Steps and damping for whoever moves a lattice in a loop of his own, each mass by itself.
+"""Steps and damping for a user's own loop over the masses of a lattice.
 
-With a(x, v) the acceleration, dampers included, at a place and a velocity:
+The acceleration at a place and a velocity, dampers included, is a(x, v):
 
     symplectic Euler   v ← v + h a(x, v),  x ← x + h v
     velocity Verlet    w = v + h/2 a(x, v),  x ← x + h w,  v ← w + h/2 a(x, w)
 
 A motion of frequency ω and damping c is multiplied in a step by a matrix of two rows, and stays as long as
-|trace| ≤ 1 + det and det ≤ 1 (Jury). That is asked of every ω up to the lattice's highest, ω_max, with its
+|trace| ≤ 1 + det and det ≤ 1 (Jury). These hold for every ω up to the lattice's highest, ω_max, with its
 damping: c = α + β ω² where dampers are in proportion to masses and stiffness, else every c up to the largest.
-Undamped both limits are 2/ω_max; large rotations and tension raise ω_max, so less is advised. ω_max is that
-of the flat sheet or of its equilibrium, whichever is higher.
+Undamped both limits are 2/ω_max; large rotations and tension raise ω_max, so less is advised. ω_max is the
+higher one of the flat sheet and of its equilibrium.
 """
 
 from __future__ import annotations
@@ -83,7 +83,8 @@ def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) ->
 
 def limit_of(loop: str, frequency: float, resistance: float = 0.0, rate: float | None = 0.0) -> float:
     """Return the largest stable step [s] of a loop for frequencies up to one [rad/s]; resistance: damping at
-    the highest [1/s], of which `rate` in proportion to masses; None: damping that may go with any of them."""
+    the highest [1/s], of which `rate` in proportion to masses, or None for damping that may go with any of
+    them."""
     shares = np.linspace(0.0, 1.0, MODES + 1)[1:]
     omega, damping = frequency * shares, np.zeros(MODES)
     if rate is not None:

@@ -1,8 +1,8 @@
 """The highest frequency of a lattice, and the largest stable step of explicit integration.
 
-ω_max² is the largest eigenvalue of M⁻¹K on the free motions, by Lanczos; c_max that of M⁻¹C, and
-ξ = c_max/2ω_max. A motion of frequency ω and damping c = 2 ξ ω is multiplied in a step of velocity Verlet,
-which looks at the dampers twice, by the matrix of
+ω_max² is the largest eigenvalue of M⁻¹K on the free motions, by Lanczos; c_max the one of M⁻¹C, and ξ =
+c_max/2ω_max. A motion of frequency ω and damping c = 2 ξ ω is multiplied in a step of velocity Verlet, which
+computes the dampers twice, by the matrix of
 
     det = 1 − z + z²/2 − xz/4,   trace = 2 − x − z + z²/2 + xz/4,   x = (ω h)²,  z = c h.
 
@@ -11,10 +11,10 @@ Both its eigenvalues stay within the unit circle as long as |trace| ≤ 1 + det 
     z ≤ 2  and  x ≤ 4 − 2z + z²:   h ≤ (2/ω_max)/(ξ + √(1 − 3ξ²)) for ξ < 1/2,  (1/ω_max)/ξ beyond.
 
 Undamped that is 2/ω_max, and it is never below (2/ω_max)(√(1 + ξ²) − ξ), the limit of central differences
-with the velocity half a step old (Belytschko, Liu and Moran 2000, section 6.2). Where damping is proportional
-to stiffness and mass the slower motions lie within the limit when the fastest does, and the limit is exact.
-Elsewhere every x up to (ω_max h)² may come with every z up to c_max h: then the smallest x of the boundary
-counts, which is 3 from z = 1 on.
+with the velocity half a step old (Belytschko, Liu and Moran 2000, section 6.2). The limit is exact for
+damping in proportion to stiffness and mass: the slower motions lie within it if the fastest does. Elsewhere
+every x up to (ω_max h)² may come with every z up to c_max h: then the smallest x of the boundary counts,
+which is 3 from z = 1 on.
 """
 
 from __future__ import annotations

@@ -262,7 +262,7 @@ void sheet_step(sheet *s, int count) {
     }
     s->time += h;
     move(s, h), follow(s), forces(s), accelerate(s, h / 2);
-    if (!(DAMPED || RATED || DRAGGED || POINTS)) continue;
+    if (DAMPED + RATED + DRAGGED + POINTS == 0) continue;
     resist(s, s->w, -1), resist(s, s->v, 1);
     MASSES(i) EACH(e) s->w[i][e] = s->v[i][e] - s->w[i][e];
     if (DAMPED) springs(s, s->w, 0);

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 FRAMES = 100  # of a motion
 
 
-@no_effect(with_duration="branch", without_duration="every animate")
+@no_effect(with_duration="branch sensitivity", without_duration="every animate")
 def command(
     scene: str,
     lattice: LatticeOptions,
@@ -29,6 +29,7 @@ def command(
     model: Models = None,
     uncertainty: bool | None = None,
     branch: str | None = None,
+    sensitivity: list[str] | None = None,
     duration: Seconds = None,
     every: Seconds = None,
     animate: bool = False,
@@ -49,6 +50,8 @@ def command(
             shells.
         branch (NAME): {BRANCHES}: buckled leaves an unstable equilibrium along its buckling mode. Default:
             path.
+        sensitivity (NAMES): Parameters of the scene (young, thickness, load1.force.z): a column each of how
+            far 1 % more of it moves every probe.
         duration (S): Compare the motion over this time, from rest.
         every (S): With --duration: time between samples. Default: 1/100 of the lowest period.
         animate: With --duration and --out: draw both sheets moving, side by side.
@@ -91,4 +94,4 @@ def command(
 
         with running(solved=keep):
             comparison = compare(loaded, spec, uncertainty=uncertainty, **shared)
-        return out.show(comparison)
+        return out.show(replace(comparison, sensitive_to=tuple(sensitivity or ())))

@@ -9,7 +9,9 @@ from math import hypot
 from pathlib import Path
 from typing import Any
 
-from comparisons.comparison.errors import Compared
+import numpy as np
+
+from comparisons.comparison.errors import ROUND_OFF, Compared
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.pictures.array_files import write_mesh
@@ -30,6 +32,7 @@ from sheetbench.answers.table import (
 )
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.parameters import parameter
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
 
@@ -63,8 +66,10 @@ def settling(scene: Scene) -> str:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Compared, Answer):
-    """Document, tables, pictures, files and notes of solutions that are compared."""
+    """Document, tables, pictures, files and notes of solutions that are compared; sensitive_to: names of
+    parameters by which the probes' derivatives are shown."""
 
+    sensitive_to: tuple[str, ...] = ()
     file_name, page_name, notes_shown = "comparison", "table", 1
 
     @property
@@ -79,6 +84,7 @@ class Comparison(Compared, Answer):
             "apart": self.disagreement,
             "sentence": self.sentence,
             "differences": [asdict(difference) for difference in self.differences],
+            **({"sensitivities": self.sensitivities} if self.sensitive_to else {}),
             "errors": [
                 {
                     "of": solution.model,
@@ -147,17 +153,43 @@ class Comparison(Compared, Answer):
         moved |= {name for solution in self.solutions for name in solution.contacts}
         return self._displacements(), self._costs(sorted(moved))
 
+    @cached_property
+    def sensitivities(self) -> dict[str, dict[str, dict[str, float | None]]]:
+        """By model, parameter and probe the share by which 1 % of the parameter moves the probe further out
+        (d|u|/dθ · θ/100|u|), of models that have derivatives. Raises BadInput for unknown parameters."""
+        found: dict[str, dict[str, dict[str, float | None]]] = {}
+        named = {name: parameter(self.scene, name) for name in self.sensitive_to}
+        for solution in self.solutions:
+            if solution.sensitivity is None or solution.status is not Status.CONVERGED:
+                continue
+            of, points = solution.sensitivity(), self.scene.probe_points()
+            u = solution.displacement(points)
+            size = np.sum(u**2, axis=1)
+            still = size <= (ROUND_OFF * np.abs(u).max()) ** 2
+            found[solution.model] = {}
+            for name, one in named.items():
+                share = 0.01 * one.value * np.sum(u * of.moved_at(points, name), axis=1)
+                shares = zip(self.scene.probes, share / np.where(still, 1.0, size), still, strict=True)
+                found[solution.model][name] = {n: None if held else float(by) for n, by, held in shares}
+        return found
+
     def _displacements(self) -> Table:
         off = {(d.probe, d.of): d.relative for d in self.differences}
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
         models = [(s.model, self.probes(s)) for s in ordered]
         bars = {(probe, self.reference.model): bar for probe, bar in self.relative_bars.items()}
+        columns = tuple(PERCENT("z.2f", f"by 1 % of {name}") for name in self.sensitive_to)
+        of = {model: self.sensitivities.get(model, {}) for model, _ in models} if columns else {}
         rows = (
-            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get((probe, model)))
+            (
+                *(probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get((probe, model))),
+                *(of[model].get(name, {}).get(probe) for name in self.sensitive_to),
+            )
             for probe, (x, y) in self.scene.probes.items()
             for model, moved in models
         )
-        return Table.listed("Displacement of the mid-surface", MOVED, rows, "table", grouped=True)
+        shown = (*MOVED, *columns)
+        return Table.listed("Displacement of the mid-surface", shown, rows, "table", grouped=True)
 
     def _costs(self, exerting: Sequence[str] = ()) -> Table:
         """Return cost and error of each model; exerting: names of what it gives the size of the force of."""

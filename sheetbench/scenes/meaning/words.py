@@ -53,7 +53,8 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         yield f"cutout {n}", cutout.shape.in_words()
     for n, payload in enumerate(scene.masses, start=1):
         yield f"mass {n}", _payload(payload, sheet)
-    yield from natural_in_words(scene)
+    for name, natural in natural_in_words(scene):
+        yield f"{name}, natural" if name.startswith("patch") else name, natural
     yield "weight", _weight(scene, mass + carried(scene))
     if scene.air is not None:
         share = 100.0 * scene.air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
@@ -98,8 +99,9 @@ def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
     turned = f" {'facing' if plane else 'along'} ({', '.join(f'{part:.3g}' for part in along)})" * bool(along)
     more = ", moving" if obstacle.motion is not None else ""
     more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
-    at = ", ".join(map(_mm, obstacle.position))
-    return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {1e3 * gap:.4g} mm from the flat sheet"
+    at = ", ".join(map(_mm, obstacle.position)).replace("-", "−")
+    near = 1e3 * gap if abs(gap) > NONE else 0.0
+    return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {near:.4g} mm from the flat sheet"
 
 
 def _outline(scene: SceneFields) -> str:
@@ -184,14 +186,16 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
 
 
 def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
-    """Return the least and the largest normal stress [Pa] in the faces of the layers of the flat sheet."""
-    sums = []
+    """Return the least and the largest normal stress [Pa] along x and y in the faces of the layers of the
+    flat sheet, at the largest factor of a history."""
+    history, sums = source.of.history, []
+    factor = max(history.factor, key=abs) if history else 1.0
     for number, ply in enumerate(plies_of(scene)):
         for z in scene.sheet.thickness * np.array([ply.low, ply.high]):
             own = (source.strain - z * source.curvature) / TENSOR
             if isinstance(source.of, Temperature):
                 own = expansion_of(scene, number) * (source.of.change + z * source.of.gradient)
-            sums.append(-source.of.last_factor * (plane_stress(ply) @ own)[:2])
+            sums.append(-factor * (plane_stress(ply) @ own)[:2])
     return float(np.min(sums)) + 0.0, float(np.max(sums)) + 0.0
 
 

@@ -2,7 +2,9 @@
 
 [sheet] mesh = "cloth.obj", mesh_scale = "1 mm", mesh_shift = "corner"
 [sheet] outline = "fin.dxf"
+[sheet] outline = "disc"
 
+A disc is a polygon of CORNERS sides in the rectangle of length_x and length_y, an ellipse where these differ.
 A flat mesh lies in a plane x = c, y = c or z = c, which is turned to z = 0: (y, z), (x, −z) or (x, y) become
 (x, y), so that a mesh whose upward axis is y, as in Blender and SOFA, is seen from above. `mesh_scale` is the
 length of the file's unit, 1 m unless given, for a drawing the unit in the file. `mesh_shift` is added to
@@ -22,6 +24,7 @@ import numpy as np
 from sheetbench.scenes.language.units import converted, numbers
 from sheetbench.scenes.objects.plan_mesh import FORMATS, mesh_of, read_file
 
+DISC, CORNERS = "disc", 256
 DRAWINGS = {".dxf": "dxf", ".svg": "svg"}
 FLAT = 1e-6  # of the size: how thick a flat mesh may be
 SIX_DIGITS = 1e-5  # of the size: largest error of the sides of the bounding rectangle
@@ -37,6 +40,11 @@ def from_file(data: Mapping[str, Any]) -> dict[str, Any]:
     scale, shift = (converted(data.get(name), "m") for name in ("mesh_scale", "mesh_shift"))
     if not sides or not _is_valid(scale, shift):
         return {**data, key: None}  # the keys' own checks report their faults
+    if key == "outline" and Path(data[key]).name == DISC:  # relative to the scene's folder
+        turn = 2.0 * np.pi * np.arange(CORNERS) / CORNERS
+        corners = 0.5 * np.array([*sides.values()]) * (1.0 + np.column_stack([np.cos(turn), np.sin(turn)]))
+        label = "a disc" if len(set(sides.values())) == 1 else "an ellipse"
+        return {**data, key: [tuple(at) for at in corners.tolist()], "drawn_from": label, "holes": []}
     try:
         path = Path(data[key])
         points, parts = read_file(path, FORMATS if key == "mesh" else DRAWINGS)

@@ -101,6 +101,9 @@ WORDS: Mapping[str, LawKeys] = {
 }
 STRESSES = ("c1", "c2", "c3", "shear")
 CONSTANTS = (*STRESSES, "limit")
+UNDAMPED: Mapping[str, Any] = {
+    "damping_time": 0.0, "loss_factor": None, "frequency": None, "band": None, "relaxation": (),
+}  # fmt: skip
 LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 

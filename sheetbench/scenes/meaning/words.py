@@ -100,7 +100,7 @@ def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
     more = ", moving" if obstacle.motion is not None else ""
     more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
     at = ", ".join(map(_mm, obstacle.position)).replace("-", "−")
-    near = 1e3 * gap if abs(gap) > NONE else 0.0
+    near = 1e3 * gap if abs(gap) > ROUNDING else 0.0
     return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {near:.4g} mm from the flat sheet"
 
 

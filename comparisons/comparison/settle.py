@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.calibration.damping import UNDAMPED
 from comparisons.comparison.branches import shape
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import simulate
@@ -27,6 +26,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import mass_of
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.region import resultant
+from sheetbench.scenes.objects.material import UNDAMPED
 
 CREEPING, LONG, SAMPLES = 10.0, 1000.0, 100
 

@@ -48,7 +48,7 @@ class Check(Answer):
 
     @cached_property
     def free(self) -> list[str]:
-        """Rigid motions that nothing stops."""
+        """Rigid motions that supports and obstacles leave free."""
         return unstopped_motions(self.scene)
 
     @property

@@ -162,7 +162,7 @@ def _error(displacement: np.ndarray, truth: np.ndarray) -> float:
 
 def write_table() -> Path:
     """Train the calibration `central`, and write the rows of its table; return the table's path."""
-    rows = (f"    Row({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
+    rows = (f"    CentralFactors({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
     table = Path(lumped.__file__).parent / "calibration" / "central_table.py"
     head = table.read_text(encoding="utf-8").partition("ROWS = (\n")
     write_text(table, "".join([*head[:2], *rows, ")\n"]))

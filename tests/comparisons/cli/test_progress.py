@@ -137,7 +137,7 @@ def test_quiet_leaves_results_and_warnings(monkeypatch, quiet, capsys):
     as_verb("any", command)(quiet=quiet, verbose=False, no_pictures=False)
     printed = capsys.readouterr()
     assert printed.out == "the result\n"
-    progress = [] if quiet else ["1/2 a run: converged", "kernels are compiled first"]
+    progress = [] if quiet else ["1/2 done; a run: converged", "kernels are compiled first"]
     assert printed.err.splitlines() == [*progress, "a warning"]
 
 

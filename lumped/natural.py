@@ -32,7 +32,7 @@ from sheetbench.scenes.meaning.natural_state import NaturalState
 XX_YY_XY = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
 COMPONENTS = (0, 0), (1, 1), (0, 1), (1, 0)
 # powers of a cell's area and of its sides' squares in the constants of `laws.of_stiffness`
-OF_SIZE = np.array(
+SIZE_POWERS = np.array(
     [[-1, 0, 0], [1, -2, 0], [1, 0, -2], [1, -1, -1], [1, -1, -1], [1, -1.5, -0.5], [1, -0.5, -1.5]]
 )
 
@@ -59,13 +59,13 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
 def rates(
     lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray], curvature: bool
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return of families, which are those of a flat sheet, the cells beside each spring (q, m), and the rates
-    (q, m, n, 3) of its constants and natural δg₀ by their natural strain xx, yy and xy, or curvature; state:
-    strain and curvature, (rows, columns, 2, 2)."""
-    nothing = np.zeros((1, 0), int), np.zeros((1, 0, 1, 3))
+    """Return, for each family of a flat sheet, the adjacent cells of every spring (q, m), and the rates
+    (q, m, n, 3) of its constants and natural δg₀ by the cells' natural strain xx, yy and xy, or curvature;
+    state: strain and curvature, (rows, columns, 2, 2)."""
+    no_springs = np.zeros((1, 0), int), np.zeros((1, 0, 1, 3))
     return [
-        nothing if one is None else (one.cells.T, one.rates(*state, curvature))
-        for one in _natural(lattice, families)
+        no_springs if springs is None else (springs.cells.T, springs.rates(*state, curvature))
+        for springs in _natural(lattice, families)
     ]
 
 
@@ -116,7 +116,7 @@ class _Natural:
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
     def rates(self, strain: np.ndarray, k: np.ndarray, curvature: bool) -> np.ndarray:
-        """Return the rates (q, m, n, 3), as `rates` above."""
+        """Return the rates (q, m, n, 3); see `rates` above."""
         plan, growth = self._growth(strain, k)
         by_change: Any = 0.0
         for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
@@ -130,15 +130,15 @@ class _Natural:
         return np.concatenate([0.0 * by_size if curvature else by_size, by_change], axis=2)
 
     def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
-        """Return those of the constants, which are of the natural sides, of cells (1, c, n, 3)."""
+        """Return the rates (1, c, n, 3) of a cell's constants, by the change of its natural sides."""
         drawn = self.family.sides[..., :2]  # type: ignore[union-attr]
-        now = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
+        constants = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
         sides = drawn + drawn @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]
-        moved = np.einsum("cij,wjk->wcik", drawn, XX_YY_XY)
-        of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), moved)
-        of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, moved) / (sides**2).sum(axis=2)[:, :, None]
+        change = np.einsum("cij,wjk->wcik", drawn, XX_YY_XY)
+        of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), change)
+        of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, change) / (sides**2).sum(axis=2)[:, :, None]
         of_size = np.concatenate([of_area[:, None], of_sides], axis=1)
-        return np.asarray(now[:, :, None] * (OF_SIZE @ of_size))[None]
+        return np.asarray(constants[:, :, None] * (SIZE_POWERS @ of_size))[None]
 
 
 def _natural(lattice: Lattice, families: Sequence[Family]) -> list[_Natural | None]:

@@ -100,7 +100,7 @@ def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
     more = ", moving" if obstacle.motion is not None else ""
     more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
     at = ", ".join(map(_mm, obstacle.position)).replace("-", "−")
-    near = 1e3 * gap if abs(gap) > NONE else 0.0
+    near = 1e3 * gap if abs(gap) > ROUNDING else 0.0
     return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {near:.4g} mm from the flat sheet"
 
 
@@ -116,7 +116,7 @@ def _outline(scene: SceneFields) -> str:
     return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 
-ROUNDING = 1e-12  # of the largest natural strain
+ROUNDING = 1e-12  # of the largest natural strain, and of a gap [m]
 IN_PASCALS = {"young", *MODULI, *STRESSES}
 SYMBOLS = {
     "young": "E", "young_1": "E₁", "young_2": "E₂", "shear_12": "G₁₂", "poisson": "ν", "poisson_12": "ν₁₂",

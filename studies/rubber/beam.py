@@ -148,7 +148,9 @@ def identified(mass: float, swing: Swing, time: np.ndarray, tip: np.ndarray) -> 
     moved = np.full((len(time), 3), np.nan)
     moved[:, 2] = tip
     run = Displacements(np.tile(TIP, (len(time), 1)), moved, time)
-    return identify(block(mass, material), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    answer = identify(block(mass, material), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    assert isinstance(answer, Identification)
+    return answer
 
 
 def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.ndarray]:

@@ -51,7 +51,7 @@ def require_way(path: Path[State, Forces], state: State, load_factor: float) -> 
 
 def softest(structure: Structure[State, Forces]) -> float:
     """Set the penalties to 0 and return the first share of their stiffness: points are DEPTH deep with it
-    under the load, or the pressure that bends a plate of this size by the prescribed motion (8 D per size⁴)."""
+    under the load, or a pressure that bends a plate of this size by the prescribed motion (8 D per size⁴)."""
     shares, size = [1.0], structure.size
     soften(structure.contacts, 0.0)
     force, gap = structure.loading(), size * structure.gap(structure.rest(), 1.0)

@@ -116,7 +116,7 @@ def _outline(scene: SceneFields) -> str:
     return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 
-ROUNDING = 1e-12  # of the largest natural strain
+ROUNDING = 1e-12  # of the largest natural strain, and of a gap [m]
 IN_PASCALS = {"young", *MODULI, *STRESSES}
 SYMBOLS = {
     "young": "E", "young_1": "E₁", "young_2": "E₂", "shear_12": "G₁₂", "poisson": "ν", "poisson_12": "ν₁₂",

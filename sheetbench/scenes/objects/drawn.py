@@ -4,7 +4,7 @@
 [sheet] outline = "fin.dxf"
 [sheet] outline = "disc"
 
-A disc is a polygon of CORNERS sides in the rectangle of length_x and length_y, an ellipse where these differ.
+A disc is a polygon of CORNERS sides in the rectangle of length_x and length_y, an ellipse if the two differ.
 A flat mesh lies in a plane x = c, y = c or z = c, which is turned to z = 0: (y, z), (x, −z) or (x, y) become
 (x, y), so that a mesh whose upward axis is y, as in Blender and SOFA, is seen from above. `mesh_scale` is the
 length of the file's unit, 1 m unless given, for a drawing the unit in the file. `mesh_shift` is added to

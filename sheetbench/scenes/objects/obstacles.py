@@ -41,7 +41,7 @@ class _Obstacle(Frozen):
         return np.asarray(along / (np.linalg.norm(along) or 1.0))
 
     def place(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
-        """Return where its position is, (3,) [m], after a share of its way: at a time [s], or at last."""
+        """Return the obstacle's position (3,) [m] after a share of its way: at a time [s], or at last."""
         moved = np.zeros(3) if self.motion is None else self.motion.course.at(time)
         return np.asarray(self.position + load_factor * moved)
 
@@ -55,7 +55,7 @@ class Plane(_Obstacle):
 
     kind: Literal["plane"] = Field(default="plane", kw_only=True)
     normal: Vector3 = (0.0, 0.0, 1.0)
-    """Out of the obstacle, towards the sheet, of any length."""
+    """Direction out of the obstacle, towards the sheet, of any length."""
 
     radius: ClassVar[float] = math.inf
 
@@ -65,7 +65,7 @@ class Sphere(_Obstacle):
 
     kind: Literal["sphere"] = Field(default="sphere", kw_only=True)
     radius: Length
-    """Of the ball."""
+    """Radius of the ball."""
 
 
 class Cylinder(_Obstacle):
@@ -73,9 +73,9 @@ class Cylinder(_Obstacle):
 
     kind: Literal["cylinder"] = Field(default="cylinder", kw_only=True)
     axis: Vector3
-    """Along the bar, of any length."""
+    """Direction along the bar, of any length."""
     radius: Length
-    """Of the bar."""
+    """Radius of the bar."""
 
 
 AnyObstacle = Plane | Sphere | Cylinder

@@ -3,8 +3,8 @@
 A column has a place x, the mean of its masses, and a director d, from its lowest to its highest mass over
 their distance. Between the corners i and j of a side the surface has the tangents across the directors there,
 
-    P(r, s) = Σ corners N x + Σ sides 4 r (1 − r) H(s) b + g(r) (1 − s) e …,
-    b = ⅛ (Δx·Δd) t,   e = −(Δx·d̄) t,   Δx = x_j − x_i,   Δd = d_j − d_i,   d̄ = ½ (d_i + d_j),   t = d̄/|d̄|²
+    P(r, s) = Σ corners N x + Σ sides 4 r (1 − r) H(s) b + g(r) (1 − s) e …, b = ⅛ (Δx·Δd) t,   e = −(Δx·d̄)
+    t,   Δx = x_j − x_i,   Δd = d_j − d_i,   d̄ = ½ (d_i + d_j),   t = d̄/|d̄|²
 
 with g = r (1 − 2r) on the first half of a side and (1 − r)(1 − 2r) on the second, of slope 1 at both ends,
 H = 1 − 2s² and 2 (1 − s)², of slope 0; e fades as the chords that it turns. So neighbouring cells join

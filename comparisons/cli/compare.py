@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 FRAMES = 100  # of a motion
 
 
-@no_effect(with_duration="branch", without_duration="every animate")
+@no_effect(with_duration="branch settle", with_settle="branch uncertainty", without_duration="every animate")
 def command(
     scene: str,
     lattice: LatticeOptions,
@@ -29,6 +29,7 @@ def command(
     model: Models = None,
     uncertainty: bool | None = None,
     branch: str | None = None,
+    settle: bool = False,
     duration: Seconds = None,
     every: Seconds = None,
     animate: bool = False,
@@ -49,6 +50,8 @@ def command(
             shell.
         branch (NAME): {BRANCHES}: buckled leaves an unstable equilibrium along its buckling mode. Default:
             path.
+        settle: Start both models from the end of a strongly damped motion: for thin sheets, which fold before
+            statics reach the full load.
         duration (S): Compare the motion over this time, from rest.
         every (S): Time between samples (with --duration). Default: 1/100 of the lowest period.
         animate: Draw an animation of both sheets side by side (with --duration and --out).
@@ -90,5 +93,5 @@ def command(
             out.keep(f"{solution.model}.vtu", lambda path: write_mesh(path, solution.mesh))
 
         with running(solved=keep):
-            comparison = compare(loaded, spec, uncertainty=uncertainty, **shared)
+            comparison = compare(loaded, spec, uncertainty=uncertainty, settle=settle, **shared)
         return out.show(comparison)

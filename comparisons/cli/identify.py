@@ -11,6 +11,7 @@ from comparisons.cli.verb import no_effect
 
 if TYPE_CHECKING:
     from comparisons.identification.answer import Identification
+    from comparisons.identification.field import FieldIdentification
     from comparisons.identification.tensile.tensile import TensileFit
 
 OF_SCENE = "scene measured uncertainty unknown model elements law offset refine lattice grid calibration k"
@@ -35,7 +36,7 @@ def command(
     refine: bool = True,
     large: bool = False,
     output: PictureOptions,
-) -> Annotated[Identification | TensileFit, "tensile: TensileFit"]:
+) -> Annotated[Identification | FieldIdentification | TensileFit, "tensile: TensileFit"]:
     """Fit material or support values to measurements of a sheet.
 
     Values have 95 % intervals. The search starts at the scene's values, and at others if that fit is poor.
@@ -50,8 +51,8 @@ def command(
         unknown (NAMES): young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other
             constants of fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE,
             tilt_EDGE (of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch,
-            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z. Default:
-            young.
+            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z; or one of
+            young=field, thickness=field, density=field, of every cell of the lattice. Default: young.
         tensile (FILES): A tensile test instead: CSV with stretch, strain or displacement, and
             engineering_stress, true_stress or force, each with its unit (force [N]); pure-shear=FILE or
             equibiaxial=FILE for other tests.

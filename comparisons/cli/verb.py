@@ -27,6 +27,10 @@ from comparisons.cli.output import OutputOptions
 
 NAMES = {"grid": ("--lumped", "--grid"), "grids": ("--grids", "--grid", "--lumped")}  # synonyms
 TERMINAL = ("json",)  # options of the terminal alone
+WITHOUT_WORDS = {  # parameters that are no options
+    "lattice": "The lattice as a specification, in place of its keywords",
+    "progress": "Called with the progress",
+}
 SEVERAL = "Several with commas, or the option again."
 OPTIONS = re.compile(r"(?:^|(?<=with )|(?<=without )|(?<=missing )|(?<=, ))--([a-z][a-z-]*)")  # in a refusal
 Command = Callable[..., Any]
@@ -295,8 +299,8 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
             raise
 
     run.__signature__ = own  # type: ignore[attr-defined]
-    run.__doc__ = "\n".join([declared.prose, "", *_descriptions(declared)])
-    run.__annotations__ = {parameter.name: parameter.annotation for parameter in own.parameters.values()}
+    run.__doc__ = "\n".join([declared.prose, "", *_sections(own, declared.words), ""])
+    run.__annotations__ = {one.name: one.annotation for one in own.parameters.values()}
     return run
 
 
@@ -305,8 +309,16 @@ def _in_python(option: re.Match[str]) -> str:
     return f"{name}_" if name in ("for", "open") else name
 
 
-def _descriptions(declared: _Declared) -> Iterable[str]:
-    """Yield a line for every described parameter."""
-    for name in (parameter.name for parameter in declared.parameters()):
-        if name in declared.words and name not in TERMINAL:
-            yield f"{name}: {re.sub(r'--([a-z][a-z-]*)', _in_python, declared.words[name].text)}"
+def _sections(own: Signature, words: Mapping[str, Words]) -> Iterable[str]:
+    """Yield the lines of numpydoc's sections of a verb as a function."""
+    yield from ("Parameters", "----------")
+    for name, parameter in own.parameters.items():
+        text = re.sub(
+            r"--([a-z][a-z-]*)", _in_python, words.get(name, Words(WITHOUT_WORDS.get(name, ""))).text
+        )
+        yield f"{name} : {parameter.annotation}"
+        yield f"    {text[:1].upper()}{text[1:].rstrip('.')}."
+    kinds = dict.fromkeys(re.findall(r"\b[A-Z]\w+", str(own.return_annotation).replace("Annotated", "")))
+    file = "The file that was written." if "Path" in kinds else "The answer, with its tables and pictures."
+    yield from ("", "Returns", "-------", " or ".join(kinds), f"    {file}")
+    yield from ("", "Raises", "------", "BadInput", "    An argument that cannot be used as given.")

@@ -38,12 +38,10 @@ class Tables:
         values = np.asarray(values)
         if kind == "":
             kind = smallest(values.max(initial=0))
-        shape = "".join(f"[{max(1, n)}]" for n in values.shape)
-        text = (
-            self.values(values, kind is not None)
-            if values.size
-            else "{" * values.ndim + "0" + "}" * values.ndim
-        )
+        if not values.size:
+            values = np.zeros([max(1, n) for n in values.shape])
+        shape = "".join(f"[{n}]" for n in values.shape)
+        text = self.values(values, kind is not None)
         self.text.append(f"{storage}const {kind or 'real'} {name}{shape} = {text};")
 
     def define(self, **numbers: int) -> None:

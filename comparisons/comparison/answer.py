@@ -73,12 +73,12 @@ class CostRow:
 
 
 def settling(scene: Scene) -> str:
-    """Return advice with the command for a motion that brings the sheet to rest."""
+    """Return advice on a motion that may bring the sheet to rest if statics fail."""
     material = scene.material
     damped = material.damping_rate or material.dashpot_time or material.branches.times or scene.dampers
-    rate = material.damping_rate or DEFAULT_RATE
-    condition = "" if damped or scene.air else f"with [material] damping_rate = {DEFAULT_RATE:g} "
-    return f"{condition}its motion comes to rest: sheetbench simulate SCENE --duration {AT_REST / rate:.2g}"
+    until = AT_REST / (material.damping_rate or DEFAULT_RATE)
+    command = f"; to watch it: sheetbench simulate SCENE --duration {until:.2g}"
+    return "--settle starts from the end of its damped motion" + command * bool(damped or scene.air)
 
 
 @dataclass(frozen=True, repr=False)
@@ -246,7 +246,7 @@ class Comparison(Compared, Answer):
         unsettled = (Status.STEP_LIMIT, Status.DIVERGED)
         return [*([self.disagreement] if self.disagreement else [])] + [
             ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
-            + f"; {settling(self.scene)}" * (s.status in unsettled)
+            + f"; {settling(self.scene)}" * (s.status in unsettled and "begun" not in s.settings)
             for s in self.solutions
             if s.status is not Status.CONVERGED
         ]

@@ -13,6 +13,7 @@ path. If neither stays, this grid has no corresponding equilibrium, or the answe
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -49,7 +50,7 @@ def joined(
     import fem_reference
     import lumped
 
-    again = lumped.solve(scene, lattice.springs, near=shape(scene, reference, first.mesh.points))
+    again = lumped.solve(scene, lattice.springs, near=shape(scene, reference.displacement, first.mesh.points))
     if _on_branch(again, points, reference_u, first_u):
         text = _branch_text(first, reference, first_u, reference_u)
         return _restarted(again, first, reference), reference, text
@@ -57,7 +58,7 @@ def joined(
         return None
     options = {"elements": elements.spec.elements, **elements.spec.but(branch=None).options}
     again = fem_reference.solve(
-        scene, model="shell", near=lambda places: shape(scene, first, places), **options
+        scene, model="shell", near=lambda places: shape(scene, first.displacement, places), **options
     )
     if _on_branch(again, points, first_u, reference_u):
         text = _branch_text(reference, first, reference_u, first_u)
@@ -92,19 +93,22 @@ def _branch_text(changed: Solution, kept: Solution, previous_u: np.ndarray, othe
     )
 
 
-def shape(scene: Scene, reference: Solution, places: np.ndarray) -> np.ndarray:
-    """Return displacements (n, 3) [m] of points (n, 3) [m] of the flat sheet in a solution's shape."""
+Field = Callable[[np.ndarray], np.ndarray]  # displacement (n, 3) [m] at plan points (n, 2) [m]
+
+
+def shape(scene: Scene, displacement: Field, places: np.ndarray) -> np.ndarray:
+    """Return displacements (n, 3) [m] of points (n, 3) [m] of the flat sheet in a mid-surface's shape."""
     plan = on_sheet(scene, places[:, :2])
     slopes = []
     for axis in np.eye(3)[:2]:
         step = STEP * min(scene.sheet.lengths) * axis[:2]
         low, high = _shifted(scene, plan, -step), _shifted(scene, plan, step)
         distance = np.abs(high - low).sum(axis=1)
-        change = reference.displacement(high) - reference.displacement(low)
+        change = displacement(high) - displacement(low)
         slopes.append(change / np.where(distance > 0.0, distance, 1.0)[:, None] + axis)
     normal = np.cross(*slopes)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    out: np.ndarray = reference.displacement(plan) + places[:, 2:] * (normal - [0.0, 0.0, 1.0])
+    out: np.ndarray = displacement(plan) + places[:, 2:] * (normal - [0.0, 0.0, 1.0])
     return out
 
 

@@ -12,6 +12,7 @@ from comparisons.comparison import branches
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import CHEAP, error_bar
 from comparisons.comparison.far_apart import far_apart_note
+from comparisons.comparison.settle import require_settling, solved_from_motion
 from comparisons.external.plugins import shown_name
 from comparisons.models.context import context
 from comparisons.models.expected_error import expected_error
@@ -41,12 +42,14 @@ def compare(
     uncertainty: bool | None = None,
     companion: bool = True,
     models: Sequence[Spec | str] = (),
+    settle: bool = False,
 ) -> Comparison:
     """Return the answers of a lattice, a reference and further models of a scene, with their errors.
 
     The options are explained in `comparisons.cli.compare`. The reference has the lattice's branch. companion:
     add uniform springs in cells of one size as `lumped-uniform` if the lattice's calibration is open.
-    Duplicate model names get a suffix.
+    Duplicate model names get a suffix. settle: start every model from the end of its damped motion
+    (`comparisons.comparison.settle`).
 
     Raises SceneError for a scene without a static answer, BadInput for unknown choices, and the solvers' own
     errors for settings they cannot use. A failed solve is reported by its solution's status.
@@ -57,24 +60,25 @@ def compare(
     lattice_model = resolve(scene, lattice)
     by_name: dict[str, Resolved[Any]] = {m.spec.model: m for m in (lattice_model, reference_model)}
     is_open = lattice.calibration is lattice.k is None and lattice_model.spec.calibration is not None
-    if companion and is_open and not scene.drawn_by:
+    if companion and is_open and not scene.drawn_by and not settle:
         by_name[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
     for spec in models:
         further = resolve(scene, parse(spec))
         by_name[unlike(shown_name(further.spec.model), by_name)] = further
     if not compiled_before(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first run on this machine
         warm_both(lattice_model.spec.model, reference_model.spec.model)
+    require_settling(by_name.values() if settle else ())
     rows = []
     for name, model in by_name.items():
-        rows.append(here(model, name))
+        rows.append(solved_from_motion(model, name) if settle else here(model, name))
         context().solved(rows[-1].answer)
     solutions, disagreement = [row.answer for row in rows], ""
     joined = branches.joined(lattice_model, reference_model, *solutions[:2])
-    restarted = joined is not None and joined[1] is not solutions[1]
+    restarted = settle or (joined is not None and joined[1] is not solutions[1])
     if joined is not None:
         solutions[0], solutions[1], disagreement = joined
     solve = partial(with_room, scene)
-    expected = expected_error(scene, lattice_model.spec, solutions[0], solve)
+    expected = None if settle else expected_error(scene, lattice_model.spec, solutions[0], solve)
     bar = None
     branch_may_change = restarted or solutions[1].status is Status.UNSTABLE  # on coarser meshes
     with_bar = reference_model.spec.kind in CHEAP if uncertainty is None else uncertainty
@@ -87,7 +91,7 @@ def compare(
         disagreement, other_branch = far_apart_note(lattice_model, answers, bar_value, solve)
     return Comparison(
         *(scene, answers, bar, disagreement, expected),
-        several=joined is not None or other_branch,
+        several=settle or joined is not None or other_branch,
         other_branch=other_branch,
         busy=tuple(load.warnings([{"load_average": load.average()}])),
         law_chosen=reference_model.spec.law is not None,

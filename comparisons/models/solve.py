@@ -36,9 +36,10 @@ EVEN, SETTLED = 0.02, 5.0  # of the duration, or s: until then steps grow and no
 COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
-def solve(model: Resolved[Any], name: str = "") -> Solution:
-    """Return the static answer of a model after its warm-up; name: shown in place of its own. The context's
-    progress is called at the start and at every iteration. A failed solve is reported as a status."""
+def solve(model: Resolved[Any], name: str = "", near: Any = None) -> Solution:
+    """Return the static answer of a model after its warm-up; name: shown in place of its own; near: a shape
+    to start from, in the form of `lumped.solve` and `fem_reference.solve`. The context's progress is called
+    at the start and at every iteration. A failed solve is reported as a status."""
     spec, scene = model.spec, model.scene
     doing = f"solving {name or plugins.shown_name(spec.model)}"
     work = Work(", ".join(filter(None, [doing, mesh(scene, spec)])), model.size)
@@ -53,7 +54,7 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
     if spec.MASSES:
         assert model.springs
     calibration_seconds = now() - start
-    solution = _solve(model, watch)
+    solution = _solve(model, watch, near)
     field_mesh = solution.mesh
     if not scene.uniform or scene.pierced:
         field_mesh = _with_composition(field_mesh, scene)
@@ -77,23 +78,23 @@ def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
     return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **cell_data})
 
 
-def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
+def _solve(model: Resolved[Any], watch: Watch | None, near: Any = None) -> Solution:
     spec, scene = model.spec, model.scene
     if isinstance(spec, Lattice):
         import lumped
 
         branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
         calibrate = None if model.fitted or spec.calibration is None else partial(_springs, model)
-        solution = lumped.solve(
-            scene, model.springs, linear=spec.linear, branch=branch, progress=watch, calibrate=calibrate
-        )
+        keywords: dict[str, Any] = {"linear": spec.linear, "branch": branch, "calibrate": calibrate}
+        solution = lumped.solve(scene, model.springs, near=near, progress=watch, **keywords)
         return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference
 
         elements = tuple(spec.counts(scene)[:2])
         try:
-            return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
+            keywords = {"elements": elements, "near": near, **spec.options}
+            return fem_reference.solve(scene, spec.kind, progress=watch, **keywords)
         except NoMesh as error:
             return _unanswered(
                 scene, spec, f"no mesh of {spec.size} elements, other numbers may have one: {error}"

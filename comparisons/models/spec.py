@@ -99,10 +99,27 @@ class Spec(ABC):
 
 @dataclass(frozen=True)
 class Lattice(Spec):
-    """A lattice; grid: in a form of `comparisons.models.grids`; calibration: a name or "auto"; k [N/m];
-    layer_distance [m]; grading: a number, towards some edges, or "auto"; linear: one step with the flat
-    sheet's tangent; branch: one of `choices.BRANCHES`; masses: mass distribution in modes, one of
-    `choices.MASSES`."""
+    """The lumped lattice as a model.
+
+    Parameters
+    ----------
+    grid : int, tuple of int or str, optional
+        Masses along the shorter side, along x and y, or with layers: 9, (9, 13), "9x13x3".
+    calibration : str, optional
+        One of `choices.CALIBRATIONS`, or "auto".
+    k : float [N/m], optional
+        Stiffness of every spring, for the calibration "uniform".
+    layer_distance : float [m], optional
+        Distance of the layers.
+    grading : float, Grading or str, optional
+        From 0 (equal cells) to 1, towards some edges as "0.5:x0", or "auto".
+    linear : bool, optional
+        One step with the flat sheet's tangent.
+    branch : {"path", "buckled"}, optional
+        The equilibrium on the load path, or a stable one along its buckling mode.
+    masses : str, optional
+        Distribution of the mass for modes, one of `choices.MASSES`.
+    """
 
     NAME: ClassVar = "lumped"
     MASSES: ClassVar = True
@@ -125,9 +142,27 @@ class Lattice(Spec):
 
 @dataclass(frozen=True)
 class Elements(Spec):
-    """A finite-element reference; kind: "plate", "shell" or "solid"; count: elements along the shorter side,
-    or (nx, ny); law: of strain, one of `choices.STRAIN_LAWS`; branch: one of `choices.BRANCHES`; other
-    fields: see `fem_reference.options`."""
+    """A finite-element reference as a model.
+
+    Parameters
+    ----------
+    kind : {"shell", "plate", "solid"}, optional
+        The reference.
+    count : int or (int, int), optional
+        Elements along the shorter side, or along x and y.
+    law : str, optional
+        Law of strain of a shell or solid, one of `choices.STRAIN_LAWS`.
+    graded : bool, optional
+        Elements of plate or shell finer towards the edges.
+    layers : int, optional
+        Bricks of a solid through the thickness.
+    clamp : str, optional
+        Clamp of a solid, one of `fem_reference.solid.supports.CLAMPS`.
+    grading : {"edges", "uniform"}, optional
+        Bricks finer towards the edges, or equal.
+    branch : {"path", "buckled"}, optional
+        The equilibrium on the load path, or a stable one along its buckling mode.
+    """
 
     kind: str = "shell"
     count: Count | None = field(default=None, metadata={"key": "elements"})
@@ -172,8 +207,15 @@ class Elements(Spec):
 
 @dataclass(frozen=True)
 class External(Spec):
-    """An external model; name: installed, `FILE.py:OBJECT` or `exec:PROGRAM`; own: settings, plain JSON
-    data."""
+    """An external model.
+
+    Parameters
+    ----------
+    name : str
+        Name of an installed plug-in, `FILE.py:OBJECT` or `exec:PROGRAM`.
+    own : mapping, optional
+        The model's settings, plain JSON data.
+    """
 
     name: str
     own: Mapping[str, Any] = field(default_factory=dict)

@@ -34,7 +34,31 @@ def far(error: float, field_error: float, bar: float | None = None) -> bool:
 
 
 def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
-    """Return the error of displacements (n, 3) against a reference's (n, 3), as in `Compared.error`."""
+    """Return the error of displacements: the largest difference over the largest displacement.
+
+    Parameters
+    ----------
+    displacement : ndarray, (n, 3) [m]
+        Displacements at n points.
+    reference : ndarray, (n, 3) [m]
+        Displacements of a reference at these points.
+
+    Returns
+    -------
+    float or None
+        Largest component of the difference over the largest component of the reference, None if that is 0.
+
+    Raises
+    ------
+    BadInput
+        Arrays of different shapes.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> error(np.array([[0.0, 0.0, 1.25]]), np.array([[0.0, 0.0, 1.0]]))
+    0.25
+    """
     displacement, reference = np.asarray(displacement), np.asarray(reference)
     if displacement.shape != reference.shape:
         shapes = f"{displacement.shape} against {reference.shape}"

@@ -44,9 +44,10 @@ class SolvedHere(Solved):
         return median(self.samples)
 
 
-def here(model: Resolved[Any], name: str = "", repeats: int = 1) -> SolvedHere:
-    """Solve a model and return its row; name: in place of its own; repeats: of a quick solve."""
-    answer = solve(model, name)
+def here(model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = None) -> SolvedHere:
+    """Solve a model and return its row; name: in place of its own; repeats: of a quick solve; near: a shape
+    to start from."""
+    answer = solve(model, name, near)
     samples = [answer.solve_seconds]
     with running(progress=silent):
         while len(samples) < repeats and answer.solve_seconds < QUICK:

@@ -1,1 +1,2 @@
-"""What the models of a surface share: meshes, loads, supports, rods along edges, points on the sheet."""
+"""Parts that the models of a surface share: meshes, loads, supports, rods along edges, points on the
+sheet."""

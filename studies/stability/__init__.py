@@ -1,1 +1,3 @@
-"""Where each model holds, degrades, refuses or breaks: the verb `stability` on published, extreme scenes."""
+"""Range in which each model holds, degrades, refuses or breaks: the verb `stability` on published, extreme
+scenes.
+"""

@@ -1,8 +1,8 @@
-"""Why a scene is refused: pydantic's list of faults as one line that names key, value and what is allowed.
+"""The reason of a scene's refusal: pydantic's list of faults as one line of keys, values and allowed values.
 
     load 2.pressure = 200.0: unknown key; known here are history, kind, value
 
-Lists count from 1. Of many faults the first three are named, and how many more there are.
+Lists count from 1. The line names at most three faults, and the number of further ones.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ MANY_DIGITS = 30
 
 
 def in_one_line(error: ValidationError, model: type[BaseModel]) -> str:
-    """The faults of data for `model`, separated by semicolons."""
+    """Return the faults of data for `model`, separated by semicolons."""
     faults = [fault for fault in error.errors(include_url=False) if not _follows(fault)]
     more = [f"and {len(faults) - SHOWN} more"] if len(faults) > SHOWN else []
     return "; ".join([*(_sentence(fault, json_schema(model)) for fault in faults[:SHOWN]), *more])
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:
-    """The known word that is nearest in spelling, if any is near."""
+    """Return the known word that is nearest in spelling, None if none is near."""
     by_lower = {name.lower(): name for name in known}
     near = get_close_matches(word.lower(), by_lower, n=1)
     return by_lower[near[0]] if near else None
 
 
 def shown(value: Any) -> str:
-    """A value as it was written, shortened where it is long."""
+    """Return a value as it was written, shortened if it is long."""
     return _SHORT.repr(value)
 
 
@@ -49,7 +49,7 @@ class _Short(Repr):
         return repr(x) if digits <= MANY_DIGITS else f"a number of about {digits} digits"
 
     def repr_bool(self, x: bool, level: int) -> str:
-        return str(x).lower()  # as TOML has it
+        return str(x).lower()  # TOML's spelling
 
 
 _SHORT = _Short()
@@ -57,7 +57,7 @@ _SHORT.maxstring = _SHORT.maxother = LONGEST
 
 
 def _follows(fault: Any) -> bool:
-    """Whether the fault only counts the entries that other faults have left."""
+    """Return whether a fault only counts the entries that other faults have left."""
     return fault["type"] == "too_short" and len(fault["input"]) >= fault["ctx"]["min_length"]
 
 
@@ -109,7 +109,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
 
 
 def unit_at(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
-    """The SI unit of the number at a location, or None where it has none."""
+    """Return the SI unit of the number at a location, or None if it has none."""
     places = (_place(location[:end], schema)[1] for end in range(len(location), 0, -1))
     return next((str(node["unit"]) for nodes in places for node in nodes if "unit" in node), None)
 
@@ -132,7 +132,7 @@ ALLOWED = {  # by pydantic's types of fault
 
 
 def _choose(word: object, nodes: list[dict[str, Any]]) -> str:
-    """What may stand in place of a word: the kinds of tables, or the texts that a key takes."""
+    """Return the words allowed in place of a word: the kinds of tables, or the texts that a key takes."""
     tables = [node["properties"]["kind"] for node in nodes if kind(node)]
     choices = [str(each) for one in tables or nodes for each in one.get("enum", [one.get("const")])]
     near = did_you_mean(str(word), choices)
@@ -142,9 +142,9 @@ def _choose(word: object, nodes: list[dict[str, Any]]) -> str:
 def _place(
     location: tuple[int | str, ...], schema: dict[str, Any]
 ) -> tuple[list[int | str], list[dict[str, Any]]]:
-    """The keys and list numbers of a fault's location, and what the schema says may stand there.
+    """Return the keys and list numbers of a fault's location, and the nodes of the schema there.
 
-    Between them pydantic names the kind of table that it took, which no key is.
+    Between them pydantic names the kind of table that it took, which is no key.
     """
     where: list[int | str] = []
     nodes = branches(schema, schema)
@@ -165,7 +165,7 @@ _FORMS = {"a number", "a list", "a table"}
 
 
 def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:
-    """What the schema says about an entry of a list or a key of a table."""
+    """Return the schema's nodes of an entry of a list or a key of a table."""
     if isinstance(part, int):
         items = (node.get("prefixItems") or [])[part : part + 1] or [node.get("items")]
     else:
@@ -174,12 +174,12 @@ def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> li
 
 
 def in_keys(where: Iterable[int | str]) -> str:
-    """The keys and list numbers of a place, as 'load 2.pressure'."""
+    """Return the keys and list numbers of a place as text: 'load 2.pressure'."""
     texts = (f" {p + 1}" if isinstance(p, int) else f".{p}" for p in where)
     parts = (text if len(text) <= LONGEST + 1 else f"{text[: LONGEST + 1]}…" for text in texts)
     return "".join(parts).removeprefix(".")
 
 
 def _keys(nodes: list[dict[str, Any]]) -> list[str]:
-    """The keys of the tables that may stand here, sorted."""
+    """Return the keys of the tables that may stand at a place, sorted."""
     return sorted({key for node in nodes for key in node.get("properties", {})})

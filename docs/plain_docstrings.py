@@ -15,9 +15,10 @@ UNDERLINE = re.compile(r"-{3,}")
 def as_restructured(lines: list[str]) -> list[str]:
     """Return plain text, with indented blocks as literals and backticks as the only markup, then sections."""
     heads = [i - 1 for i, line in enumerate(lines) if UNDERLINE.fullmatch(line)]
-    sections = [lines[i:j] for i, j in zip(heads, [*heads[1:], len(lines)], strict=True)]
+    sections = [lines[i:j] for i, j in zip(heads, [*heads[1:], len(lines)], strict=False)]
     escaped = ["", *(line for section in sections for line in _section(section))]
     fields = NumpyDocstring(escaped, Config(napoleon_use_rtype=False)).lines() if sections else []
+    fields = [re.sub(r"^(:(?:param|type) \w+)_:", r"\1\_:", line) for line in fields]  # no reference
     return _text(lines[: min(heads, default=len(lines))]) + fields
 
 

@@ -54,7 +54,7 @@ def answers() -> dict[str, list[float]]:
 
 
 def build(folder: Path) -> str:
-    """Write the page with its programs to a folder; return how many, or why there are none."""
+    """Write the page with its programs to a folder; return their number, or the reason for none."""
     from comparisons.codes.onefile import program
     from comparisons.models.resolve import resolve
     from comparisons.models.spec import Lattice

@@ -38,8 +38,7 @@ COSTS = {
 
 
 def footprint(model: str, elements: tuple[int, int], layers: int = 1) -> Size:
-    """Return the size of a static solve on (nx, ny) elements. Natural frequencies of a shell take 1.7 times
-    the memory."""
+    """Return the size of a static solve; frequencies of a shell take 1.7 times the memory."""
     nodes = (2 * elements[0] + 1, 2 * elements[1] + 1)
     unknowns = 3 * (2 * layers + 1) if model == "solid" else 5
     count = elements[0] * elements[1] * layers

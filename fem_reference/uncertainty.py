@@ -106,8 +106,7 @@ class Uncertainty:
 
 
 def coarser(elements: Elements) -> list[Elements]:
-    """Return the meshes to solve on, the requested one first: elements along the shorter side, or along x and
-    y."""
+    """Return the meshes to solve on, the requested one first, as numbers along the shorter side or pairs."""
 
     counts = (elements,) if isinstance(elements, int) else elements
     meshes: Any = dict.fromkeys(tuple(max(1, round(n * share)) for n in counts) for share in MESHES)
@@ -134,8 +133,7 @@ def solve_with_bar(
 def of_solutions(
     scene: Scene, solutions: Sequence[Solution], sizes: Sequence[float], points: np.ndarray
 ) -> Uncertainty | None:
-    """Return the uncertainty of solutions on meshes of given sizes, finest first, or None (see
-    `solve_with_bar`)."""
+    """Return the uncertainty of solutions by mesh size, finest first, or None (see `solve_with_bar`)."""
     comparable = [(one, size) for one, size in zip(solutions, sizes, strict=True) if one.comparable]
     usable = [(one.displacement(points), size, missed_by(scene, one.settings)) for one, size in comparable]
     if len({size for _, size, _ in usable}) < 2 or usable[0][1] != sizes[0]:
@@ -145,7 +143,7 @@ def of_solutions(
 
 
 def of_answers(scene: Scene, answers: Sequence[np.ndarray], meshes: Sequence[Elements]) -> Uncertainty:
-    """Return the bars of any answers (n, k) on given numbers of elements, finest first, without the layer's
+    """Return the bars of answers (n, k) on given numbers of elements, finest first, without the layer's
     part."""
     return estimate(answers, [mesh_size(scene, n) for n in meshes], family=family_of(scene))
 
@@ -223,8 +221,7 @@ def _relative(error: np.ndarray, answer: np.ndarray) -> np.ndarray:
 
 
 def _observed(fine: np.ndarray, coarse: np.ndarray, ratio: float, next_ratio: float) -> np.ndarray:
-    """Return p of the steps f₁ − f₂ and f₂ − f₃; nan where they oscillate, 0 or less where they do not
-    shrink."""
+    """Return p of steps f₁ − f₂ and f₂ − f₃; nan where they oscillate, at most 0 where they do not shrink."""
     with np.errstate(divide="ignore", invalid="ignore"):
         quotient = coarse / fine
         logarithm = np.log(np.where(quotient > 0.0, quotient, np.nan))

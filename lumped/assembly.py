@@ -68,7 +68,7 @@ class Assembly:
         """Give the cells a natural state; `at` returns the lattice at a share of it."""
         make = with_natural(self.lattice, self.springs, state)
         self._take(AllFamilies(make(*state.at()), self.pattern))
-        self.natural = state.made(lambda *forms: self._with(make(*forms)))
+        self.natural = state.made(lambda *forms: self._with_families(make(*forms)))
 
     def _take(self, springs: AllFamilies) -> None:
         self.all_families = springs
@@ -76,7 +76,7 @@ class Assembly:
         self.springs, self.links = springs.families, springs.links
         self.conservative, self.any_strain = springs.conservative, springs.any_strain
 
-    def _with(self, families: Sequence[Family]) -> Assembly:
+    def _with_families(self, families: Sequence[Family]) -> Assembly:
         other = copy(self)
         other._take(AllFamilies(families, self.pattern))
         return other

@@ -145,7 +145,10 @@ def reached_parts(scene: Scene) -> Reach:
     for name, one in named(scene.supports).items():
         shape = None if isinstance(one, Point) or holds_director(one) else place(one)
         if shape is not None and shape.rectangle is None and not part_of(scene, shape).area:
-            why = "the lattice holds round and oblique rims clamped alone; plate, shell and solid also hinged"
+            why = (
+                "the lattice holds round and oblique rims clamped alone: masses held in a zigzag hold their "
+                "slope too; plate, shell and solid have it hinged"
+            )
             raise BadInput(f"{name}.where: {why}")
     held = [s for s in scene.supports if place(s) is None and not isinstance(s, Symmetric)]
     return tuple((support.edge, tuple(edge_parts(scene, support.edge))) for support in held)

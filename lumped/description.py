@@ -95,11 +95,41 @@ class CheckState:
 
 @dataclass(frozen=True)
 class Description:
-    """A lattice in plain arrays. index: (n, 3) of each mass along x, along y and through the thickness;
-    positions: (n, 3) [m]; mass: (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure:
-    (c,) [Pa] on the cells `pressed` (c, 4, p) of the mid-surface; contact: points
-    (`lumped.contact.Contact.table`); steps: stable time steps and damping; notes: parts of the scene that the
-    arrays leave out. Masses that belong to no cell are left out."""
+    """A lattice in plain arrays, without masses that belong to no cell.
+
+    Parameters
+    ----------
+    index : ndarray of shape (n, 3)
+        Number of each mass along x, along y and through the thickness.
+    positions : ndarray of shape (n, 3)
+        Positions at rest [m].
+    mass : ndarray of shape (n,)
+        Masses [kg].
+    damping_rate : float
+        Damping proportional to the masses [1/s].
+    links : LinkTable
+        Springs and dampers between two masses.
+    cells : tuple of CellTable
+        Springs and dampers of cells.
+    holds : tuple of Hold
+        Supports of masses.
+    dead : ndarray of shape (n, 3)
+        Dead loads [N].
+    pressure : ndarray of shape (c,)
+        Pressure [Pa] on cells of the mid-surface.
+    pressed : ndarray of shape (c, 4, p)
+        Masses at the corners of the cells under pressure.
+    couples : tuple of Couple
+        Edge moments.
+    contact : tuple of ndarray
+        Contact points (`lumped.contact.Contact.table`).
+    states : tuple of CheckState
+        States to check another program by.
+    steps : StableSteps
+        Stable time steps and damping.
+    notes : tuple of str, optional
+        Parts of the scene that the arrays leave out.
+    """
 
     index: np.ndarray
     positions: np.ndarray

@@ -75,7 +75,7 @@ def grid_lines(sheet: Sheet, grid: Grid, grading: Graded = 0.0) -> tuple[Lines, 
         side = _lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends)
         if isinstance(grading, Grading):
             growth = sheet.lengths[axis] / grading.sides[axis]
-            side = _through(side, [growth * place for place in grading.places[axis]])
+            side = _aligned(side, [growth * place for place in grading.places[axis]])
         lines.append(side)
     return lines[0], lines[1]
 
@@ -96,7 +96,7 @@ def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool]) -
     return Lines(at, 0.5 * (widths + widths[::-1]), mean)  # mirror images to the last digit
 
 
-def _through(lines: Lines, places: Sequence[float]) -> Lines:
+def _aligned(lines: Lines, places: Sequence[float]) -> Lines:
     """Return the lines with the nearest ones moved to the places [m], rising, and lines between in
     proportion."""
     last, end = len(lines.at) - 1, float(lines.at[-1])

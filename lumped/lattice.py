@@ -165,23 +165,30 @@ class Lattice:
         return {"x0": columns[:, 0], "x1": columns[:, -1], "y0": columns[0], "y1": columns[-1]}[edge]
 
 
-# family, direction, step in the grid; of each pair of opposite steps one is listed.
-STEPS: tuple[tuple[str, str, tuple[int, int, int]], ...] = (
-    ("axial", "x", (1, 0, 0)),
-    ("axial", "y", (0, 1, 0)),
-    ("diagonal", "", (1, 1, 0)),
-    ("diagonal", "", (-1, 1, 0)),
-    ("vertical", "", (0, 0, 1)),
-    ("cross", "x", (1, 0, 1)),
-    ("cross", "x", (-1, 0, 1)),
-    ("cross", "y", (0, 1, 1)),
-    ("cross", "y", (0, -1, 1)),
-    ("cross_diagonal", "", (1, 1, 1)),
-    ("cross_diagonal", "", (-1, 1, 1)),
-    ("cross_diagonal", "", (1, -1, 1)),
-    ("cross_diagonal", "", (-1, -1, 1)),
+class LinkKind(NamedTuple):
+    """A kind of link by the step from its first mass to its second, along x, along y and in layers."""
+
+    family: str
+    direction: str
+    step: tuple[int, int, int]
+
+
+STEPS = (  # one of each pair of opposite steps
+    LinkKind("axial", "x", (1, 0, 0)),
+    LinkKind("axial", "y", (0, 1, 0)),
+    LinkKind("diagonal", "", (1, 1, 0)),
+    LinkKind("diagonal", "", (-1, 1, 0)),
+    LinkKind("vertical", "", (0, 0, 1)),
+    LinkKind("cross", "x", (1, 0, 1)),
+    LinkKind("cross", "x", (-1, 0, 1)),
+    LinkKind("cross", "y", (0, 1, 1)),
+    LinkKind("cross", "y", (0, -1, 1)),
+    LinkKind("cross_diagonal", "", (1, 1, 1)),
+    LinkKind("cross_diagonal", "", (-1, 1, 1)),
+    LinkKind("cross_diagonal", "", (1, -1, 1)),
+    LinkKind("cross_diagonal", "", (-1, -1, 1)),
 )
-DIRECTIONS = np.array([step for *_, step in STEPS])
+DIRECTIONS = np.array([kind.step for kind in STEPS])
 
 
 @cached(last=16, most=SHARED_UP_TO, size=lambda sheet, grid, *_, **__: math.prod(grid))
@@ -216,8 +223,8 @@ def build(
     nodes, step, cells, shares = _links(grid)
     if present is not None:
         shares = shares * present.ravel()[cells]
-    kept = shares.any(axis=0)
-    nodes, step, cells, shares = nodes[kept], step[kept], cells[:, kept], shares[:, kept]
+    on_sheet = shares.any(axis=0)
+    nodes, step, cells, shares = nodes[on_sheet], step[on_sheet], cells[:, on_sheet], shares[:, on_sheet]
     if weights == "full":
         shares = shares / shares.sum(axis=0)
     row, column = (np.minimum(*of[nodes.T]).clip(max=cells - 2) for of, cells in ((j, ny), (i, nx)))
@@ -258,7 +265,7 @@ def _links(grid: Grid) -> tuple[np.ndarray, ...]:
         inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
         first = np.flatnonzero(inside)
         nodes = np.stack([first, first + (dj * nx + di) * layers + dk], axis=1)
-        # along x and along y the cell that the link crosses, twice, or the two beside its line
+        # along x and along y the crossed cell twice, or the two cells next to the link's line
         column, row = i[first] + min(di, 0), j[first] + min(dj, 0)
         columns = np.stack(2 * [column - (di == 0), column])
         rows = np.repeat([row - (dj == 0), row], 2, axis=0)

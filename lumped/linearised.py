@@ -64,9 +64,23 @@ LAST = 1e9  # s: every history has its last value, as in statics
 
 @dataclass(frozen=True, eq=False)
 class Linear:
-    """A linearised lattice. mass, damping, stiffness: sparse (m, m); force, force_rate: F, F′ (m, inputs);
-    output, direct: G (outputs, m), H (outputs, inputs); inputs, outputs: names; displacement: (n, 3) [m] of
-    the masses at the equilibrium."""
+    """A lattice linearised about an equilibrium, M q̈ + C q̇ + K q = F w + F′ ẇ, y = G q + H w.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : sparse array of shape (m, m)
+        Matrices M, C and K of the free unknowns [kg, N·s/m, N/m].
+    force, force_rate : ndarray of shape (m, inputs)
+        Forces F and F′ [N, N·s, per unit of the input].
+    output : ndarray of shape (outputs, m)
+        Matrix G [-].
+    direct : ndarray of shape (outputs, inputs)
+        Matrix H [m per unit of the input].
+    inputs, outputs : tuple of str
+        Names of inputs and outputs.
+    displacement : ndarray of shape (n, 3)
+        Displacement [m] of the masses at the equilibrium.
+    """
 
     mass: sp.csc_array
     damping: sp.csc_array
@@ -146,7 +160,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     -----
     Modal truncation with static correction: Craig and Kurdila, Fundamentals of Structural Dynamics (2006).
     """
-    scene = _at_last(scene_of(scene))
+    scene = _last_commands(scene_of(scene))
     require_static(scene, "a linear system about the flat sheet" if about == "flat" else "")
     require_no_branches(scene.material, "a linear system")
     calibration = calibration or default(scene)
@@ -162,14 +176,14 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     else:
         u = stable_equilibrium(problem).u
     system = System(scene, problem)
-    motions = _allowed(system, u)
+    motions = _allowed_motions(system, u)
     rest = np.zeros_like(u)
 
     def reduced(mass: float, damping: float, stiffness: float) -> tuple[sp.csr_array, sp.csc_array]:
         blocks = system.matrix(u, rest, LAST, mass, damping, stiffness)
         pattern = problem.assembly.pattern
-        whole = sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr)))
-        return whole, sp.csc_array(motions.T @ whole @ motions)
+        full = sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr)))
+        return full, sp.csc_array(motions.T @ full @ motions)
 
     (_, mass), (drag, damping), (spring, stiffness) = (reduced(*factors) for factors in np.eye(3).tolist())
     probes = MidSurface(problem.assembly.lattice, scene.probe_points())
@@ -190,7 +204,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     )
 
 
-def _allowed(system: System, u: np.ndarray) -> sp.csr_array:
+def _allowed_motions(system: System, u: np.ndarray) -> sp.csr_array:
     """Return T on the motions that the actuators' constraints allow, the null space of their gradient."""
     if not system.constrained or system.coupling is None:
         return system.moving_part
@@ -225,7 +239,7 @@ def _inputs(
     for number, row in enumerate(observation):
         probe = list(scene.probes)[number // 3]
         columns.append((f"{probe} f{'xyz'[number % 3]}", row, zero, zero))
-    for edge in _bent(scene):
+    for edge in _bent_edges(scene):
         both = both_sides(calibration, problem, f"curvature_{edge}")
         force, g, _ = rates(problem, u, both)
         columns.append((f"{edge} curvature", force.ravel(), -drag @ g.ravel(), g.ravel()))
@@ -246,7 +260,7 @@ def _inputs(
     return tuple(names), force, rate, displacement
 
 
-def _at_last(scene: Scene) -> Scene:
+def _last_commands(scene: Scene) -> Scene:
     """Return the scene with the last values of its chains' commands."""
     at_last = [
         a.replace(curvature=a.curvature.value[-1])
@@ -266,7 +280,7 @@ def _loads(scene: Scene) -> list[tuple[str, Scene]]:
     return scenes
 
 
-def _bent(scene: Scene) -> list[str]:
+def _bent_edges(scene: Scene) -> list[str]:
     """Return the edges with one chain of one curvature, or bent by a support."""
     edges = [str(a.edge) for a in scene.actuators]
     chains = [str(a.edge) for a in scene.actuators if isinstance(a, Chain) and isinstance(a.curvature, float)]

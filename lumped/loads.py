@@ -106,8 +106,8 @@ class Loads:
                 part.pressure += load.value * cell_shares(scene, lattice, load.where)
         last = [(part.factor(None), part) for part in self._parts.values()]
         self.pressure = sum(factor * part.pressure for factor, part in last)
-        others = [factor * part.dead for factor, part in last[1:]]
-        self.last_dead = np.sum([self.dead, *others], axis=0) if others else self.dead
+        with_history = [factor * part.dead for factor, part in last[1:]]
+        self.last_dead = np.sum([self.dead, *with_history], axis=0) if with_history else self.dead
         self.turning = any(len(part.moments) for _, part in last)
         self.follow = self.turning or any(part.pressure.any() for _, part in last)
         enclosed = self.follow and encloses_volume(scene.supports) and not scene.shaped_by

@@ -134,15 +134,15 @@ def mass_matrix(
     if distribution != "higher-order" or cells is not None:
         lumped = masses(scene, lattice, distribution, cells)  # type: ignore[arg-type]  # refuses higher-order
         return sp.dia_array((lumped[None], [0]), shape=2 * (lattice.mass_count,)).tocoo()
-    twisting, free = lattice.twisting, _free(scene, lattice)
-    x, y = (_corrected(at, axis, twisting, free) for axis, at in zip("xy", lattice.lines, strict=True))
+    twisting, free = lattice.twisting, _free_edges(scene, lattice)
+    x, y = (_line_matrix(at, axis, twisting, free) for axis, at in zip("xy", lattice.lines, strict=True))
     per_area = scene.material.density * scene.sheet.thickness
-    sheet = per_area * sp.kron(sp.kron(y, x), _across(scene.sheet.thickness, lattice))
+    sheet = per_area * sp.kron(sp.kron(y, x), _layer_shares(scene.sheet.thickness, lattice))
     payloads = point_masses(scene, lattice)
     return sp.coo_array(sheet + sp.dia_array((payloads[None], [0]), shape=sheet.shape))
 
 
-def _across(thickness: float, lattice: Lattice) -> np.ndarray:
+def _layer_shares(thickness: float, lattice: Lattice) -> np.ndarray:
     """Return the shares of a column's mass of pairs of layers, (layers, layers)."""
     layers = lattice.grid[2]
     heights = lattice.positions[:layers, 2]
@@ -152,12 +152,12 @@ def _across(thickness: float, lattice: Lattice) -> np.ndarray:
     return shares
 
 
-def _free(scene: Scene, lattice: Lattice) -> frozenset[str]:
+def _free_edges(scene: Scene, lattice: Lattice) -> frozenset[str]:
     """Return the edges that move and turn: nothing holds their director, nor their height."""
     return lattice.twisting - {support.edge for support in scene.supports if 2 in held_axes(support)}
 
 
-def _corrected(lines: Lines, axis: str, twisting: frozenset[str], free: frozenset[str]) -> sp.csr_array:
+def _line_matrix(lines: Lines, axis: str, twisting: frozenset[str], free: frozenset[str]) -> sp.csr_array:
     """Return the corrected trapezoidal rule over the lines across an axis, (n, n) [m]."""
     left, right, correction = _corrections(lines)
     correction[[0, -1]] *= [f"{axis}0" in twisting, f"{axis}1" in twisting]
@@ -167,7 +167,7 @@ def _corrected(lines: Lines, axis: str, twisting: frozenset[str], free: frozense
     if len(left) > 2:
         for end, inner in ((0, 1), (-1, -2)):
             if f"{axis}{-end}" in free:
-                slopes[inner] -= _curl(lines, end)
+                slopes[inner] -= _end_curvature(lines, end)
     return sp.csr_array(np.diag(lines.tributary) - slopes - slopes.T)
 
 
@@ -178,7 +178,7 @@ def _corrections(lines: Lines) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return left, right, (left**2 - right**2) / 12.0
 
 
-def _curl(lines: Lines, end: int) -> np.ndarray:
+def _end_curvature(lines: Lines, end: int) -> np.ndarray:
     """Return the second difference quotient at the first inner line of an end times l³/24, or l b²/24 where
     the second cell is narrower, b, (n,) [m]."""
     first, second = lines.widths[[0, 1] if end == 0 else [-1, -2]]

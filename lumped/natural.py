@@ -44,20 +44,16 @@ def with_natural(
     BadInput for springs of a per-direction law."""
     natural = _natural(lattice, families)
     grown = [springs and replace(springs, stiffness=springs.grown(state.at()[0])) for springs in natural]
-    return lambda *forms: [
-        family if springs is None else springs.of(*forms)
-        for family, springs in zip(families, grown, strict=True)
-    ]
+    pairs = list(zip(families, grown, strict=True))
+    return lambda *forms: [family if springs is None else springs.of(*forms) for family, springs in pairs]
 
 
 def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> list[Family]:
     """Return the springs of the flat sheet with the stiffness of a sheet with a natural strain, (rows,
     columns, 2, 2)."""
-    pairs = zip(families, _natural(lattice, families), strict=True)
-    return [
-        (springs and replace(springs.family, stiffness=springs.grown(strain))) or family
-        for family, springs in pairs
-    ]
+    natural = _natural(lattice, families)
+    grown = [None if one is None else replace(one.family, stiffness=one.grown(strain)) for one in natural]
+    return [one or family for family, one in zip(families, grown, strict=True)]
 
 
 def rates(

@@ -42,7 +42,7 @@ def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
             for j in range(n - degree):
                 factor *= k + n - degree - j
             derivative[k] = factor * c[k + n - degree]
-        found, new = 0, np.empty(7)
+        roots, new = 0, np.empty(7)
         for j in range(inside + 1):
             a, b = ends[j], ends[j + 1]
             at_a, at_b = value(derivative, degree, a), value(derivative, degree, b)
@@ -59,10 +59,10 @@ def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
                     break
                 secant = a - at_a * (b - a) / (at_b - at_a)
                 x = 0.5 * (a + b) if turn % 3 == 2 else secant
-            found += 1
-            new[found] = x
-        new[0], new[found + 1] = -1.0, 1.0
-        ends[:], inside = new, found
+            roots += 1
+            new[roots] = x
+        new[0], new[roots + 1] = -1.0, 1.0
+        ends[:], inside = new, roots
     for j in range(inside):
         out[count + j] = ends[j + 1]
     return count + inside

@@ -95,7 +95,7 @@ class CellSection:
         """Width λ (…, 2) [m] of the layer in which the twisting moment fades at free edges normal to x and to
         y: √(D/S), D `twisting` and S along the edge, without shear across it; h/√10 of an isotropic sheet."""
         twist = twisting(free_bending(self.membrane, self.mixed, self.bending))
-        return np.sqrt(_over(twist, self.free_shear[..., ::-1]))
+        return np.sqrt(_ratio(twist, self.free_shear[..., ::-1]))
 
 
 PARTS = ("membrane", "bending", "shear", "mixed", "per_area")
@@ -111,7 +111,7 @@ def free_bending(membrane: np.ndarray, mixed: np.ndarray, bending: np.ndarray) -
 
 def free(shear: np.ndarray, coupling: np.ndarray) -> np.ndarray:
     """Return S along x and y (…, 2) without a force the other way, from shear (…, 2) and coupling (…)."""
-    return np.asarray(shear - _over((coupling**2)[..., None] + 0.0 * shear, shear[..., ::-1]))
+    return np.asarray(shear - _ratio((coupling**2)[..., None] + 0.0 * shear, shear[..., ::-1]))
 
 
 def twisting(bending: np.ndarray) -> np.ndarray:
@@ -119,7 +119,7 @@ def twisting(bending: np.ndarray) -> np.ndarray:
     D26²/D22: at an edge that bends freely the moment across it stays 0, and fibres at an angle turn twist
     into bending."""
     normal = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
-    return np.asarray(bending[..., 2, 2, None] - _over(bending[..., :2, 2] ** 2, normal))
+    return np.asarray(bending[..., 2, 2, None] - _ratio(bending[..., :2, 2] ** 2, normal))
 
 
 def stretch_by_twist(bending: np.ndarray) -> np.ndarray:
@@ -127,12 +127,12 @@ def stretch_by_twist(bending: np.ndarray) -> np.ndarray:
     `twisting` (2 κ_nt + r κ_tt), κ_tt the curvature along the edge; r = 0 for fibres along the sides."""
     twist, skew = bending[..., 2, 2], bending[..., :2, 2][..., ::-1]  # D66; D26, D16
     normal = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
-    along = skew - _over(bending[..., 0, 1, None] * bending[..., :2, 2], normal)
-    ratio = _over(along, twisting(bending))
+    along = skew - _ratio(bending[..., 0, 1, None] * bending[..., :2, 2], normal)
+    ratio = _ratio(along, twisting(bending))
     return np.where(np.abs(along) > ROUNDING * twist[..., None], ratio, 0.0)
 
 
-def _over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+def _ratio(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
     """Return part/whole, 0 for absent cells."""
     return np.divide(part, whole, out=np.zeros_like(part), where=whole > 0.0)
 
@@ -181,26 +181,26 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> CellSection 
     Returns
     -------
     CellSection, optional
-        Stiffness per width and mass per area of each cell, (rows, columns, …); None if the sheet is uniform
-        and isotropic. sheet. A cell that the outline cuts has stiffness and mass times its share of sheet.
+        Stiffness per width and mass per area of each cell, (rows, columns, …), or None for a uniform
+        isotropic sheet. A cell that the outline cuts has stiffness and mass times its share of sheet.
 
     Notes
     -----
     Several parts in a cell are homogenised as divisions in series (Kohn and Vogelius 1984).
     """
     lines = grid_lines(scene.sheet, grid, grading)
-    whole, clamped = _as_if_whole(scene, grid, lines), clamped_stiffness(scene, lines)
+    uncut, clamped = _without_outline(scene, grid, lines), clamped_stiffness(scene, lines)
     cut = bool(np.any(np.abs(clamped - 1.0) > COINCIDENT))
     growth = growth_of_cells(scene, lines[0].at, lines[1].at)
     if not (scene.pierced or cut or growth is not None):
-        return whole
-    if whole is None:
-        whole = of_cells(Cells.of(scene.sheet, scene.material), grid)
-    whole = replace(whole, growth=growth)
+        return uncut
+    if uncut is None:
+        uncut = of_cells(Cells.of(scene.sheet, scene.material), grid)
+    uncut = replace(uncut, growth=growth)
     if cut:
-        whole = replace(_times(whole, clamped), per_area=whole.per_area)
+        uncut = replace(_scaled(uncut, clamped), per_area=uncut.per_area)
     if not scene.pierced:
-        return whole
+        return uncut
     share = shares_of(scene.region, lines[0].at, lines[1].at)
     # a held area beyond the rim bends as part of the cell: `clamped` is the factor of the cell's free part
     held = [s for s in scene.supports if place(s) and not isinstance(s, Point) and held_axes(s) == (0, 1, 2)]
@@ -208,28 +208,28 @@ def sections_of(scene: Scene, grid: Grid, grading: Graded = 0.0) -> CellSection 
     if held:
         with_held = scene.region.union(union_of(held))
         bent = np.where(share > 0.0, shares_of(with_held, lines[0].at, lines[1].at), 0.0)
-    of_mass = _times(whole, share).per_area
+    of_mass = _scaled(uncut, share).per_area
     rims = oblique_rims(scene, lines, share)
-    return replace(_times(whole, bent), per_area=of_mass, rims=rims, share=share)
+    return replace(_scaled(uncut, bent), per_area=of_mass, rims=rims, share=share)
 
 
-def _as_if_whole(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> CellSection | None:
+def _without_outline(scene: Scene, grid: Grid, lines: tuple[Lines, Lines]) -> CellSection | None:
     """Return the sections of cells as if the sheet had no outline, or None for a uniform isotropic sheet."""
     if scene.uniform:
         return None
     if scene.homogeneous:
         return of_cells(Cells(**vars(of_sheet(scene))), grid)
-    x, y = (_divided(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
-    sections = [_times(CellSection.of(part.constants), part.share) for part in parts_between(scene, x, y)]
+    x, y = (_division_lines(side, at) for side, at in zip(lines, sides_of(scene), strict=True))
+    sections = [_scaled(CellSection.of(part.constants), part.share) for part in parts_between(scene, x, y)]
     total = sum(sections[1:], sections[0])
-    places = (_places(fine, side) for fine, side in zip((x, y), lines, strict=True))
+    places = (_divisions(fine, side) for fine, side in zip((x, y), lines, strict=True))
     (along_x, over_x), (along_y, over_y) = places
     by_rows = _in_series(_in_series(total, 0, along_x, over_x), 1, along_y, over_y)
     by_columns = _in_series(_in_series(total, 1, along_y, over_y), 0, along_x, over_x)
-    return _times(by_rows + by_columns, np.array(0.5))
+    return _scaled(by_rows + by_columns, np.array(0.5))
 
 
-def _divided(lines: Lines, sides: np.ndarray) -> np.ndarray:
+def _division_lines(lines: Lines, sides: np.ndarray) -> np.ndarray:
     """Return the places [m] of the lines, of DIVISIONS − 1 lines within each cell, and of the parts'
     sides."""
     within = lines.at[:-1, None] + np.outer(lines.widths, np.arange(DIVISIONS) / DIVISIONS)
@@ -238,14 +238,14 @@ def _divided(lines: Lines, sides: np.ndarray) -> np.ndarray:
     return np.sort(np.concatenate([finer, sides[~on_line]]))
 
 
-def _places(fine: np.ndarray, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
+def _divisions(fine: np.ndarray, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
     """Return the index of each cell's first division, and the share of each division in its cell."""
     begin = np.searchsorted(fine, lines.at[:-1])
     counts = np.diff(np.append(begin, len(fine) - 1))
     return begin, np.diff(fine) / np.repeat(lines.widths, counts)
 
 
-def _times(section: CellSection, factor: np.ndarray) -> CellSection:
+def _scaled(section: CellSection, factor: np.ndarray) -> CellSection:
     return section.each(lambda part: part * factor.reshape(*factor.shape, *(1,) * (part.ndim - factor.ndim)))
 
 

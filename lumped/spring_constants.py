@@ -91,7 +91,7 @@ class Springs:
         written: dict[str, Any] = dict.fromkeys(REQUIRED, 0.0)
         for name, parts in self.of.items():
             of_edges = name in EDGES_OWN
-            ends = [_written(part.ravel() if of_edges else part) for part in parts]
+            ends = [_table_value(part.ravel() if of_edges else part) for part in parts]
             both = Either.model_construct if of_edges else pair
             written[name] = both(**dict(zip("xyz", ends, strict=False))) if len(ends) > 1 else ends[0]
         return whole(**written, layer_distance=self.layer_distance)
@@ -170,7 +170,7 @@ class Springs:
         """Return the value of one constant (or layer_distance). Raises BadInput for an unknown name."""
         if name == "layer_distance":
             return self.layer_distance
-        family, which = self._named(name)
+        family, which = self._constant_of(name)
         return float(np.mean([part.mean() for part in self.of.get(family, NONE)[which]]))
 
     def changed(self, name: str, value: float) -> Springs:
@@ -178,12 +178,12 @@ class Springs:
         name."""
         if name == "layer_distance":
             return replace(self, layer_distance=value)
-        (family, which), was = self._named(name), self.value(name)
+        (family, which), was = self._constant_of(name), self.value(name)
         parts, shift = [*self.of.get(family, NONE)], family in SIGNED or was == 0.0
         parts[which] = [part + (value - was) if shift else part * (value / was) for part in parts[which]]
         return replace(self, of={**self.of, family: tuple(parts)})
 
-    def _named(self, name: str) -> tuple[str, slice]:
+    def _constant_of(self, name: str) -> tuple[str, slice]:
         """Return the constant of a name, and the slice of its directions."""
         if name in CONSTANTS:
             return name, slice(None)
@@ -201,7 +201,7 @@ def _parts(value: Any) -> Iterator[tuple[str, Any]]:
         yield "", value
 
 
-def _written(cells: np.ndarray) -> Any:
+def _table_value(cells: np.ndarray) -> Any:
     """Return an array as a number, or a row or rows of numbers."""
     if cells.size == 1 or not cells.any():
         return float(cells.flat[0])

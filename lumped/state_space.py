@@ -29,8 +29,21 @@ MOST = 1000  # states with dense Gramians: some ten seconds
 
 @dataclass(frozen=True, eq=False)
 class StateSpace:
-    """State space A (s, s), B, C, D; frequencies [Hz]: undamped ones of modes, |poles|/2π of a reduced
-    system."""
+    """A linear system ẋ = A x + B w, y = C x + D w.
+
+    Parameters
+    ----------
+    a : ndarray of shape (s, s)
+        Matrix A [1/s].
+    b : ndarray of shape (s, inputs)
+        Matrix B, in units of the states per second and of the inputs.
+    c : ndarray of shape (outputs, s)
+        Matrix C, in units of the outputs and of the states.
+    d : ndarray of shape (outputs, inputs)
+        Matrix D, in units of the outputs and of the inputs.
+    frequencies : ndarray of shape (k,)
+        Frequencies [Hz], undamped ones of modes, |poles|/2π of a reduced system.
+    """
 
     a: np.ndarray
     b: np.ndarray
@@ -73,8 +86,17 @@ class StateSpace:
 
 @dataclass(frozen=True, eq=False)
 class Balanced:
-    """A balanced reduced system. space: of the states kept; hankel: (s,) σ of all states, the largest first;
-    scale: W of the inputs (inputs,) [their units/m]."""
+    """A reduced system by balanced truncation.
+
+    Parameters
+    ----------
+    space : StateSpace
+        System of the states kept.
+    hankel : ndarray of shape (s,)
+        Hankel's singular values σ of all states, falling.
+    scale : ndarray of shape (inputs,)
+        Scale W of the inputs [units of the inputs/m].
+    """
 
     space: StateSpace
     hankel: np.ndarray
@@ -115,14 +137,14 @@ def _balanced(space: StateSpace, order: int | None, tolerance: float | None) -> 
     weight = np.sqrt(hankel[:minimal])
     to, back = observation @ left[:, :minimal] / weight, control @ right.T[:, :minimal] / weight
     a, b, c = to.T @ space.a @ back, to.T @ space.b, space.c @ back
-    kept, rest = slice(0, order), slice(order, minimal)
-    follow = np.linalg.solve(a[rest, rest], np.hstack([a[rest, kept], b[rest]]))
-    small_a = a[kept, kept] - a[kept, rest] @ follow[:, :order]
+    retained, truncated = slice(0, order), slice(order, minimal)
+    follow = np.linalg.solve(a[truncated, truncated], np.hstack([a[truncated, retained], b[truncated]]))
+    small_a = a[retained, retained] - a[retained, truncated] @ follow[:, :order]
     small = StateSpace(
         small_a,
-        b[kept] - a[kept, rest] @ follow[:, order:],
-        c[:, kept] - c[:, rest] @ follow[:, :order],
-        space.d - c[:, rest] @ follow[:, order:],
+        b[retained] - a[retained, truncated] @ follow[:, order:],
+        c[:, retained] - c[:, truncated] @ follow[:, :order],
+        space.d - c[:, truncated] @ follow[:, order:],
         np.sort(np.abs(np.linalg.eigvals(small_a))) / (2.0 * np.pi),
     )
     if small.poles.real.max() >= 0.0:

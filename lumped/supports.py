@@ -7,8 +7,7 @@ held     the mean of the layers held in the named components
 curved   every layer held on the director of the rod
 symmetric  the component across the edge held, in every layer
 
-The places of bent and tilted edges at a load factor λ are defined by the scene
-(`scenes.meaning.kinematics`).
+The places of bent and tilted edges at a load factor λ are defined by the scene (`scenes.meaning.kinematics`).
 """
 
 from __future__ import annotations

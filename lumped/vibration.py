@@ -37,8 +37,23 @@ COINCIDENT = 1e-6  # relative difference up to which two frequencies coincide
 
 @dataclass(frozen=True, repr=False)
 class Modes(NaturalModes):
-    """Natural modes of a lattice. Shapes are displacements of the masses of `lattice`, with the largest
-    component 1; gradient_of: derivatives of the frequency of a mode by number."""
+    """Natural modes of a lattice.
+
+    Parameters
+    ----------
+    frequencies : ndarray of shape (count,)
+        Natural frequencies [Hz], rising.
+    shapes : ndarray of shape (count, n, 3)
+        Displacements of the masses, with the largest component 1.
+    rigid : int
+        Number of rigid motions, which are left out.
+    unknowns : int
+        Number of free unknowns.
+    lattice : Lattice
+        Lattice of the masses.
+    gradient_of : callable, optional
+        Function of a mode's number that returns the derivatives of its frequency.
+    """
 
     lattice: Lattice
     gradient_of: Callable[[int], Any] | None = None
@@ -132,7 +147,7 @@ def modes(
                 "of a per-direction law have none"
             )
         at = stable_equilibrium(problem).u
-    rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # obstacles stop those of an equilibrium
+    rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # an equilibrium has none
     unknowns = problem.system.unknowns
     if not 1 <= count <= unknowns - rigid:
         raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")
@@ -157,12 +172,12 @@ def modes(
     loaded = about == "deformed"
     bare = scene if loaded else scene.replace(loads=(), gravity=None)
     elastic = values[rigid:], vectors[:, rigid:]
-    gradient = partial(_gradient, bare, calibration, at, loaded, shared, *elastic)
+    gradient = partial(_frequency_gradient, bare, calibration, at, loaded, shared, *elastic)
     gradient_of = None if problem.prestrained and not loaded else gradient
     return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice, gradient_of)
 
 
-def _gradient(
+def _frequency_gradient(
     scene: Scene,
     calibration: Calibration,
     u: np.ndarray,

@@ -19,6 +19,7 @@ from comparisons.comparison.crosscheck_answer import Crosscheck
 from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.comparison.simulation import Simulation
 from comparisons.identification.answer import Identification
+from comparisons.identification.field import FieldIdentification
 from comparisons.identification.measurements import Displacements as Displacements
 from comparisons.identification.tensile.tensile import TensileFit
 from comparisons.models.catalogue import Catalogue

@@ -45,7 +45,7 @@ def writing(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        if error.errno not in REMEDIES or _elsewhere(error.filename, path):
+        if error.errno not in REMEDIES or _is_elsewhere(error.filename, path):
             raise
         reason = (error.strerror or str(error)).lower()
         raise BadInput(f"{path}: cannot be written, {reason}: {REMEDIES[error.errno]}") from error
@@ -57,7 +57,7 @@ def whole(path: Path) -> Iterator[Path]:
     partial = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
     with writing(path):
         require_file(path)
-        _clear(path)
+        _remove_partial_files(path)
         partial.unlink(missing_ok=True)  # of a killed writer that had this process's number
         os.close(os.open(partial, os.O_CREAT | os.O_EXCL | NOT_FOLLOWED, 0o666))
         try:
@@ -99,23 +99,23 @@ def only_writer(folder: Path) -> Iterator[None]:
         yield
 
 
-def _elsewhere(named: object, path: Path) -> bool:
+def _is_elsewhere(named: object, path: Path) -> bool:
     """Return whether an error names a file outside the folder of `path` and its parents."""
     if not isinstance(named, str):
         return False
     return Path(named).parent != path.parent and not path.is_relative_to(named)
 
 
-def _clear(path: Path) -> None:
+def _remove_partial_files(path: Path) -> None:
     """Remove the temporary files of killed writers of a path."""
     for name in os.listdir(path.parent):
         match = PARTIAL.fullmatch(name)
         same = match and (match["stem"], match["suffix"] or "") == (path.stem, path.suffix)
-        if match and same and not _lives(int(match["process"])):
+        if match and same and not _is_alive(int(match["process"])):
             (path.parent / name).unlink(missing_ok=True)
 
 
-def _lives(process: int) -> bool:
+def _is_alive(process: int) -> bool:
     try:
         os.kill(process, 0)
     except ProcessLookupError:

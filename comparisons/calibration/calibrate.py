@@ -13,7 +13,6 @@ from warnings import warn
 
 import lumped
 from comparisons.calibration import damping
-from comparisons.calibration.damping import UNDAMPED
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import choice_notes
 from comparisons.models.quantities import checked
@@ -33,6 +32,7 @@ from sheetbench.scenes.language.toml import dumps
 from sheetbench.scenes.meaning.plausibility import material_slips, sheet_slips
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.grading import as_settings
+from sheetbench.scenes.objects.material import UNDAMPED
 
 DENSITY = 1000.0  # kg/m³, unless given
 NEEDED = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}

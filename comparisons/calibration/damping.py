@@ -61,13 +61,6 @@ def keys(
 
 
 SERIES = {"frequency": "Hz", "storage": "Pa", "loss": "Pa", "tan_delta": "", "time": "s", "modulus": "Pa"}
-UNDAMPED: dict[str, Any] = {
-    "damping_time": 0.0,
-    "loss_factor": None,
-    "frequency": None,
-    "band": None,
-    "relaxation": (),
-}
 
 
 def tables(material: Material) -> tuple[Table, ...]:

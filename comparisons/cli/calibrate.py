@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from comparisons.cli.options import Kind, LatticeOptions, Metres, SheetOptions
 from comparisons.cli.output import OutputOptions, command_line
@@ -99,6 +99,7 @@ def command(
     from comparisons.codes.table import CODES
     from comparisons.models.sizes import require_room
     from lumped import Calibration
+    from sheetbench.answers.report import Write
     from sheetbench.errors import BadInput, require_choice, require_effect
 
     require_effect("without --cell or --from", {"--spacing": (cell or from_) is None and spacing})
@@ -149,9 +150,8 @@ def command(
             line = command_line(output.verb, output.terminal)
             out.notes.append(exchange.export(export, loaded, springs, line, output.overwrite))
         values = {entry.name: getattr(springs, entry.name) for entry in fields(Calibration)}
-        no_files: tuple[dict[str, Any], list[str]] = ({}, [])
-        files = (
-            no_files if for_ is None else exchange.lattice_files(loaded, springs, for_, precision or "double")
-        )
+        files: tuple[dict[str, Write], list[str]] = ({}, [])
+        if for_ is not None:
+            files = exchange.lattice_files(loaded, springs, for_, precision or "double")
         answer = SheetCalibration(**values, found=springs, scene=loaded, expected=estimate, lattice=files)
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(material) if toml else None)

@@ -18,7 +18,11 @@ if TYPE_CHECKING:
 FRAMES = 100  # of a motion
 
 
-@no_effect(with_duration="branch settle", with_settle="branch uncertainty", without_duration="every animate")
+@no_effect(
+    with_duration="branch settle sensitivity",
+    with_settle="branch uncertainty",
+    without_duration="every animate",
+)
 def command(
     scene: str,
     lattice: LatticeOptions,
@@ -30,6 +34,7 @@ def command(
     uncertainty: bool | None = None,
     branch: str | None = None,
     settle: bool = False,
+    sensitivity: list[str] | None = None,
     duration: Seconds = None,
     every: Seconds = None,
     animate: bool = False,
@@ -52,6 +57,8 @@ def command(
             path.
         settle: Start both models from the end of a strongly damped motion: for thin sheets, which fold before
             statics reach the full load.
+        sensitivity (NAMES): Parameters of the scene (young, thickness, load1.force.z): a column each, the
+            change of every probe's displacement by 1 % more of it.
         duration (S): Compare the motion over this time, from rest.
         every (S): Time between samples (with --duration). Default: 1/100 of the lowest period.
         animate: Draw an animation of both sheets side by side (with --duration and --out).
@@ -94,4 +101,4 @@ def command(
 
         with running(solved=keep):
             comparison = compare(loaded, spec, uncertainty=uncertainty, settle=settle, **shared)
-        return out.show(comparison)
+        return out.show(replace(comparison, sensitive_to=tuple(sensitivity or ())))

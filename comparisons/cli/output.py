@@ -146,7 +146,7 @@ class Output:
         notes = list[str]()
         if (spent := clock.compiled()) > COMPILED:
             notes.append(
-                f"Kernels were compiled, once on this machine: {spent:.3g} s, not part of the times shown."
+                f"Kernels were compiled, once on this machine: {spent:.3g} s, not in the times shown."
             )
         count = len(report.notes) if console.verbose else report.notes_shown
         notes += report.notes[:count]

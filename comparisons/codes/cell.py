@@ -140,7 +140,7 @@ class Cell:
 
 
 def from_toml(path: Path) -> Cell:
-    """A cell of a file, with lengths in metres. Raises BadInput with the file and what is wrong."""
+    """A cell of a file, with lengths in metres. Raises BadInput with the file and the fault."""
     try:
         data: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
         if unknown := set(data) - KEYS:
@@ -293,7 +293,7 @@ def _equilateral() -> _Parts:
 
 
 def _unstructured() -> _Parts:
-    """Delaunay triangles of points of a grid that are moved at random, the same ones on every machine."""
+    """Delaunay triangles of points of a grid that are moved at random, alike on every machine."""
     grid = np.array([[i, j] for i in range(SIDE) for j in range(SIDE)], dtype=float)
     points = (grid + JITTER * np.random.default_rng(SEED).uniform(-1.0, 1.0, grid.shape)) % SIDE
     tiles = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]

@@ -85,7 +85,7 @@ def description(scene: Scene, of: Program) -> str:
 
 
 def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
-    """Return the place in a unit and the content of a library for this machine; None without a compiler."""
+    """Return a library for this machine, its place in a unit and its content, or None without a compiler."""
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     system = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib")}.get(sys.platform)
     if compiler is None or system is None:
@@ -101,7 +101,7 @@ def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
 
 
 def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[dict[str, Write], list[str]]:
-    """Return the file of `--for fmu`, and what is missing in it. Raises BadInput as `program`."""
+    """Return the file of `--for fmu`, and its missing parts. Raises BadInput as `program`."""
     of = program(scene, calibration, precision)
     sources = {name: of.texts[name] for name in ("sheet.h", "sheet.c")} | {"fmi3.c": script("fmi3.c")}
     content: dict[str, str | bytes] = {"modelDescription.xml": description(scene, of)}

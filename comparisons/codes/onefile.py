@@ -53,7 +53,7 @@ def program(
     scene: Scene, calibration: Calibration, precision: str = "double", steps: int = CHECKED
 ) -> Program:
     """Return a scene's lattice in motion as a program in C, with the longest of some steps whose run of so
-    many of them succeeds. Raises BadInput for what it has not, and where none does."""
+    many of them succeeds. Raises BadInput for features that the program lacks, and if no run succeeds."""
     require_choice("--precision", precision, tuple(PRECISIONS))
     system, start = lumped.in_motion(scene, calibration)
     scene = system.problem.scene
@@ -153,9 +153,8 @@ def add_springs(tables: Tables, system: System) -> None:
 
 
 def add_masses(tables: Tables, system: System) -> None:
-    """Add what the masses of a column share, along each axis: their motion for forces on them, as supports
-    leave it free, and their momentum; what damps them, whom they move with, and how the supports' forces add
-    up."""
+    """Add matrices of columns of masses along each axis, from forces to free accelerations and from
+    velocities to momenta; masses' damping, the supports that move them, and sums of the supports' forces."""
     import scipy.sparse as sp
 
     constraints, (p, n) = (
@@ -224,7 +223,7 @@ def add_loads(tables: Tables, system: System, calibration: Calibration) -> None:
 
 def add_contact(tables: Tables, system: System) -> tuple[int, int]:
     """Add obstacles and the points of the mid-surface that may touch them, on planes columns of masses, else
-    nine of each part of a cell. Return how many points and parts there are."""
+    nine of each part of a cell. Return the numbers of points and parts."""
     bodies, groups = [np.empty(0, int)], [np.empty((0, 9), int)]
     columns, rows = [np.empty((0, 4), int)], [np.empty((0, 7))]
     for number, contact in enumerate(system.problem.contacts):
@@ -265,9 +264,10 @@ def add_contact(tables: Tables, system: System) -> tuple[int, int]:
 
 
 def add_growth(tables: Tables, system: System) -> int:
-    """Add how what springs measure without stress depends on the factors of natural states: a quadratic form,
-    found from its values. Return how many measures there are, 0 of a sheet that is flat at rest."""
-    state, entries, size = system.assembly.natural, [], 0
+    """Add the springs' measures without stress as a quadratic form of the factors of natural states, found
+    from its values. Return the number of measures, 0 of a sheet that is flat at rest."""
+    state: Any = system.assembly.natural
+    entries, size = [], 0
     extra = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
 
     def measured(*sources: tuple[int, float]) -> np.ndarray:

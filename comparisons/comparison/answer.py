@@ -9,7 +9,9 @@ from math import hypot
 from pathlib import Path
 from typing import Annotated, Any
 
-from comparisons.comparison.errors import Compared
+import numpy as np
+
+from comparisons.comparison.errors import ROUND_OFF, Compared
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.pictures.array_files import write_mesh
@@ -30,6 +32,7 @@ from sheetbench.answers.table import (
     Table,
 )
 from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.parameters import parameter
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
 
@@ -44,7 +47,8 @@ FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 
 @dataclass(frozen=True)
 class ProbeRow:
-    """Displacement of a probe by a model [m], its difference from the reference, and the reference's bar."""
+    """Displacement of a probe by a model [m], its difference from the reference, the
+    reference's bar, and relative changes by 1 % of parameters."""
 
     probe: str
     x: Annotated[float, MILLIMETRES(".4g", detail=True)]
@@ -53,6 +57,7 @@ class ProbeRow:
     displacement: dict[Column, float]
     difference: Annotated[float | None, PERCENT("z.2f")]
     bar: Annotated[float | None, PERCENT(".2g", "±")]
+    sensitivity: dict[Column, float | None]
 
 
 @dataclass(frozen=True)
@@ -83,8 +88,10 @@ def settling(scene: Scene) -> str:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Compared, Answer):
-    """A comparison of solutions with its document, tables, figures, files and notes."""
+    """A comparison of solutions with its document, tables, figures, files and notes; sensitive_to: names of
+    parameters by which the probes' derivatives are shown."""
 
+    sensitive_to: tuple[str, ...] = ()
     file_name, page_name, notes_shown = "comparison", "table", 1
 
     @property
@@ -99,6 +106,7 @@ class Comparison(Compared, Answer):
             "apart": self.disagreement,
             "sentence": self.sentence,
             "differences": [asdict(difference) for difference in self.differences],
+            **({"sensitivities": self.sensitivities} if self.sensitive_to else {}),
             "errors": [
                 {
                     "of": solution.model,
@@ -173,15 +181,38 @@ class Comparison(Compared, Answer):
         moved |= {name for solution in self.solutions for name in solution.contacts}
         return self._displacements(), self._costs(sorted(moved))
 
+    @cached_property
+    def sensitivities(self) -> dict[str, dict[str, dict[str, float | None]]]:
+        """Relative change of each probe's |u| by 1 % of a parameter (d|u|/dθ · θ/100|u|), by model, parameter
+        and probe, for models with derivatives. Raises BadInput for unknown parameters."""
+        found: dict[str, dict[str, dict[str, float | None]]] = {}
+        named = {name: parameter(self.scene, name) for name in self.sensitive_to}
+        for solution in self.solutions:
+            if solution.sensitivity is None or solution.status is not Status.CONVERGED:
+                continue
+            of, points = solution.sensitivity(), self.scene.probe_points()
+            u = solution.displacement(points)
+            size = np.sum(u**2, axis=1)
+            still = size <= (ROUND_OFF * np.abs(u).max()) ** 2
+            found[solution.model] = {}
+            for name, one in named.items():
+                share = 0.01 * one.value * np.sum(u * of.moved_at(points, name), axis=1)
+                shares = zip(self.scene.probes, share / np.where(still, 1.0, size), still, strict=True)
+                found[solution.model][name] = {n: None if held else float(by) for n, by, held in shares}
+        return found
+
     def _displacements(self) -> Table:
         differences = {(d.probe, d.of): d.relative for d in self.differences}
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
         models = [(s.model, self.probes(s)) for s in ordered]
         bars = {(probe, self.reference.model): bar for probe, bar in self.relative_bars.items()}
+        columns = {name: PERCENT("z.2f", f"by 1 % of {name}") for name in self.sensitive_to}
+        of = {model: self.sensitivities.get(model, {}) for model, _ in models} if columns else {}
         rows = (
             ProbeRow(
                 *(probe, x, y, name, dict(zip(COMPONENTS, u[probe].tolist(), strict=True))),
                 *(differences.get((probe, name)), bars.get((probe, name))),
+                {column: of[name].get(key, {}).get(probe) for key, column in columns.items()},
             )
             for probe, (x, y) in self.scene.probes.items()
             for name, u in models

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.calibration.damping import UNDAMPED
 from comparisons.comparison.branches import shape
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import simulate
@@ -28,6 +27,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import mass_of
 from sheetbench.scenes.meaning.motion import kinks
 from sheetbench.scenes.meaning.region import resultant
+from sheetbench.scenes.objects.material import UNDAMPED
 
 CREEPING, LONG, SAMPLES = 10.0, 1000.0, 100  # drag over ω; duration times ω; frames of the motion
 

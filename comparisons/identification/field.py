@@ -38,17 +38,23 @@ SUFFIX = "=field"
 FIELDS = ("young", "thickness", "density")
 STEPS, SMALL, LONGEST = 30, 1e-4, 1.0  # of p: the change that ends the search, the largest of a step
 SMOOTHING = (-8.0, 8.0)  # log₁₀ of α beside its size that gives both terms the same weight
-COLUMNS = (*(MILLIMETRES(".1f", axis) for axis in "xy"), "unit", NUMBER(".4g", "value"))
-COLUMNS += (NUMBER(".2g", "± of noise"), MILLIMETRES(".0f", "resolved"))
-SUMMARY = ("unknown", "numbers told", MILLIMETRES(".0f", "resolved"), "unit")
-SUMMARY += tuple(NUMBER(".4g", name) for name in ("least", "median", "most"))
+RESOLVED = MILLIMETRES(".0f", "resolved")
+COLUMNS = (
+    *(*(MILLIMETRES(".1f", axis) for axis in "xy"), "unit", NUMBER(".4g", "value")),
+    *(NUMBER(".2g", "± of noise"), RESOLVED),
+)
+SUMMARY = (
+    *("unknown", "numbers told", RESOLVED, "unit"),
+    *(NUMBER(".4g", name) for name in ("least", "median", "most")),
+)
 
 
 @dataclass(frozen=True, repr=False)
 class FieldIdentification(Answer):
-    """Of cells (rows, columns), nan where there are none: values, deviation: the standard deviation that
-    noise gives them, resolved: the side [m] of the square whose mean each is; centres (rows, columns, 2) [m];
-    chi: χ²/m of m numbers; told: how many numbers the data tell; start: the scene's own value."""
+    """Values of a parameter in cells (rows, columns), nan where there is no cell. deviation: standard
+    deviation of the values from noise; resolved: side [m] of the square that each value is the mean of;
+    centres: (rows, columns, 2) [m]; chi: χ²/m of m numbers; told: number of values that the data determine;
+    start: the scene's value."""
 
     file_name = "identification"
     scene: Scene
@@ -71,9 +77,11 @@ class FieldIdentification(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row a cell, after one of all of them."""
-        parts = self.centres, self.values, self.deviation, self.resolved
-        parts = zip(*(part[np.isfinite(self.values)].tolist() for part in parts), strict=True)
-        rows = [(*at, unit(self.unit), *numbers) for at, *numbers in parts]
+        present = np.isfinite(self.values)
+        parts = (
+            part[present].tolist() for part in (self.centres, self.values, self.deviation, self.resolved)
+        )
+        rows = [(*at, unit(self.unit), *numbers) for at, *numbers in zip(*parts, strict=True)]
         return (*self.printed(), Table.listed(f"{self.name} of the cells", COLUMNS, rows, "field"))
 
     def printed(self) -> tuple[Table, ...]:
@@ -157,7 +165,9 @@ def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> F
     own, chi, trace = parameter(scene, name), float(left @ left / count), float(np.trace(resolution))
     centres = np.stack(np.meshgrid(*middles), axis=-1)
     shown = scene, name, own.unit, own.value, model.settings, centres
-    return FieldIdentification(*shown, *of_cells, chi, float(smoothing), trace, evaluations, converged)
+    result, deviation, resolved = of_cells
+    ending = chi, float(smoothing), trace, evaluations, converged
+    return FieldIdentification(*shown, result, deviation, resolved, *ending)
 
 
 def _roughness(there: np.ndarray, widths_x: np.ndarray, widths_y: np.ndarray) -> np.ndarray:

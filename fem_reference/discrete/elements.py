@@ -59,13 +59,11 @@ class DiscreteElements(Discrete):
     def stiffness(
         self, shape: SheetShape, moduli: np.ndarray, stress: np.ndarray, residual: np.ndarray, by_a: float
     ) -> np.ndarray:
-        """Return data of the elements' K + `by_a` M and of the constraints' stiffness under a residual
-        (N,)."""
+        """Return data of the elements' K + `by_a` M, with the constraints' stiffness under a residual."""
 
     @abstractmethod
     def fold(self, shape: SheetShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
-        """Return derivatives (k, b, b) by the unknowns, of derivatives (k, 18, 3, 18, 3) of forces on φ and d
-        at elements `on`."""
+        """Return derivatives (k, b, b) by unknowns from (k, 18, 3, 18, 3), of forces on elements `on`."""
 
     @abstractmethod
     def onto_rods(self, shape: SheetShape) -> np.ndarray:
@@ -131,8 +129,7 @@ class DiscreteElements(Discrete):
         by_v: float = 0.0,
         move: np.ndarray | None = None,
     ) -> tuple[csr_matrix, np.ndarray]:
-        """Return the tangent under stresses of elements and rods, and its product (N,) with a step `move`
-        (N,)."""
+        """Return the tangent under given stresses, and its product (N,) with a step `move` (N,)."""
         data = self.stiffness(shape, moduli, stress, residual, by_a + self.alpha * by_v)
         slots, element, product = self.pattern.slots, self.element, np.zeros(self.size)
         if move is not None:
@@ -189,8 +186,7 @@ class DiscreteElements(Discrete):
         return self.scale[body.rows].reshape(body.elements.reference.shape)
 
     def summed(self, shape: SheetShape) -> float:
-        """Return Σ |B| |s| [N] of elements and rods, the magnitudes of the forces' terms; on directors over
-        the lever."""
+        """Return Σ |B| |s| [N], the magnitudes of the forces' terms, on directors over the lever."""
         magnitudes = self.element.magnitudes(shape.operator, shape.elastic)
         total = float((magnitudes / self.scale[3 * self.sites[0]]).sum())
         for body in self.bodies:

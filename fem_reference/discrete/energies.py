@@ -25,8 +25,7 @@ class SheetMotion:
 
 
 def energies(sheet: DiscreteElements, motion: SheetMotion) -> tuple[float, float, float]:
-    """Return kinetic, elastic and potential energy [J] of a motion; potential: of constant dead loads and
-    storing items."""
+    """Return kinetic, elastic and potential energy [J] of a motion, with the energy of storing items."""
     q, v, time = motion.q, motion.v, motion.time
     shape = sheet.shape(q, time, v)
     potential = sum(item.stored(shape) for item in sheet.items)

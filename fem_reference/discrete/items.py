@@ -1,5 +1,4 @@
-"""Items that act on a sheet: each brings its own force and tangent, summed by one loop in statics, motion and
-modes.
+"""Items that act on a sheet: each brings its force and tangent, summed in statics, motion and modes.
 
 An item reads a `SheetShape` and acts on all coordinates or, like the loads of `surface.loads`, on position
 and director at the nodes of the plan's elements. No other class depends on an item's kind.
@@ -20,8 +19,8 @@ Tangent = tuple[np.ndarray, np.ndarray]  # elements (k,) of the plan, and their 
 
 
 class SheetItem(Protocol):
-    """Item with a force; the other methods have defaults. conservative: has a potential, so that its tangent
-    is symmetric."""
+    """Item with a force; other methods have defaults. conservative: it has a potential, a symmetric
+    tangent."""
 
     conservative: bool = True
 
@@ -29,8 +28,7 @@ class SheetItem(Protocol):
         """Return the force on the coordinates (N,)."""
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
-        """Return the derivative of the force by the surface's vectors, None for a force that does not depend
-        on them."""
+        """Return the force's derivative by the surface's vectors, None for a constant force."""
         return None
 
     def damping(self, shape: SheetShape) -> Tangent | None:
@@ -38,8 +36,7 @@ class SheetItem(Protocol):
         return None
 
     def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Return places (…, 3) [m] and forces (…, 3) [N] with which the item holds the sheet, by name; none
-        of a load."""
+        """Return places and forces (…, 3) [m], [N] with which the item holds the sheet, by name."""
         return {}
 
     def potential(self, shape: SheetShape) -> float:

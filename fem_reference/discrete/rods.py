@@ -121,8 +121,7 @@ class Rods:
         return np.einsum("es,esic->eic", np.abs(stress), np.abs(self._gradient(self.gather(q))))
 
     def dragged(self, shape: SheetShape, drag: float) -> Rods:
-        """Return rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from a shape's strains
-        e_n."""
+        """Return rods of stresses (1 + σ) S e − σ S e_n − S e₀, a step of creep from a shape's e_n."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)
         stiffness, intrinsic = (1.0 + drag) * self.elements.stiffness, past[..., None] / (1.0 + drag)

@@ -155,8 +155,8 @@ class Discrete(ABC):
     # prescribed displacements and the unknowns
 
     def instant(self, at: float) -> tuple[float, float | None]:
-        """Return the load factor of bent and tilted edges, and the time [s] of moved edges, None for the end
-        of their motion."""
+        """Return the load factor of bent and tilted edges, and the time [s] of moved ones, None at the
+        end."""
         return (1.0, at) if self.moving else (at, None)
 
     def jumps(self, time: float) -> bool:
@@ -189,8 +189,7 @@ class Discrete(ABC):
         return np.zeros_like(q)
 
     def of_supports(self, exerted: np.ndarray) -> np.ndarray:
-        """Return the part (N,) of M ü + g that supports and motions exert; it vanishes along free
-        coordinates."""
+        """Return the part (N,) of M ü + g that supports and motions exert, zero along free coordinates."""
         return exerted
 
     # forces
@@ -228,12 +227,10 @@ class Discrete(ABC):
     @property
     @abstractmethod
     def onto_surface(self) -> csr_matrix:
-        """Constant derivatives (6 n, N) of the nodes' positions φ, then their directors d, by the
-        coordinates."""
+        """Derivatives (6 n, N), constant, of nodes' positions φ, then directors d, by the coordinates."""
 
     def on_coordinates(self, dead: np.ndarray) -> np.ndarray:
-        """Return forces (N,) from dead forces on the mid-surface (n, 3), or on the mid-surface and its
-        directors (2 n, 3)."""
+        """Return forces (N,) from dead forces on the mid-surface (n, 3), or on it and directors (2 n, 3)."""
         return np.asarray(self.onto_surface.T @ np.append(dead, np.zeros(6 * self.nodes - dead.size)))
 
     @abstractmethod
@@ -267,13 +264,11 @@ class Discrete(ABC):
         return q[: self.first_director].reshape(-1, 3)
 
     def middles(self, displacement: np.ndarray) -> np.ndarray:
-        """Return displacements (n, 3) [m] of the plan's nodes on the mid-surface, from displacements of all
-        nodes."""
+        """Return mid-surface displacements (n, 3) [m] of the plan's nodes from displacements of all nodes."""
         return displacement
 
     def sample(self, displacement: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Return the mid-surface displacement (p, 3) [m] at plan points (p, 2) [m], from displacements of all
-        nodes."""
+        """Return mid-surface displacements (p, 3) [m] at plan points (p, 2) [m] from all nodes'."""
         return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
 
     def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:

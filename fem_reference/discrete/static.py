@@ -104,8 +104,7 @@ class Static(Creeping[StaticState, Forces]):
         return float(np.linalg.norm(reduced, self.sheet.norm))
 
     def gap(self, state: StaticState, load_factor: float) -> float:
-        """Return the largest distance from prescribed displacements over the sheet's size, or change of a
-        director."""
+        """Return the largest distance from prescribed displacements over the sheet's size."""
         step = self.sheet.short(self.shape(state, load_factor)) * self.sheet.scale
         return float(np.abs(step).max() / self.sheet.lever)
 

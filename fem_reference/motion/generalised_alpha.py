@@ -1,10 +1,9 @@
-"""Generalised-α integration of a reference (`sheetbench.numerics.time.rule`), its step controlled by the
-error.
+"""Generalised-α of a reference (`sheetbench.numerics.time.rule`), its step controlled by the error.
 
 Equilibrium at a step's end is M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁). A step ends where a prescribed velocity jumps;
 its impulse is passed on to the free unknowns, and the next step begins with new accelerations.
 
-Dampers then slow the shortest waves faster than any step resolves: the rule would answer with
+Just after a jump dampers slow the shortest waves faster than any step resolves: the rule would answer with
 oscillations of their strains that fall by ρ a step, and dampers would seem to dissipate many times the
 energy. So the first steps after it are backward Euler's, q₁ = q₀ + h v₁ and v₁ = v₀ + h a₁, which never
 oscillate. The first one is so short that it dissipates `TAKEN` of the kinetic energy; they go on until their

@@ -1,6 +1,4 @@
-"""Observer of a reference's run: energies, probes, reactions and actuators' forces as rows, strains, inverted
-elements.
-"""
+"""Observer of a reference's run: energies, probes, reactions and actuators' forces as rows, and strains."""
 
 from __future__ import annotations
 
@@ -46,8 +44,7 @@ class ReferenceObserver:
         return table
 
     def inspect(self, samples: Sampled, count: int) -> tuple[np.ndarray, Fault | None]:
-        """Return stretches of the first samples before one with an inverted element, and the fault that it
-        is."""
+        """Return stretches of the first samples before one with an inverted element, and its fault."""
         stretches = np.empty(count)
         for i, motion in enumerate(samples.motions[:count]):
             if inverted := self._model.inside_out(motion.q):

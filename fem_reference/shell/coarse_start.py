@@ -83,8 +83,7 @@ def shaped(shape: Shape, sheet: DiscreteShell) -> Start[StaticState]:
 def _start(
     sheet: DiscreteShell, displacement: np.ndarray, turn: np.ndarray, strain: np.ndarray
 ) -> Start[StaticState]:
-    """Return the state with displacements and changes of directors (n, 3), which do not tilt where edges hold
-    the tilt, and with stresses of strains (m, 54)."""
+    """Return the state of displacements, directors (n, 3), upright along held tilts, and strains (m, 54)."""
     director = np.where(np.pad(sheet.supports.tilt, ((0, 0), (0, 1))), 0.0, turn + UP)
     director /= np.linalg.norm(director, axis=1, keepdims=True)
     q, static = sheet.of_vectors(displacement, director - UP), Static(sheet)
@@ -94,8 +93,7 @@ def _start(
 
 
 def at_nodes(nodes: np.ndarray, element_nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
-    """Return E (n, 2, 2) at the nodes of elements at (m, 9, 2) [m] with samples (m, 21); element_nodes: (m,
-    9)."""
+    """Return E (n, 2, 2) at the nodes, from elements' positions (m, 9, 2) [m] and samples (m, 21)."""
     along = zip(_TO_NODES.values(), np.split(strain, _ENDS[:-1], axis=1), strict=True)
     rr, ss, rs = (samples @ to_nodes.T for to_nodes, samples in along)
     tensor = np.moveaxis(np.array([[rr, rs], [rs, ss]]), (0, 1), (2, 3))

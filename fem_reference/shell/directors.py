@@ -10,8 +10,7 @@ from sheetbench.numerics.options import njit
 
 @njit
 def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """Return orthonormal T (n, 3, 2) with T ⊥ d. axes: number of the axis that is the first tangent (n,), −1
-    for any tangent."""
+    """Return orthonormal T (n, 3, 2) with T ⊥ d; axes: numbers of the first tangents (n,), −1 for any."""
     out = empty((len(directors), 3, 2))
     for n in range(len(directors)):
         x, y, z = directors[n, 0], directors[n, 1], directors[n, 2]
@@ -33,8 +32,7 @@ def to_unit(directors: np.ndarray) -> np.ndarray:
 
 
 def multiplier(directors: np.ndarray, couple: np.ndarray) -> np.ndarray:
-    """Return −(R_d · d)/(d · d) (n,) of residuals R_d (n, 3), the stiffness by the sphere's curvature of both
-    rotations."""
+    """Return −(R_d · d)/(d · d) (n,) of residuals R_d (n, 3), the sphere's curvature, on both rotations."""
     square = np.einsum("nc,nc->n", directors, directors)
     return -np.einsum("nc,nc->n", couple, directors) / square
 

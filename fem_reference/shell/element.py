@@ -65,8 +65,7 @@ ROUNDED = 1e-14  # slant of a side over the element's size below which it is rou
 
 
 def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return a and b (21, 9) of `fem_reference.shell.sampling`, and the shape functions' values there (21,
-    9)."""
+    """Return a and b (21, 9) of `sampling`, and the shape functions' values at the points (21, 9)."""
     first, second, values = [], [], []
     for grid, (a, b) in zip(GRIDS.values(), IN_PLANE, strict=True):
         value, slope = shape(*product_grid(*grid))
@@ -109,8 +108,7 @@ class Element:
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
-        """Return elements with nodes at plan positions (m, 9, 2) [m]. Raises BadInput if an element is
-        inverted."""
+        """Return elements with nodes at (m, 9, 2) [m]. Raises BadInput if one is inverted."""
         return cls(*built(nodes, *section))
 
     @cached_property
@@ -148,8 +146,7 @@ class Element:
         return np.asarray(sampling.forces_of(np.ascontiguousarray(operator), stress, TABLES))
 
     def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Return Σ s_k H_k δq (m, 18, 3) of a step (m, 18, 3) under stresses (m, 54): B is linear in the
-        vectors."""
+        """Return Σ s_k H_k δq (m, 18, 3) of a step under stresses (m, 54): B is linear in the vectors."""
         return self.forces(step, stress)
 
     def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:

@@ -47,8 +47,7 @@ class HyperelasticElement(Element):
 
     @classmethod
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
-        """Return elements with nodes at plan positions (m, 9, 2) [m]. Raises BadInput if an element is
-        inverted."""
+        """Return elements with nodes at (m, 9, 2) [m]. Raises BadInput if one is inverted."""
         linear, half = built(nodes, *section_of(material, thickness)), 0.5 * thickness
         return cls(*linear, law, material, *cartesian(nodes)[:3], half * _LEVELS, half * _SHARES)
 
@@ -100,8 +99,7 @@ class HyperelasticElement(Element):
         return out
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
-        """Return the energy [J] of strains e (m, 54): of the mid-surface's stretch, of bending (the rest), of
-        shear."""
+        """Return the energy [J] of strains e (m, 54): of stretch, of bending (the rest), of shear."""
         stretch, curvature = self._strains(strain)
         bent = self.law.thickness(self.material, stretch).value[..., None] * curvature
         total, membrane = (
@@ -123,8 +121,8 @@ class HyperelasticElement(Element):
         return self.law.response(self.material, strain)
 
     def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Triad:
-        """Return the transverse shear energy at every element's points, quadratic in γ unless the law is for
-        large strains."""
+        """Return the shear energy at every element's points, quadratic unless the law is for large
+        strains."""
         leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
         if not self.law.stands_any_strain:
             return linear(leaning)

@@ -97,8 +97,7 @@ def rubber(energy: Energy, poisson: float, strain: np.ndarray) -> Triad:
 
 
 def _thinning(energy: Energy, bulk: float, trace: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
-    """Return c − 1 with ∂W/∂c = 0 at tr C − 2 and ln det C; nan where Newton's method on ln c from J = 1
-    finds none."""
+    """Return c − 1 with ∂W/∂c = 0 at tr C − 2 and ln det C, by Newton's method on ln c from J = 1, or nan."""
     upper = np.log(np.maximum(1.0 + energy.limit - trace, 0.0)) if energy.limit else np.inf  # of ln c
     x = np.minimum(-logarithm, upper - 0.5)
     for _ in range(NEWTON_STEPS):

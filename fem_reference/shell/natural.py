@@ -16,8 +16,7 @@ from sheetbench.scenes.meaning.natural_state import natural_at
 
 
 def natural_strains(nodes: np.ndarray, e: np.ndarray, k: np.ndarray) -> np.ndarray:
-    """Return natural strains (m, 54) of elements with nodes (m, 9, 2) [m], from e0 and k0 (m, 21, 2, 2) at
-    the sites."""
+    """Return natural strains (m, 54) of elements at (m, 9, 2) [m] from e0, k0 (m, 21, 2, 2) at the sites."""
     forms = green(e), 0.5 * (green(e - k) - green(e + k))
     parts = [sampled(nodes, form) for form in forms]
     return np.pad(np.concatenate(parts, axis=1), ((0, 0), (0, STRAINS - BENDING.stop)))

@@ -37,8 +37,7 @@ def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> n
 
 @inner(fastmath=REORDERED)
 def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.ndarray) -> None:
-    """Write B (54, 18, 3) of one element into zeros; membrane strains leave the directors' part zero. at:
-    scratch (6, 54)."""
+    """Write B (54, 18, 3) of one element into zeros, without the zero parts; at: scratch (6, 54)."""
     _weighed(vectors, tables, at)
     for k in range(PLANE):
         b = PLANE + k
@@ -110,8 +109,7 @@ def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np
 
 @inner(fastmath=REORDERED)
 def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
-    """Write sums of one element's vectors (18, 3) with the tables, of positions and then of directors, (6,
-    54)."""
+    """Write sums (6, 54) of one element's vectors (18, 3) with the tables, positions then directors."""
     for row in range(6):
         v, total = vectors[9 * (row // 3) : 9 * (row // 3) + 9, row % 3], out[row]
         for k in range(len(total)):

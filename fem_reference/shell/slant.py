@@ -23,8 +23,7 @@ _ADJUGATE = np.array([[[0.0, 0.0], [0.0, 2.0]], [[2.0, 0.0], [0.0, 0.0]], [[0.0,
 
 
 def slant(poisson: float, strain: np.ndarray, leaning: np.ndarray) -> Triad:
-    """Return W and its derivatives by E and γ (…, 5), at E (…, 3) and γ (…, 2); thickness:
-    `laws.Law.thickness`."""
+    """Return W and derivatives by E and γ (…, 5), at E (…, 3) and γ (…, 2), in `Law.thickness`."""
     area, by_area, areas = determinant(strain)
     form = np.eye(2) + np.einsum("...k,kij->...ij", strain, _ADJUGATE)  # j² C⁻¹
     mixed = 2.0 * np.einsum("kij,...j->...ki", _ADJUGATE, leaning)

@@ -90,8 +90,7 @@ def _add_product(gradient: np.ndarray, weighed: np.ndarray, lower: np.ndarray) -
 
 @njit(inline="always")
 def _add_block(a: np.ndarray, i: int, k: int, b: np.ndarray, out: np.ndarray, columns: int) -> None:
-    """Add the part of the 3 × 3 block of a at i, k in the product a b to the first columns of its rows,
-    unless it is zero."""
+    """Add the product of the 3 × 3 block of a at i, k with rows of b to `out`, unless the block is zero."""
     a00, a01, a02 = a[i, k], a[i, k + 1], a[i, k + 2]
     a10, a11, a12 = a[i + 1, k], a[i + 1, k + 1], a[i + 1, k + 2]
     a20, a21, a22 = a[i + 2, k], a[i + 2, k + 1], a[i + 2, k + 2]

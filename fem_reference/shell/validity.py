@@ -34,8 +34,7 @@ FLAT = 1e-6  # share of the element's area in the flat sheet below which it coun
 
 
 def stretched(path: Path[StaticState, Forces]) -> Fault | None:
-    """Return the fault that rejects a step of a path; stretched elements are rejected only where stability is
-    lost."""
+    """Return the fault that rejects a step of a path; stretched elements count only if unstable."""
     shape = shape_of(path)
     element, thickness = shape.sheet.element, shape.sheet.scene.sheet.thickness
     fault = inspected(path)
@@ -45,8 +44,7 @@ def stretched(path: Path[StaticState, Forces]) -> Fault | None:
 
 
 def inverted(element: Element, change: np.ndarray) -> str:
-    """Return a sentence on the element that is turned inside out most, "" for none. change: of the elements'
-    vectors (m, 18, 3)."""
+    """Return a sentence on the element that is turned inside out most, by a change (m, 18, 3), or ""."""
     value, slope = AT_GAUSS
     current = element.reference + change
     along, across, director = slope[0] @ current[:, :9], slope[1] @ current[:, :9], value @ current[:, 9:]
@@ -60,15 +58,14 @@ def inverted(element: Element, change: np.ndarray) -> str:
 
 
 def stretch(element: Element, strain: np.ndarray, thickness: float) -> float:
-    """Return the largest (h κ/2) (b/l)² of all elements of strains (m, 54), κ the curvature along their
-    shorter side."""
+    """Return the largest (h κ/2) (b/l)² of strains (m, 54), κ along an element's shorter side."""
     sides, bent = element.sides, np.abs(_along(strain[:, BENDING])).max(axis=2)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
     return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
 
 
 def membrane_strain(element: Element, strain: np.ndarray) -> float:
-    """Return the mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1, of strains (m,
+    """Return the mid-surface's largest stretching √(1 + 2 E) − 1 along elements' sides, of strains (m,
     54)."""
     green = _along(strain[:, MEMBRANE]).mean(axis=2) / (0.5 * element.sides) ** 2
     return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))

@@ -174,8 +174,7 @@ class DiscreteSolid(DiscreteElements):
         return block_diagonal([*(shape.frame[nodes[:, i]] for i in range(3)), directors])
 
     def _stack(self, of_bricks: np.ndarray) -> np.ndarray:
-        """Return matrices (m, 3 s, 3 s) of stacks, summed from matrices (layers · m, 27, 3, 27, 3) of
-        bricks."""
+        """Return matrices (m, 3 s, 3 s) of stacks, sums of bricks' (layers · m, 27, 3, 27, 3)."""
         m, s = self.columns.stacks.shape
         out = np.zeros((m, s, 3, s, 3))
         for place, bricks in zip(self.columns.places, np.split(of_bricks, self.columns.layers), strict=True):
@@ -223,8 +222,7 @@ class DiscreteSolid(DiscreteElements):
         return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
 
     def stretch(self, shape: SheetShape) -> float:
-        """Return the largest change of length along an element's sides, √(1 + 2 E) − 1 of mean Green strain
-        E."""
+        """Return the largest stretching √(1 + 2 E) − 1 along elements' sides, E the mean Green strain."""
         places = (self.on_surface(q)[:, :9] for q in (np.zeros_like(shape.q), shape.q))
         rest, current = (np.sum(np.einsum("agi,eic->aegc", AT_GAUSS[1], at) ** 2, axis=3) for at in places)
         mean = (

@@ -172,8 +172,7 @@ class Bricks:
         return current / initial
 
     def energies(self, samples: np.ndarray) -> dict[str, float]:
-        """Return distortional ∫ W₀ dV and volumetric ∫ ½ Λ (π ϑ)² dV [J] of sampled strains (m, k), by
-        part."""
+        """Return ∫ W₀ dV and ∫ ½ Λ (π ϑ)² dV [J] of sampled strains (m, k), by part."""
         strain = self._at_points(samples)
         distortion = np.sum(self.volumes * self.law.distortion(self.material, strain).value)
         pressure = self._pressure(self.law.volume(strain).value)
@@ -191,8 +190,7 @@ class Bricks:
         return np.einsum("eqik,eq,eqi->ek", self.to_strain, self.volumes, stress, optimize=True)
 
     def pressure(self, samples: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Return Λ π ϑ at the Gauss points (m, q) [Pa], linear in the step (m, k) from sampled strains (m,
-        k)."""
+        """Return Λ π ϑ (m, q) [Pa] at the Gauss points, linear in a step (m, k) from strains (m, k)."""
         volume = self.law.volume(self._at_points(samples))
         return self._pressure(volume.value + np.einsum("eqi,eqi->eq", volume.first, self._at_points(step)))
 
@@ -281,6 +279,5 @@ def _kept(jacobian: np.ndarray) -> np.ndarray:
 
 
 def _product(axes: list[np.ndarray]) -> np.ndarray:
-    """Return weights (q, k) in space, products of weights (q, k_axis) along ξ, η, ζ, the last axis
-    fastest."""
+    """Return products (q, k) of weights (q, k_axis) along ξ, η, ζ, the last axis fastest."""
     return np.einsum("qa,qb,qc->qabc", *axes).reshape(len(axes[0]), -1)

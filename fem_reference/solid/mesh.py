@@ -101,8 +101,7 @@ class Columns:
 
 
 def _require_meshable(scene: Scene, law: str) -> None:
-    """Raise BadInput for a sheet with a step in its thickness, or a nonuniform one with another law or
-    following loads."""
+    """Raise BadInput for steps in thickness, and for nonuniform sheets with another law or follower loads."""
     if scene.uniform:
         return
     for ply in of_sheet(scene).plies:

@@ -22,8 +22,7 @@ DIRECTORS = 9  # of a side: d, m and t of its three nodes
 
 
 def on_columns(rods: Sequence[Rod], columns: Columns) -> BoundRods:
-    """Return the rods on columns of nodes; vectors: x (n · levels), then d, m and t of every node of every
-    rod."""
+    """Return the rods on columns of nodes; vectors: x (n · levels), then d, m, t of every rod's nodes."""
     levels = columns.levels
 
     def of_columns(rod: Rod) -> tuple[RodElements, np.ndarray]:
@@ -34,7 +33,7 @@ def on_columns(rods: Sequence[Rod], columns: Columns) -> BoundRods:
 
 
 def _elements(rod: Rod, columns: Columns) -> RodElements:
-    """Return the rod in terms of Q = (x of a side's three columns; d, m, t at three nodes), (k, 3 levels + 9,
+    """Return the rod in terms of Q = (x of a side's columns; d, m, t at three nodes), (k, 3 levels + 9,
     3)."""
     side, levels, middle, k = rod.elements, columns.levels, columns.layers, len(rod.nodes)
     unit = np.eye(3 * levels + DIRECTORS)

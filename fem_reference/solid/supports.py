@@ -59,8 +59,7 @@ class ColumnSupports:
         return sum(self.edges.values(), np.zeros(self.columns.positions.shape, dtype=bool))
 
     def spread(self, change: np.ndarray) -> np.ndarray:
-        """Return the displacement (n, levels, 3) [m] of columns from changes (2, n, 3) of their middles and
-        directors."""
+        """Return columns' displacement (n, levels, 3) [m] from changes (2, n, 3) of middles and directors."""
         displacement, turn = change
         heights = np.multiply.outer(self.columns.taper, self.columns.heights)
         return displacement[:, None] + heights[..., None] * turn[:, None]
@@ -86,8 +85,7 @@ class ColumnSupports:
         return mask
 
     def reactions(self, nodal: np.ndarray, load_factor: float) -> dict[str, np.ndarray]:
-        """Return the force [N] (3,) of each support from nodal forces (n, levels, 3); supports share a common
-        component."""
+        """Return the force [N] (3,) of each support from nodal forces; supports share a component."""
         bases = self.bases(load_factor)
         shared = applied(bases.swapaxes(1, 2), nodal) / np.maximum(sum(self.edges.values()), 1)
         levels = self.columns.levels
@@ -98,8 +96,7 @@ class ColumnSupports:
 
 
 def applied(matrices: np.ndarray, nodal: np.ndarray) -> np.ndarray:
-    """Return products of matrices (n, 3 levels, 3 levels) with columns' components (n, levels, 3): u = Z q,
-    or Zᵀ r."""
+    """Return products of matrices (n, 3 levels, 3 levels) with (n, levels, 3): u = Z q, or Zᵀ r."""
     return (matrices @ nodal.reshape(*matrices.shape[:2], 1)).reshape(nodal.shape)
 
 

@@ -1,2 +1,1 @@
-"""Parts that the models of a surface share: meshes, loads, supports, rods along edges, points on the
-sheet."""
+"""Parts shared by the models of a surface: meshes, loads, supports, rods along edges, points on it."""

@@ -21,8 +21,8 @@ from sheetbench.scenes import Scene
 
 
 class OnEdge(NamedTuple):
-    """Rod with its force and couple (p, 6) [N, N·m] on the nodes of its edge, at φ (p, 3) [m] with directors
-    d (p, 3)."""
+    """Rod with force and couple (p, 6) [N, N·m] on its edge's nodes, at φ (p, 3) [m] with directors d (p,
+    3)."""
 
     rod: Rod
     nodal: np.ndarray
@@ -62,8 +62,7 @@ def _of_motion(moved: Driven, held: HoldingForces) -> np.ndarray:
 
 
 def line_force(rod: Rod, nodal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return line force [N/m] and couple [N·m/m] (p, 3) from forces and couples (p, 6) on the nodes of the
-    edge."""
+    """Return line force [N/m] and couple [N·m/m] (p, 3) from nodal forces and couples (p, 6) of the edge."""
     count = len(rod.line)
     mass = np.zeros((count, count))
     half = 0.5 * np.linalg.norm(rod.elements.reference[:, 2] - rod.elements.reference[:, 0], axis=1)

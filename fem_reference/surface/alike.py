@@ -67,8 +67,7 @@ class CentredPlan(NamedTuple):
         return np.asarray((self.turns @ at[:, None, :, None])[..., 0])
 
     def along(self, at: np.ndarray) -> np.ndarray:
-        """Return the coordinate along FIRST (k, n) of the images of points (k, 2); the largest is in the
-        first sector."""
+        """Return coordinates along FIRST (k, n) of the images of points (k, 2)."""
         return np.asarray(self.images(at) @ FIRST)
 
     def first(self, at: np.ndarray) -> np.ndarray:
@@ -76,13 +75,11 @@ class CentredPlan(NamedTuple):
         return np.asarray(self.along(at).argmax(axis=1) == 0)
 
     def orbits(self, at: np.ndarray) -> np.ndarray:
-        """Return the images (m, n, 2) by all turns of the points among (k, 2) that lie in the first
-        sector."""
+        """Return the images (m, n, 2) by all turns of the points (k, 2) in the first sector."""
         return self.images(at[self.first(at)])
 
     def turned(self, borders: Sequence[LineString]) -> list[LineString]:
-        """Return the images by all turns of the borders in the first sector, and of an nth part of borders
-        around the centre."""
+        """Return the images by all turns of borders in the first sector, and of parts around the centre."""
         import shapely
         from shapely.ops import substring
 

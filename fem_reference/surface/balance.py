@@ -132,8 +132,7 @@ def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
 
 
 def _of_chains(edge: OnEdge, surface: Surface, thickness: float) -> np.ndarray:
-    """Return ∫ ρ_l (φ + c d) dL [kg m] of the chains of a rod, which has positions and directors of its
-    own."""
+    """Return ∫ ρ_l (φ + c d) dL [kg m] of the chains of a rod, by the rod's own positions and directors."""
     values = np.concatenate([edge.position, edge.director], axis=1)[edge.rod.places]
     line = np.einsum("kg,gi,kic->c", surface.lengths(edge.rod.nodes), _VALUE, values)
     chains = edge.rod.chains.values()
@@ -161,16 +160,15 @@ def _first_moment(payload: Mass, surface: Surface) -> np.ndarray:
 
 
 def _area(where: Shape | None, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
-    """Return w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements in a shape, or of
-    all."""
+    """Return w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of elements in a shape, or all."""
     plan = surface.plan
     on = plan.elements[plan.within(where)]
     return areas(plan.nodes[on]), AT_GAUSS[0] @ surface.position[on]
 
 
 def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.ndarray]:
-    """Return force [m²] and moment [m³] of a unit pressure. The rim of the pressed part runs clockwise, the
-    sheet to its right."""
+    """Return force [m²] and moment [m³] of a unit pressure; its rim runs clockwise, the sheet to the
+    right."""
     plan, mesh = surface.plan, surface.plan.mesh
     inside = np.isin(mesh.f2t, plan.within(where))
     facets = np.flatnonzero(inside.sum(axis=0) == 1)

@@ -65,8 +65,7 @@ AT_GAUSS = shape(*GAUSS)
 
 
 def jacobians(nodes: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """Return ∂x_b/∂ξ_a (m, n, b, a) [m] of elements with nodes at (m, 9, 2) [m]; slope: (2, n, 9) of
-    `shape`."""
+    """Return ∂x_b/∂ξ_a (m, n, b, a) [m] of nodes at (m, 9, 2) [m]; slope: (2, n, 9) of `shape`."""
     return np.einsum("agi,eib->egba", slope, nodes)
 
 
@@ -92,8 +91,7 @@ def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.nda
 def integrated(
     left: np.ndarray, moduli: np.ndarray, areas: np.ndarray, right: np.ndarray | None = None
 ) -> np.ndarray:
-    """Return ∫ Lᵀ C R dA (m, k, k) of L and R (m, q, a, k), R being L by default; C: (a, a) or (m, q, a,
-    a)."""
+    """Return ∫ Lᵀ C R dA (m, k, k) of L, R (m, q, a, k), R = L by default; C: (a, a) or (m, q, a, a)."""
     m, q, a, k = left.shape
     weighed = (moduli @ (left if right is None else right)) * areas[:, :, None, None]
     flat = left.reshape(m, q * a, k).swapaxes(1, 2)

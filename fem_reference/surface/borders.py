@@ -39,8 +39,7 @@ class Borders(NamedTuple):
         return bool(np.all((begin == end).any(axis=1)))
 
     def lines(self, lengths: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-        """Return x of the borders along y and y of the borders along x [m], rising, strictly within the
-        sheet's edges."""
+        """Return x of borders along y and y of borders along x [m], rising, within the sheet's edges."""
         positions, (begin, end) = [], self._sides
         for axis, length in enumerate(lengths):
             at = np.unique(begin[begin[:, axis] == end[:, axis], axis])

@@ -132,8 +132,7 @@ class FollowerMoment:
         return self.value * THREE_WEIGHTS * self.line.speed
 
     def _frame(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return unit tangent (k, 3, 3), |φ,ξ| (k, 3, 1) and director (k, 3, 3) at the points of the
-        sides."""
+        """Return unit tangent, |φ,ξ| and director (k, 3, 3), (k, 3, 1), (k, 3, 3) at the sides' points."""
         rows = np.arange(len(vectors))[:, None]
         slope = np.einsum("gi,eic->egc", _LINE_SLOPE, vectors[rows, self.line.sides])
         stretch = np.linalg.norm(slope, axis=-1, keepdims=True)

@@ -1,5 +1,4 @@
-"""Location of plan points: the element that holds a point and its local coordinates, edges and corners
-included.
+"""Location of plan points: the element that holds a point, edges included, and its local coordinates.
 
 Solves x(ξ) = Σ N_i(ξ) x_i, scikit-fem's map of a straight-sided or biquadratic quadrilateral, by Newton's
 method in every element whose bounding box holds the point, and keeps the first element whose own points
@@ -72,8 +71,8 @@ def _shares(
 
 
 def _invert(mesh: MeshQuad, elements: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return local coordinates 0 ≤ ξ ≤ 1 (2, n) of x (2, n) in the elements (n,), and their distance (n,) [m]
-    from x."""
+    """Return local coordinates 0 ≤ ξ ≤ 1 (2, n) of x (2, n) in elements (n,), and distances (n,) [m] from
+    x."""
     mapping = mesh.mapping()
     xi = np.full_like(x, 0.5)
     for _ in range(_NEWTON):

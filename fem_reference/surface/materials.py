@@ -63,8 +63,7 @@ def green(stretch: np.ndarray) -> np.ndarray:
 
 
 def grown(section: Section, strain: np.ndarray) -> Section:
-    """Return the section per area and strain of the drawn sheet, from a section per natural area and strain.
-    strain: e0 (…, 2, 2)."""
+    """Return the section per area and strain of the drawn sheet from a natural one; strain: e0 (…, 2, 2)."""
     stretch = np.eye(2) + strain
     inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]
     turn = pulled_back(inverse, IN_PLANE)

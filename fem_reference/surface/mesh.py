@@ -65,8 +65,7 @@ def _tensor(x: np.ndarray, y: np.ndarray, *lengths: float) -> MeshQuad:
 
 
 def _with_edges(mesh: MeshQuad, lengths: Sequence[float]) -> MeshQuad:
-    """Return the mesh with named boundaries where it reaches the edges of a sheet with given side lengths
-    [m]."""
+    """Return the mesh with named boundaries at the edges of a sheet with given side lengths [m]."""
 
     def on(name: str) -> Callable[[np.ndarray], np.ndarray]:
         axis, far = EDGES[name].normal_axis, EDGES[name].far_end
@@ -118,8 +117,7 @@ class Plan:
 
 
 def plan_of(mesh: MeshQuad) -> Plan:
-    """Return a mesh with its biquadratic nodes, corners first, then mid-sides and centres; not to be
-    changed."""
+    """Return a mesh with biquadratic nodes: corners, mid-sides, centres; not to be changed."""
     return Plan(mesh, *_nodes(type(mesh), mesh.doflocs, mesh.t))
 
 
@@ -157,8 +155,7 @@ def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float
 
 
 def _own_mesh(sheet: Sheet, counts: tuple[int, int]) -> MeshQuad | None:
-    """Return the sheet's own mesh, its elements cut into the requested number, or None for a number it cannot
-    have."""
+    """Return the sheet's own mesh, cut into the requested number of elements, or None if it cannot be."""
     if sheet.mesh is None:
         return None
     cuts = max(0, round(np.log2(min(counts) / min(elements_of(sheet, MESH)))))

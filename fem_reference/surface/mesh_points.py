@@ -28,8 +28,7 @@ SAMPLES = 4  # of a border, per size
 
 
 class Sides(NamedTuple):
-    """Sides of borders: the vertices at their ends (k, 2), the border of each (k,) and its interval along it
-    (k, 2)."""
+    """Sides of borders: end vertices (k, 2), border of each (k,) and its interval along it (k, 2)."""
 
     ends: np.ndarray
     border: np.ndarray
@@ -98,8 +97,7 @@ class SizeField(NamedTuple):
 
     @property
     def _first(self) -> np.ndarray:
-        """Indices of one entry from each group closer together than a quarter of their size, and of all
-        others."""
+        """Indices of one entry from each group closer than a quarter of their size, and of all others."""
         cells = np.floor(4.0 * self.places / self.sizes[:, None])
         scale = np.rint(np.log2(self.sizes))
         return np.unique(np.column_stack([cells, scale]), axis=0, return_index=True)[1]

@@ -88,8 +88,8 @@ def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.nda
 
 
 def in_space(ply: Ply) -> np.ndarray:
-    """Return the stiffness (…, 6, 6) [Pa]: stress [xx, yy, zz, xy, yz, xz] of strain [xx, yy, zz, 2xy, 2yz,
-    2xz]."""
+    """Return the stiffness (…, 6, 6) [Pa] of stress [xx, yy, zz, xy, yz, xz], shears of strain
+    engineering."""
     e1, e2, e3, n12, n13, n23, g12, g13, g23, angle = np.broadcast_arrays(*map(np.float64, ply[2:-1]))
     soft = np.zeros((*e1.shape, 6, 6))
     for place, modulus in enumerate((e1, e2, e3, g12, g23, g13)):

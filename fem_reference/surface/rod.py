@@ -159,8 +159,8 @@ def products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: np.ndarray) -> np.ndarray:
-    """Return the stiffness (k, 15) of the covariant strains: EI of elastic ones, `FIRM` times the sheet's of
-    firm ones."""
+    """Return the stiffness (k, 15) of covariant strains: EI of elastic, `FIRM` times the sheet's of
+    others."""
     young, thickness = scene.material.young, scene.sheet.thickness
     force = FIRM * young * thickness * length + SLENDER * rigidity / length**2
     out_of_plane = FIRM * young * thickness**3 * length + SLENDER * rigidity
@@ -188,8 +188,7 @@ def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
 
 
 def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
-    """Return the supports with the rods' bases, which hold position and director of a node, under the rod's
-    name."""
+    """Return the supports with the rods' bases, which hold a node's position and director."""
     director, edges = supports.director.copy(), dict(supports.edges)
     for rod in rods:
         if rod.base is not None:

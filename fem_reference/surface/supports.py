@@ -99,8 +99,7 @@ class Supports:
         return out
 
     def reactions(self, nodal: np.ndarray) -> dict[str, np.ndarray]:
-        """Return the force [N] (3,) of each support from nodal forces (n, 3); supports share a common
-        component."""
+        """Return the force [N] (3,) of each support from nodal forces (n, 3), shared between supports."""
         shared = nodal / np.maximum(sum(self.edges.values()), 1)
         return {name: np.sum(shared, axis=0, where=held) for name, held in self.edges.items()}
 

@@ -1,6 +1,4 @@
-"""Table of verification cases, and the answer of `sheetbench verify`: the references against published
-values.
-"""
+"""Verification cases, and the answer of `sheetbench verify`: references against published values."""
 
 from __future__ import annotations
 

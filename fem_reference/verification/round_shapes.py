@@ -197,8 +197,7 @@ def frequency(n: int) -> float:
 
 
 def concentration(share: float) -> float:
-    """Return the largest stress at a hole over the mean one far away; share: the hole's diameter over the
-    strip's width."""
+    """Return the largest stress at a hole over the mean far away; share: its diameter over the width."""
     width, length, thick, pull = 1.0, 3.0, 1e-2, 1e3
     middle = (0.5 * length, 0.5 * width)
     hole = Cutout(shape=Shape(circle=Circle(centre=middle, radius=0.5 * share * width)))

@@ -65,8 +65,7 @@ def relatively(*cells: Any, scale: float | None = None) -> Row:
 
 
 def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: float) -> Row:
-    """Return a row of the largest relative change of the answers from half the mesh: the case's own
-    convergence."""
+    """Return a row of the largest relative change of the answers from half the mesh."""
     change = np.max(np.abs(np.asarray(fine) - coarse)) / np.max(np.abs(fine))
     return absolutely("change from half the mesh", mesh, 0.0, OURS, change, tolerance)
 
@@ -111,8 +110,7 @@ def curve(
 def lowest(
     quantity: str, mesh: str, published: Values, source: str, frequencies: np.ndarray, tolerance: float
 ) -> Iterator[Row]:
-    """Yield rows of the lowest frequencies that are published; quantity: with a place for the mode's
-    number."""
+    """Yield rows of the published lowest frequencies; quantity: with a place for the mode's number."""
     for mode, (expected, computed) in enumerate(zip(published, frequencies, strict=True), 1):
         if expected is not None:
             yield relatively(quantity.format(mode), mesh, expected, source, computed, tolerance)

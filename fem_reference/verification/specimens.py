@@ -38,8 +38,7 @@ def around(kind: type[Clamped | Hinged], edges: Iterable[str] = EDGES, **more: A
 def moved(
     scene: Scene, at: tuple[float, float], model: str, elements: int | tuple[int, int], **options: Any
 ) -> np.ndarray:
-    """Return the displacement (3,) [m] of a plan point in a model's answer, nan without an equilibrium.
-    options: of `solve`."""
+    """Return the displacement (3,) [m] of a plan point in a model's answer, nan without an equilibrium."""
     solution = solve(scene, model, elements=elements, **options)
     return solution.displacement(np.array([at]))[0] * valid(solution)
 

@@ -1,5 +1,4 @@
-"""Square plates: deflections under a uniform load, locking, natural frequencies, fibres, plates not flat at
-rest.
+"""Square plates: uniform load, locking, natural frequencies, fibres, plates that are not flat at rest.
 
 Mindlin plates, ν 0.3, shear correction 5/6: w D/(q L⁴) at the centre, with hard simple support (deflection
 and the tilt along the edge held) and clamped, h/L 0.001 to 0.2. The shell is tested clamped, under
@@ -154,8 +153,7 @@ def locking(model: str) -> Iterator[Row]:
 
 
 def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:
-    """Return w D/(q L⁴) at the centre, D the thin plate's; kind: "hinged", with the twist held, or
-    "clamped"."""
+    """Return w D/(q L⁴) at the centre, D the thin plate's; kind: "hinged" (twist held) or "clamped"."""
     material = Material(young=1e7, poisson=poisson, density=1000.0)
     rigidity = section_of(material, ratio).bending[0, 0]
     load = SMALL * ratio * rigidity / CLAMPED[0.001]

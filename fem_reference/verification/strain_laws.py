@@ -85,8 +85,7 @@ def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> 
 
 
 def stretches(law: str, way: str, strain: float, material: Material) -> list[float]:
-    """Return the stretches of a rubber along x and y and through the thickness, the free ones at zero
-    stress."""
+    """Return the stretches of a rubber along x, y and z, the free ones at zero stress."""
     rubber, stretch = material.replace(law=law), 1.0 + strain
 
     def with_free(free: float) -> list[float]:

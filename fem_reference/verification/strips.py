@@ -1,5 +1,4 @@
-"""Strips held at x = 0 under loads that bend them far, a strip that settles under its weight, a strip with
-fibres.
+"""Strips held at x = 0: bent far, settling under their weight, with fibres.
 
 A shear force at the end of a strip of 10 × 1 × 0.1, E 1.2e6, ν 0 (section 3.1), and a moment up to 50π/3 that
 rolls a strip of 12 × 1 × 0.1 up to a full circle (section 3.2), exact for the inextensible elastica and, with
@@ -80,8 +79,7 @@ def end_shear() -> Iterator[Row]:
 
 
 def roll_up() -> Iterator[Row]:
-    """Yield −u and w of the tip at each share of the moment; where the exact value is 0, relative to the
-    length."""
+    """Yield −u and w of the tip at each share of the moment, relative to the length where exactly 0."""
     names, exact = ("−u at M = {:g} M_max", "w at M = {:g} M_max"), {s: closed_form(s) for s in SHARES}
     yield from curve(names, {"shell": MESHES["shell"]}, exact, EXACT, ROLLED, rolled, ELEMENTS, LENGTH)
 
@@ -137,8 +135,7 @@ def sheared(model: str, share: float, elements: int) -> np.ndarray:
 
 
 def rolled(model: str, share: float, elements: int, thickness: float = THICKNESS) -> np.ndarray:
-    """Return −u and w (2,) [m] of the tip under a share of the full circle's moment, 50π/3 at the published
-    h."""
+    """Return −u and w (2,) [m] of the tip under a share of the full circle's moment (50π/3 as published)."""
     moment = share * 2.0 * np.pi / LENGTH * YOUNG * thickness**3 / 12.0
     load = EdgeLoad(edge="x1", moment_per_length=moment)
     return _tip(Sheet(LENGTH, 1.0, thickness), YOUNG, elements, model, loads=(load,))[[0, 2]] * [-1.0, 1.0]

@@ -53,11 +53,11 @@ class RigidMotion:
         self._plan, self._height = rest[:, :2], rest[:, 2]
 
     def driven(self, drive: Drive) -> np.ndarray:
-        """Displacement (m, 3) [m] of the masses."""
+        """Return the displacement (m, 3) [m] of the masses."""
         return self._moved.placed(self._plan, drive.load_factor, drive.time).lifted(self._height)
 
     def velocity(self, time: float) -> np.ndarray:
-        """Velocity (m, 3) [m/s] of the masses from a time [s] on."""
+        """Return the velocity (m, 3) [m/s] of the masses from a time [s] on."""
         return self._moved.velocity(self._plan, self._height, time)
 
     def reactions(self, acting: Acting) -> dict[str, np.ndarray]:

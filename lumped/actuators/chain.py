@@ -109,10 +109,8 @@ class BoundChain:
         return float(stored.sum()) + offset, self._gradient(y, at.slopes, at.residuals, by_measure)
 
     def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
-        """Discrete gradient: constraint gradients at the mean, where their differences are exact.
-
-        The multiplier rows hold the constraints at the end; their multipliers are the end's.
-        """
+        """Return the discrete gradient (rows, 3) [N], with constraint gradients at the mean, where their
+        differences are exact; multiplier rows hold the constraints at the end, with the end's multipliers."""
         before, middle, after = (self.frames.at(y) for y in (start, 0.5 * (start + end), end))
         springs, _ = self._joint_springs(drive)
         by_measure = joints.average_gradient(before.measures, after.measures, *springs)
@@ -233,7 +231,7 @@ class BoundChain:
         return out
 
     def _angle_gradient(self, y: np.ndarray) -> np.ndarray:
-        """Derivatives (j, 2, 3 coordinates) of the joints' angles by the rows."""
+        """Return the derivatives (j, 2, 3 coordinates) of the joints' angles by the rows."""
         at = self.frames.at(y)
         _, first, _ = joints.angles(at.measures)
         gradient = self.frames.gradient(at.slopes)[self.frames.constraints :]

@@ -48,11 +48,11 @@ def held_ends(scene: Scene, edge: str) -> tuple[int, ...]:
     moved = {motion.edge for motion in scene.motions().values()}
     still = {s.edge for s in scene.supports if s.motion is None and holds_director(s)}
     supports = still - moved
-    held = {e for e in (0, 1) if _neighbour(edge, e) in supports or neighbouring_base(scene, edge, e)}
+    held = {e for e in (0, 1) if _neighbour(edge, e) in supports or adjacent_base(scene, edge, e)}
     return tuple(sorted(held.difference(_chains(scene)[edge].base_ends)))
 
 
-def neighbouring_base(scene: Scene, edge: str, end: int) -> str | None:
+def adjacent_base(scene: Scene, edge: str, end: int) -> str | None:
     """Return the edge that meets another at its end, if a chain on it has its base at their corner."""
     neighbour = _neighbour(edge, end)
     chain = _chains(scene).get(neighbour)

@@ -17,14 +17,7 @@ import numpy as np
 
 from lumped.actuators.actuator import Acting, Drive, RigidMotion
 from lumped.actuators.chain import BoundChain
-from lumped.actuators.corners import (
-    SharedCorner,
-    Tie,
-    held_ends,
-    neighbouring_base,
-    redundant,
-    shared_corners,
-)
+from lumped.actuators.corners import SharedCorner, Tie, adjacent_base, held_ends, redundant, shared_corners
 from lumped.coverage import held_columns, reached_parts
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene
@@ -57,7 +50,7 @@ class Coupling:
             (chain, end, bases[neighbour])
             for chain in self.bodies
             for end in chain.corners
-            if (neighbour := neighbouring_base(scene, chain.edge, end))
+            if (neighbour := adjacent_base(scene, chain.edge, end))
         ]
         by_edge |= chains
         self._all = [by_edge[edge] for edge in dict.fromkeys(str(a.edge) for a in scene.actuators)]

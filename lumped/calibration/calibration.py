@@ -21,14 +21,29 @@ from sheetbench.scenes.objects.springs import LATTICE, Distribution
 
 @dataclass(frozen=True, repr=False)
 class Calibration(Answer):
-    """Springs of a lattice: method, grid (nx, ny, layers), spring constants [N/m] and layer distance [m].
+    """Springs of a lattice, with a report of the moduli that they meet.
 
-    moduli: one row per plate modulus with the sheet's target and the value of the lattice's interior (A, S
-    [N/m], D [N·m]; the target of S is MacNeal's S* of the grid), for unequal cells of the cell with the
-    largest miss; remarks: notes on targets that the method did not meet; masses: distribution of the sheet's
-    mass (`lumped.masses`) in vibration and motion; grading: of the grid's lines (`lumped.grid_lines`); cells:
-    sections of cells that differ or have fibres; of_material: whether `cells` follow from the material alone,
-    without patches, layers and cutouts of a scene.
+    Parameters
+    ----------
+    method : str
+        Name of the calibration method.
+    grid : tuple of int
+        Masses along x, along y and through the thickness.
+    springs : SpringSet
+        Spring constants [N/m] and layer distance [m].
+    moduli : tuple of dict
+        A row per plate modulus, A and S [N/m], D [N·m]: the sheet's target, for S MacNeal's S* of the grid,
+        and the value of the lattice's interior, for unequal cells of the cell with the largest miss.
+    remarks : tuple of str, optional
+        Notes on targets that the method did not meet.
+    masses : {"tributary", "gregory"}, default "tributary"
+        Distribution of the sheet's mass in vibration and motion (`lumped.masses`).
+    grading : float or Grading, default 0
+        Grading of the grid's lines (`lumped.grid_lines`).
+    cells : CellSection, optional
+        Sections of cells that differ or have fibres.
+    of_material : bool, default False
+        Whether `cells` follow from the material alone, without patches, layers and cutouts of a scene.
     """
 
     file_name = "calibration"

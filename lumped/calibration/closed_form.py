@@ -136,7 +136,7 @@ def closed_form(
 
     anisotropic = _anisotropic(bending)
 
-    given = layer_distance is not None
+    distance_given = layer_distance is not None
     lz2 = np.full(len(p), layer_distance**2 if layer_distance is not None else 0.0)
     iterating = np.ones(len(p), dtype=bool)
     for _ in range(50):  # δ is small and depends little on lz: a fixed point
@@ -148,18 +148,18 @@ def closed_form(
         needed = normal / (_normal(membrane) - membrane[:, 0, 1, None])
         needed = np.maximum(needed.max(axis=1), lattice[:, 2, 2] / membrane[:, 2, 2])
         if fibres.any():
-            needed[fibres] = _largest(lattice[fibres], membrane[fibres])
+            needed[fibres] = _largest_eigenvalue(lattice[fibres], membrane[fibres])
         if gradients:
             on_sides = layers * axial + (layers - 1) * along
             needed = np.maximum(needed, (on_sides / _on_sides(membrane)).max(axis=1))
-        if given:
+        if distance_given:
             break
         iterating &= (needed > 0.0) & ~(np.abs(needed - lz2) < 1e-15 * needed)
         if not iterating.any():
             break
         lz2 = np.where(iterating, needed, lz2)
     exists = (lz2 > 0.0) & (layer[:, 2, 2] > 0.0) & (axial.min(axis=1) >= 0.0)
-    if given:
+    if distance_given:
         exists &= needed <= lz2 * (1.0 + 1e-9)
     if fibres.any():
         exists[fibres] &= np.linalg.eigvalsh(layer[fibres])[:, 0] > 0.0
@@ -179,7 +179,7 @@ def closed_form(
         of |= {"face_shear": faces.T * lz2, "face_diagonal_shear": over * lz2}
     else:
         of = _of_layer(layer, of_mean, sides)
-    lz2 = np.where(exists, lz2, 1.0 if not given else lz2)
+    lz2 = np.where(exists, lz2, 1.0 if not distance_given else lz2)
     middle = membrane * lz2[:, None, None] - lattice
     mid_area = np.where(fibres, 0.0, middle[:, 0, 1])
     of |= {
@@ -234,7 +234,7 @@ def _normal(form: np.ndarray) -> np.ndarray:
     return np.diagonal(form, axis1=1, axis2=2)[:, :2]
 
 
-def _largest(form: np.ndarray, by: np.ndarray) -> np.ndarray:
+def _largest_eigenvalue(form: np.ndarray, by: np.ndarray) -> np.ndarray:
     """Return the largest eigenvalue of forms relative to others, (m,)."""
     inverse = np.linalg.inv(np.linalg.cholesky(by))
     return np.asarray(np.linalg.eigvalsh(inverse @ form @ np.swapaxes(inverse, 1, 2))[:, -1])

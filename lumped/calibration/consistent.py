@@ -79,9 +79,11 @@ def consistent(
             ) from None
         springs = fit_moduli(grid_cells, layer_distance)
     notes: list[str] = []
-    whole = moduli.of_cells(springs, grid_cells.sides, grid[2])
-    if whole.mixed[..., :2, 2].any():  # the moment that fades at an edge depends on the stretch along it too
+    cell_moduli = moduli.of_cells(springs, grid_cells.sides, grid[2])
+    if cell_moduli.mixed[
+        ..., :2, 2
+    ].any():  # the moment that fades at an edge depends on the stretch along it too
         notes = ["layers that twist when pulled: cells along edges are like those inside, of first order"]
     elif method != "consistent-interior":
-        springs, notes = with_twist(grid_cells, springs, whole)
-    return replace(report(method, grid_cells, springs, notes, whole), of_material=of_material)
+        springs, notes = with_twist(grid_cells, springs, cell_moduli)
+    return replace(report(method, grid_cells, springs, notes, cell_moduli), of_material=of_material)

@@ -60,10 +60,12 @@ class Twist(NamedTuple):
     lost: np.ndarray
 
 
-def twist_of(grid_cells: GridCells, springs: Springs, whole: moduli.Moduli) -> Twist:
-    """Return the twisting of cells; whole: the moduli of their springs."""
-    shear, shares = whole.free_shear[..., ::-1], diagonals_share(grid_cells, springs)[..., ::-1]
-    twisting, stretch = (of(whole.free_bending) for of in (sections.twisting, sections.stretch_by_twist))
+def twist_of(grid_cells: GridCells, springs: Springs, cell_moduli: moduli.Moduli) -> Twist:
+    """Return the twisting of cells; cell_moduli: of their springs."""
+    shear, shares = cell_moduli.free_shear[..., ::-1], diagonals_share(grid_cells, springs)[..., ::-1]
+    twisting, stretch = (
+        of(cell_moduli.free_bending) for of in (sections.twisting, sections.stretch_by_twist)
+    )
     return Twist(grid_cells.sides, twisting, shear, shares, stretch, grid_cells.section.layer_width)
 
 
@@ -118,8 +120,8 @@ def diagonals_share(grid_cells: GridCells, springs: Springs) -> np.ndarray:
     on_sides, over = of_faces(springs, grid_cells.sides**2)
     diagonals = over + by_diagonals * springs.along("cross_diagonal", 0)[..., None]
     cross = np.stack([springs.along("cross", axis) for axis in (0, 1)], axis=-1)
-    whole = diagonals + by_cross * cross + on_sides
-    return np.divide(diagonals, whole, out=np.zeros_like(whole), where=whole != 0.0)
+    total = diagonals + by_cross * cross + on_sides
+    return np.divide(diagonals, total, out=np.zeros_like(total), where=total != 0.0)
 
 
 @cached(last=32, most=1 << 14)  # strips along x and along y of a square sheet are one

@@ -34,7 +34,7 @@ SPRINGS: dict[str, Callable[..., Springs | tuple[Springs, list[str]]]] = {  # or
 }
 
 
-def alike(method: str, sheet: Sheet, material: Material, grid: Grid, **options: Any) -> Calibration:
+def equal_springs(method: str, sheet: Sheet, material: Material, grid: Grid, **options: Any) -> Calibration:
     """Return springs that are alike in all cells, by a method of SPRINGS."""
     grid_cells = each_cell(sheet, material, grid)
     result = SPRINGS[method](grid_cells, **options)
@@ -50,7 +50,7 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent-oblique": partial(consistent, method="consistent-oblique"),
     "neo-hookean": partial(hyperelastic, method="neo-hookean"),
     "hyperelastic": hyperelastic,
-    **{name: partial(alike, name) for name in SPRINGS},
+    **{name: partial(equal_springs, name) for name in SPRINGS},
 }
 
 

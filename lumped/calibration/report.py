@@ -23,22 +23,24 @@ def report(
     grid_cells: GridCells,
     springs: Springs,
     more: Sequence[str] = (),
-    whole: moduli.Moduli | None = None,
+    cell_moduli: moduli.Moduli | None = None,
 ) -> Calibration:
     """Return the calibration with its moduli report, notes on moduli that it misses and the notes `more`.
 
     For unequal cells each modulus is reported for the cell with the largest miss, the stiffest among equal
-    misses. whole: the moduli of the springs, if computed before. Raises BadInput where area springs leave a
+    misses. cell_moduli: of the springs, if computed before. Raises BadInput where area springs leave a
     cell without positive energy.
     """
     (sides, section), sheet = grid_cells.present, grid_cells.target
-    whole = moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2]) if whole is None else whole
-    covered = np.broadcast_to(grid_cells.covered, whole.shear.shape[:2])
-    got = moduli.Moduli(*(part[covered] for part in vars(whole).values()))
-    rigidity, other = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
+    cell_moduli = (
+        moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2]) if cell_moduli is None else cell_moduli
+    )
+    covered = np.broadcast_to(grid_cells.covered, cell_moduli.shear.shape[:2])
+    got = moduli.Moduli(*(part[covered] for part in vars(cell_moduli).values()))
+    rigidity, rigidity_y = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
     square = np.abs(sides[:, 0] - sides[:, 1]) < EQUAL * sides[:, 0]
     oblique, mixed = bool(sheet.oblique.any()), bool(sheet.mixed.any())
-    square &= (np.abs(rigidity - other) < EQUAL * rigidity) & (not mixed)
+    square &= (np.abs(rigidity - rigidity_y) < EQUAL * rigidity) & (not mixed)
     named = not oblique and bool(np.all(square)), oblique, mixed
     names = sheet.named(*named)
     targets, results = (np.array([*of.values()]) for of in (names, got.named(*named)))
@@ -55,7 +57,7 @@ def report(
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
     areas = springs["area"], springs["mid_area"]
-    constants = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
+    constants = "area = {}, mid_area = {} N/m".format(*map(_range_text, areas))
     negative = min(map(np.min, areas)) < 0.0
     coupled = springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}
     forms = (got.membrane, got.free_bending) if negative or coupled or mixed else ()
@@ -82,7 +84,7 @@ def _reference(name: str) -> str:
     return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name.replace("Sxy", "Sx")
 
 
-def _shown(values: np.ndarray) -> str:
+def _range_text(values: np.ndarray) -> str:
     """Return a number, or the least and the largest number of the cells, as text."""
     least, most = values.min(), values.max()
     return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"

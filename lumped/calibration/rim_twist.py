@@ -33,15 +33,17 @@ STRIP = 12  # cells across a strip whose far edge has no effect
 EQUAL_SHARE = 1e-9  # tolerance for the shares of cells that one straight line cuts
 
 
-def with_twist(grid_cells: GridCells, springs: Springs, whole: moduli.Moduli) -> tuple[Springs, list[str]]:
+def with_twist(
+    grid_cells: GridCells, springs: Springs, cell_moduli: moduli.Moduli
+) -> tuple[Springs, list[str]]:
     """Return the springs with the twist of their edges, and of rims of absent or cut cells, and a note if no
-    factor is right; whole: the moduli of the springs.
+    factor is right; cell_moduli: of the springs.
 
     A layer's cell has −(1 − f) D̃66/Σ z_k² on γ + r ε_tt, z_k [m] the heights of the layers: at the sheet's
     edges as `edge_shear`, `strip_shear` and `edge_coupling`, as `far_edge_shear` and so on at the far edges
     of unequal cells, elsewhere as the springs of rims.
     """
-    covered, twist = grid_cells.covered, twist_of(grid_cells, springs, whole)
+    covered, twist = grid_cells.covered, twist_of(grid_cells, springs, cell_moduli)
     oblique = None if grid_cells.cells is None else grid_cells.cells.rims
     drawn = oblique is not None or not covered.all()
     square = moduli.second_moment(grid_cells.grid[2]) * springs.layer_distance**2
@@ -49,7 +51,7 @@ def with_twist(grid_cells: GridCells, springs: Springs, whole: moduli.Moduli) ->
     notes: list[str] = []
     if oblique is not None and not springs.rubber:
         near[oblique.rows, oblique.columns] = True
-        rims, notes = at_oblique_rims(oblique, grid_cells, twist, whole)
+        rims, notes = at_oblique_rims(oblique, grid_cells, twist, cell_moduli)
         rims /= square
     unequal = grid_cells.cells is not None or not all(map(symmetric, grid_cells.lines))
     constants: dict[str, list[np.ndarray]] = defaultdict(list)
@@ -103,18 +105,18 @@ def _aligned(share: np.ndarray, near_oblique: np.ndarray) -> np.ndarray:
 
 
 def at_oblique_rims(
-    rims: ObliqueRims, grid_cells: GridCells, twist: Twist, whole: moduli.Moduli
+    rims: ObliqueRims, grid_cells: GridCells, twist: Twist, cell_moduli: moduli.Moduli
 ) -> tuple[np.ndarray, list[str]]:
     """Return the change of strain springs of the layers' cells times Σ z_k², (rows, columns, 6) [N·m] (see
-    `Springs.strains`), and notes; whole: moduli of the cells' springs."""
+    `Springs.strains`), and notes; cell_moduli: of the cells' springs."""
     covered = grid_cells.covered[rims.rows, rims.columns]
     rows, columns, part, n = (values[covered] for values in rims)
     at = rows, columns
     t = np.stack([-n[:, 1], n[:, 0]], axis=1)
     states = np.stack([_strains(a, b) for a, b in ((n, n), (t, t), (n, t))], axis=1)
-    bending = states @ whole.free_bending[at] @ np.swapaxes(states, 1, 2)
+    bending = states @ cell_moduli.free_bending[at] @ np.swapaxes(states, 1, 2)
     twisting, stretch = (form(bending)[:, 0] for form in (sections.twisting, sections.stretch_by_twist))
-    kinds = whole.free_shear, grid_cells.section.free_shear
+    kinds = cell_moduli.free_shear, grid_cells.section.free_shear
     shear, free = (1.0 / (t**2 / stiffness[at]).sum(axis=1) for stiffness in kinds)
     share = (t**2 * twist.shares[at][:, ::-1]).sum(axis=1)
     width, lost = np.sqrt(grid_cells.sides[at].prod(axis=1)), np.sqrt(twisting / free)

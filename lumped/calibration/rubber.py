@@ -86,9 +86,9 @@ def hyperelastic(
         face_shear=by_direction(*grid_cells.on_grid(faces)),
         face_diagonal_shear=grid_cells.on_grid(diagonal),
     )
-    whole = moduli.of_cells(springs, grid_cells.sides, layers)
-    springs, notes = with_twist(grid_cells, springs, whole)
-    return report(method, grid_cells, springs, notes, whole)
+    cell_moduli = moduli.of_cells(springs, grid_cells.sides, layers)
+    springs, notes = with_twist(grid_cells, springs, cell_moduli)
+    return report(method, grid_cells, springs, notes, cell_moduli)
 
 
 def _require_one_thickness(cells: CellSection | None) -> None:

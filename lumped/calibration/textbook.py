@@ -31,7 +31,7 @@ LLOYDS_POISSON = 1.0 / 3.0
 
 def axial(grid_cells: GridCells, layer_distance: float | None = None) -> Springs:
     """Return springs with k = E A/L per link."""
-    sides, strip = grid_cells.sides[0, 0], _strip(grid_cells)
+    sides, strip = grid_cells.sides[0, 0], _layer_modulus(grid_cells)
     across, area, diagonal = sides[::-1], sides.prod(), np.hypot(*sides)
     distance = layer_distance or grid_cells.sheet.thickness / (grid_cells.grid[2] - 1)
     return Springs.made(
@@ -46,9 +46,9 @@ def axial(grid_cells: GridCells, layer_distance: float | None = None) -> Springs
 
 def van_gelder(grid_cells: GridCells, layer_distance: float | None = None) -> Springs:
     """Return springs with Van Gelder's areas over squared lengths in each layer."""
-    sides, strip = grid_cells.sides[0, 0], _strip(grid_cells)
+    sides, strip = grid_cells.sides[0, 0], _layer_modulus(grid_cells)
     diagonal = 0.5 * strip * sides.prod() / np.sum(sides**2)
-    return _layered(grid_cells, layer_distance, strip * sides[::-1] / sides, diagonal)
+    return _with_layers(grid_cells, layer_distance, strip * sides[::-1] / sides, diagonal)
 
 
 def lloyd(grid_cells: GridCells, layer_distance: float | None = None) -> Springs:
@@ -57,7 +57,7 @@ def lloyd(grid_cells: GridCells, layer_distance: float | None = None) -> Springs
     Raises BadInput for cells so long that a spring would be negative."""
     sides = grid_cells.sides[0, 0]
     ratios, nu = sides[::-1] / sides, LLOYDS_POISSON
-    c = _strip(grid_cells) / (1.0 - nu**2)
+    c = _layer_modulus(grid_cells) / (1.0 - nu**2)
     c12, c66 = nu * c, (1.0 - nu) / 2.0 * c
     # blocks of the bilinear rectangle: an edge along x belongs to two cells
     along = 2.0 * (c * ratios / 3.0 - c66 / (6.0 * ratios))
@@ -65,7 +65,7 @@ def lloyd(grid_cells: GridCells, layer_distance: float | None = None) -> Springs
     diagonal = (np.sum(sides**2 * normal) + 2.0 * sides.prod() * mixed) / np.sum(sides**2)
     if along.min() < 0.0:
         raise BadInput("calibration 'lloyd': cells this much longer than wide ask for negative springs")
-    return _layered(grid_cells, layer_distance, along, diagonal)
+    return _with_layers(grid_cells, layer_distance, along, diagonal)
 
 
 def uniform(grid_cells: GridCells, k: float | None = None, layer_distance: float | None = None) -> Springs:
@@ -83,12 +83,12 @@ def uniform(grid_cells: GridCells, k: float | None = None, layer_distance: float
     return Springs.made(distance, **dict.fromkeys(families, k))
 
 
-def _strip(grid_cells: GridCells) -> float:
+def _layer_modulus(grid_cells: GridCells) -> float:
     """Return E times the thickness of a layer [N/m]."""
     return grid_cells.material.young * grid_cells.sheet.thickness / grid_cells.grid[2]
 
 
-def _layered(
+def _with_layers(
     grid_cells: GridCells, layer_distance: float | None, along: np.ndarray, diagonal: np.floating
 ) -> Springs:
     """Return springs from constants along x and y (2,) and over diagonals of a layer, with the layer distance

@@ -44,10 +44,27 @@ class LatticeSamples(NamedTuple):
 class Integrator(MotionMethod[State]):
     """An integrator, which advances a system from one state to the next.
 
-    step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
-    unless it is `fixed`; explicit: whether its steps have a limit of stability; options: names of the user's
-    options; kinks: times [s] that steps end at. Steps of constant length end at kinks that are farther than a
-    step from their neighbours: a table of finer samples has no kinks to end at.
+    Parameters
+    ----------
+    system : System
+        Equations of motion.
+    step : float
+        Length of steps, or first length of adaptive ones [s].
+    fixed : bool, default True
+        Whether an adaptive integrator keeps its step.
+
+    Attributes
+    ----------
+    order : int
+        Declared order of accuracy of the displacement.
+    adaptive : bool
+        Whether the integrator can choose its steps by their error.
+    explicit : bool
+        Whether its steps have a limit of stability.
+    options : tuple of str
+        Names of the user's options.
+    kinks : ndarray
+        Times [s] that steps end at; with constant steps kinks farther than a step from their neighbours.
     """
 
     name: ClassVar[str]

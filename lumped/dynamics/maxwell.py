@@ -40,7 +40,7 @@ class Maxwell:
         count = len(self.times)
         self.now = branches.begun(np.ones(count), np.zeros((count, 2, ends[-1])))
 
-    def _in(self, now: BranchStep) -> Maxwell:
+    def _with_step(self, now: BranchStep) -> Maxwell:
         other = copy(self)
         other.now = now
         return other
@@ -52,31 +52,31 @@ class Maxwell:
 
     def at_rest(self, u: np.ndarray) -> np.ndarray:
         """Return the memory of relaxed branches at displacement u (n, 3) [m]."""
-        return self.branches.at_rest(self._pass(u, np.zeros_like(u), 0.0, self.now.past)[1])
+        return self.branches.at_rest(self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)[1])
 
     def step(self, memory: np.ndarray, ahead: float) -> Maxwell:
         """Return the branches `ahead` [s] after a state with a given memory."""
-        return self._in(self.branches.step(memory, ahead))
+        return self._with_step(self.branches.step(memory, ahead))
 
     def stage(self, start: np.ndarray, relaxed: np.ndarray, own: float) -> Maxwell:
         """Return the branches of a stage: start: the step's memory; relaxed: h Σ_j a_ij R_j (b, 2, m); own:
         h γ [s]."""
         weight = 1.0 / (1.0 + own / self.times)
         gone = start[0] - start[1:] + relaxed / self.times[:, None, None]
-        return self._in(self.branches.begun(weight, -weight[:, None, None] * gone))
+        return self._with_step(self.branches.begun(weight, -weight[:, None, None] * gone))
 
     def add_force(self, u: np.ndarray, force: np.ndarray, own: float | None = None) -> float:
         """Add the springs' force with their branches' to `force` (n, 3) [N]; return the springs' energy [J],
         branches excluded. own: factor of the springs' law, `gain` unless given."""
-        return self._pass(u, force, self.gain if own is None else own, self.now.past)[0]
+        return self._add_forces(u, force, self.gain if own is None else own, self.now.past)[0]
 
     def after(self, u: np.ndarray) -> np.ndarray:
         """Return the memory at displacement u (n, 3) [m] in the current step or stage."""
-        return self.now.after(self._pass(u, np.zeros_like(u), 0.0, self.now.past)[1])
+        return self.now.after(self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)[1])
 
     def add_branch_force(self, u: np.ndarray, memory: np.ndarray, force: np.ndarray) -> None:
         """Add the force of the branches alone with the stresses of a memory."""
-        self._pass(u, force, 0.0, np.tensordot(np.array(self.branches.stiffness), memory[1:, 0], 1))
+        self._add_forces(u, force, 0.0, np.tensordot(np.array(self.branches.stiffness), memory[1:, 0], 1))
 
     def add_mean_force(
         self, before: np.ndarray, middle: np.ndarray, u: np.ndarray, force: np.ndarray
@@ -85,7 +85,7 @@ class Maxwell:
         before: the memory at the start."""
         self.add_branch_force(middle, 0.5 * (before + self.after(u)), force)
 
-    def _pass(
+    def _add_forces(
         self, u: np.ndarray, force: np.ndarray, own: float, past: np.ndarray
     ) -> tuple[float, np.ndarray]:
         energy, x = 0.0, np.empty((2, len(past)))
@@ -99,7 +99,7 @@ class Maxwell:
     def stresses(self, u: np.ndarray, own: float, past: float) -> list[np.ndarray]:
         """Return the stresses of every family for its tangent: own × the springs' stress at u plus past × the
         branches' constant stress in the step."""
-        _, x = self._pass(u, np.zeros_like(u), 0.0, self.now.past)
+        _, x = self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)
         both = own * x[0] + past * self.now.past
         pairs = zip(self._families, self._places, strict=True)
         return [both[place].reshape(len(f), *(f.measures,) * (f.measures > 1)) for f, place in pairs]

@@ -35,9 +35,18 @@ from sheetbench.scenes.meaning.motion import kinks
 
 @dataclass(frozen=True)
 class State:
-    """State of a system: time [s], displacement [m], velocity [m/s] and acceleration [m/s²] (size, 3), the
-    acceleration without the prescribed one; multiplier rows of u hold λ. memory: of the material's branches,
-    if any (`lumped.dynamics.maxwell`)."""
+    """State of a system in motion.
+
+    Parameters
+    ----------
+    time : float
+        Time [s].
+    u, v, a : ndarray of shape (size, 3)
+        Displacement [m], velocity [m/s] and acceleration [m/s²] without the prescribed one; multiplier rows
+        of u hold λ.
+    memory : ndarray, optional
+        Memory of the material's branches (`lumped.dynamics.maxwell`).
+    """
 
     time: float
     u: np.ndarray
@@ -47,12 +56,24 @@ class State:
 
 
 class System:
-    """Forces, mass and constraints of a scene in motion. mass: (n,) [kg] of every lumped mass, by default its
-    share of the sheet and the payloads.
+    """Forces, mass and constraints of a scene in motion.
 
-    shared_mass: whether neighbours on the lattice share mass, of bodies with moments of inertia. Forces are
-    computed in arrays that the system keeps (`forces`), so it is for one thread at a time; results do not
-    depend on the order of calls.
+    Forces are computed in arrays that the system keeps (`forces`), so it is for one thread at a time; results
+    do not depend on the order of calls.
+
+    Parameters
+    ----------
+    scene : Scene
+        Scene of the motion.
+    problem : Problem
+        Lattice of the scene under its supports and loads.
+    mass : ndarray of shape (n,), optional
+        Lumped masses [kg]; by default their shares of the sheet and the payloads.
+
+    Attributes
+    ----------
+    shared_mass : bool
+        Whether neighbours on the lattice share mass, of bodies with moments of inertia.
     """
 
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):

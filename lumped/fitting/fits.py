@@ -41,10 +41,19 @@ FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN, *RIMS_OW
 
 @dataclass(frozen=True)
 class StaticTarget:
-    """A scene and its target displacement (n, 3) [m] of the mid-surface at plan points (n, 2) [m]; prior:
-    weight of the pull towards the start of a fit."""
+    """A scene and its target displacement of the mid-surface at plan points.
 
-    prior: ClassVar[float] = 1e-3
+    Parameters
+    ----------
+    scene : Scene
+        Scene of the data.
+    points : ndarray of shape (n, 2)
+        Plan points [m].
+    displacement : ndarray of shape (n, 3)
+        Target displacement [m].
+    """
+
+    prior: ClassVar[float] = 1e-3  # weight of the pull towards the start of a fit
 
     scene: Scene
     points: np.ndarray
@@ -60,7 +69,15 @@ class StaticTarget:
 
 @dataclass(frozen=True)
 class ModalTarget:
-    """A scene and its lowest target frequencies (n,) [Hz], in order."""
+    """A scene and its lowest target frequencies.
+
+    Parameters
+    ----------
+    scene : Scene
+        Scene of the data.
+    frequencies : ndarray of shape (n,)
+        Target frequencies [Hz], rising.
+    """
 
     prior: ClassVar[float] = 1e-1
 

@@ -25,9 +25,18 @@ CONFIDENCE = 0.95
 
 @dataclass(frozen=True)
 class Identifiability:
-    """Identifiability of fitted parameters. singular_values: (n,) of the scaled Jacobian; half_widths:
-    parameter → half width of its 95 % interval in the scaled parameter, inf if the data do not determine it,
-    nan if m = n and σ is not given; warnings: sentences."""
+    """Singular values, intervals and undetermined combinations of fitted parameters.
+
+    Parameters
+    ----------
+    singular_values : ndarray of shape (n,)
+        Singular values of the scaled Jacobian, falling.
+    half_widths : dict of str to float
+        Half width of each scaled parameter's 95 % interval, inf if the data do not determine it, nan if there
+        are as many residuals as parameters and their deviation is not given.
+    warnings : tuple of str
+        Sentences about undetermined and correlated parameters.
+    """
 
     threshold: ClassVar[float] = THRESHOLD
 

@@ -93,8 +93,8 @@ def calibrate(
                 f"'{other}'" for other, entry in CALIBRATIONS.items() if name in entry.takes
             )
             unit = f" {UNITS[name]}" if name in UNITS else ""
-            given = "" if name in ("targets", "cells") else f"{name} = {value:g}{unit}: "
-            raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
+            prefix = "" if name in ("targets", "cells") else f"{name} = {value:g}{unit}: "
+            raise BadInput(f"{prefix}calibration '{method}' takes no {name}; {name} goes with {others}")
         if name in UNITS:
             require_positive(name, value, UNITS[name])
     with one_blas_thread():

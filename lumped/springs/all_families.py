@@ -285,8 +285,8 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
             sides, area = (part[: len(part) // repeats] for part in at_rest[1:])
             squares, twist = (sides**2).sum(axis=2), edges[lattice.kept, 2]
             of_layer = of_rubber(springs, squares, area, twist, kept_cells)
-            stiffness, others = (np.concatenate([part] * repeats) for part in of_layer)
-            yield _cells(at_rest, pattern, stiffness, "rubber", RUBBER, others)
+            stiffness, constants = (np.concatenate([part] * repeats) for part in of_layer)
+            yield _cells(at_rest, pattern, stiffness, "rubber", RUBBER, constants)
             continue
         strains = kept_cells(springs.strains(of_cells))
         strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]

@@ -217,11 +217,11 @@ def add_tangent(
     and with M + share (D − M), to the 3×3 blocks on and below the diagonal. extrapolated: whether `stress`
     holds quantities of `CellLaw.extrapolate`, which then also give D − M."""
     in_diagonals, of_warp = empty((4, 9)), empty((3, 9))
-    own = len(stress) == 0
+    stress_at_u = len(stress) == 0
     for c in range(len(cells.nodes)):
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
         _, memory, s = respond(cells.law, d, g, area, k)
-        if own:
+        if stress_at_u:
             s = share * s[0], share * s[1], share * s[2], share * s[3]
         else:
             s = stress[c, 0], stress[c, 1], stress[c, 2], stress[c, 3]

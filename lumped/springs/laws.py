@@ -319,14 +319,14 @@ def rubber_by_constants(
     _, f1, f2, _ = of_trace(x, k)
     slope = k[4] + f1 + c01 * trace + theta * f2 + 0.25 * k[8] / theta
     thinning = -(theta * (f2 + c01) * growing + 0.25 * k[8] * swept / a) / slope
-    moved, by_volume = growing + thinning, swept / a + thinning / theta
-    left = 1.0 if limit == 0.0 else 1.0 - x / limit
-    out[4] = moved / left - by_volume
+    stretching, by_volume = growing + thinning, swept / a + thinning / theta
+    remaining = 1.0 if limit == 0.0 else 1.0 - x / limit
+    out[4] = stretching / remaining - by_volume
     out[5] = swept + theta * growing + trace * thinning - 2.0 * by_volume
     if limit == 0.0:
-        out[6], out[7] = 2.0 * x * moved, 3.0 * x * x * moved
+        out[6], out[7] = 2.0 * x * stretching, 3.0 * x * x * stretching
     else:
-        out[9] = -k[4] * x * moved / (limit * limit * left * left)
+        out[9] = -k[4] * x * stretching / (limit * limit * remaining * remaining)
     out[8] = 0.25 * math.log(a * theta) * by_volume
     d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
     out[10] = -elongation(d1, g[0] + d1, math.sqrt(g[0]), 1.0)[1] * (rate[0] + 0.25 * rate[3])

@@ -99,9 +99,9 @@ def energies(
 
 @njit
 def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.ndarray, int]:
-    """Return the largest relative change of length of the links in a layer, of those with the largest and
-    least δg/g₀, at each of the displacements (k, n, 3) [m] before the first with a link no longer than the
-    `shortest` share of its length at rest; and the shortest link then, −1 if none is."""
+    """Return the largest relative change of length of the links in a layer, by the extremes of δg/g₀, at each
+    of the displacements (k, n, 3) [m] before the first with a collapsed link, no longer than the `shortest`
+    share of its length at rest; and the number of the collapsed link, −1 without one."""
     out = empty(len(states))
     for k in range(len(states)):
         least, most, collapsed, which = 0.0, 0.0, shortest * shortest, -1
@@ -174,11 +174,11 @@ def add_tangent(
     and with M + share (D − M), to the 3×3 blocks on and below the diagonal. extrapolated: whether `stress`
     holds predicted ½ k e [N], which then also give D − M."""
     flat = blocks.reshape(-1, 9)
-    own = len(stress) == 0
+    stress_at_u = len(stress) == 0
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links, m)
         _, at_u, material, rest = elongation(change, square, length, links.constants[m])
-        s, curved = share * at_u if own else stress[m], share * rest
+        s, curved = share * at_u if stress_at_u else stress[m], share * rest
         if extrapolated:
             s /= np.sqrt(square)
             curved = -0.5 * s / square

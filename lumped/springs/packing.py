@@ -189,10 +189,10 @@ def _topology(grid: Grid, *nodes: np.ndarray) -> Topology:
     number[order] = np.cumsum(distinct) - 1
     first, distances = first[distinct], distances[distinct]
     lines, columns = max(1, WIDTH // width), -(-width // -(-width // WIDTH))
-    within = first % plane
-    tile = [first // plane, within // width // lines, distances]
+    in_plane = first % plane
+    tile = [first // plane, in_plane // width // lines, distances]
     if width > WIDTH:
-        tile.append(within % width // columns)
+        tile.append(in_plane % width // columns)
     cut = np.diff(first) > BRIDGED
     for part in tile:
         cut |= part[1:] != part[:-1]

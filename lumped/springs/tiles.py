@@ -36,17 +36,17 @@ from sheetbench.numerics.options import inner, njit
 
 WIDTH = 128
 LANES = np.uint64(8)  # springs of a run come in blocks of so many, as wide as the widest vectors
-NUMBA_TRUE: Any = np.True_  # for Python's own numba compiles a kernel once for each
+NUMBA_TRUE: Any = np.True_  # with Python's True and False numba would compile a kernel for each
 NUMBA_FALSE: Any = np.False_
 STRIDE = WIDTH + 8  # of rows; a power of two would put them all in the same few places of a cache
 ROWS = tuple(np.uint64(row * STRIDE) for row in range(24))
-# kinds of memory that never overlap (`numerics.aliasing`): what is only read (rest data, displacements,
-# velocities), what springs keep of their shape, rows of a tile, and the three components of forces
+# kinds of memory that never overlap (`numerics.aliasing`): read-only data (rest data, displacements,
+# velocities), kept shapes of springs, rows of a tile, and the three components of forces
 GIVEN, KEPT, ROW, FORCE_X, FORCE_Y, FORCE_Z = range(6)
 OPTIONS: dict[str, Any] = {"fastmath": {"contract", "reassoc", "arcp", "nsz"}}
 R0, R3, R4, R5, R6, R9, R10, R11 = (ROWS[row] for row in (0, 3, 4, 5, 6, 9, 10, 11))
 LAW = 17  # row of rest data from which on the constants of a cell's law are
-LINK_DATA, LINK_SHAPE = 6, 3  # rows of rest data, and of what is kept
+LINK_DATA, LINK_SHAPE = 6, 3  # rows of rest data, and of kept shapes
 CELL_DATA, CELL_SHAPE = {law.tag: LAW + law.count for law in LAWS}, 9
 USED = 18  # rows of a tile
 TINY = 1e-36  # m²
@@ -212,7 +212,7 @@ def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: in
         n1, n2, n3 = load_each(KEPT, tile, at + R6 + i, STRIDE, 3)
         u, w = load_each(ROW, tile, R0 + i, STRIDE, 3), load_each(ROW, tile, R3 + i, STRIDE, 3)
         k = load_each(GIVEN, rest, t + R10 + i, STRIDE, 7)
-        r1 = a[0] * u[0] + a[1] * u[1] + a[2] * u[2]  # half the rates of a·a and b·b, that of a·b
+        r1 = a[0] * u[0] + a[1] * u[1] + a[2] * u[2]  # half the rates of a·a and b·b, the rate of a·b
         r2 = b[0] * w[0] + b[1] * w[1] + b[2] * w[2]
         r3 = (a[0] * w[0] + a[1] * w[1] + a[2] * w[2]) + (b[0] * u[0] + b[1] * u[1] + b[2] * u[2])
         growing = n1 * r1 + n2 * r2 - n3 * r3  # Ȧ

@@ -28,7 +28,9 @@ def solution(
     state, assembly = path.state, problem.assembly  # they outlive the solve
     u, lattice = state.u, assembly.lattice
     linear = requested.get("linear", False)
-    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
+    exerted, energies = (
+        _of_small_displacements(problem, state) if linear else _equilibrium_forces(problem, state)
+    )
     reactions, on_masses = problem.constraints.reactions(exerted)
     coupling = assembly.coupling
     wrenches = coupling.wrenches(u, exerted) if coupling is not None else {}
@@ -48,7 +50,7 @@ def solution(
         iterations=path.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=partial(_sampled, lattice, u),
+        sample=partial(_sample, lattice, u),
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed)),
@@ -62,11 +64,11 @@ def solution(
     )
 
 
-def _sampled(lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _sample(lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
     return MidSurface(lattice, points).of(u)
 
 
-def _at(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
+def _equilibrium_forces(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
     """Return the force that holds masses and rows at an equilibrium, internal less external force (size, 3)
     [N], and the energies [J]."""
     energies = state.energies or problem.survey(state.u, state.load_factor).energies

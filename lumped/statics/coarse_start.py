@@ -23,7 +23,7 @@ METHOD = "consistent"
 FROM = 5_000  # unknowns from which smaller lattices cost less than the factorisations they save
 
 
-def halved(scene: Scene, calibration: Calibration) -> Calibration | None:
+def coarser_springs(scene: Scene, calibration: Calibration) -> Calibration | None:
     """Return springs of the lattice with half as many cells a side, None if it cannot serve as a start."""
     nx, ny, layers = calibration.grid
     other = calibration.method != METHOD or calibration.cells is not None
@@ -36,17 +36,17 @@ def halved(scene: Scene, calibration: Calibration) -> Calibration | None:
     return replace(coarser, masses=calibration.masses)
 
 
-def refined(coarse: Lattice, u: np.ndarray, fine: Lattice) -> np.ndarray:
+def interpolated_displacement(coarse: Lattice, u: np.ndarray, fine: Lattice) -> np.ndarray:
     """Return the displacement (n, 3) [m] of the fine lattice's masses from the coarse lattice's: the
     mid-surface's by splines, and the layers' distances from it in proportion."""
     columns = u[: coarse.mass_count].reshape(coarse.grid[1], coarse.grid[0], 2, 3)
     ratio = fine.layer_distance / coarse.layer_distance
-    middle = _splined(coarse, columns.mean(axis=2), fine)
-    half = _splined(coarse, 0.5 * ratio * (columns[:, :, 1] - columns[:, :, 0]), fine)
+    middle = _interpolated_field(coarse, columns.mean(axis=2), fine)
+    half = _interpolated_field(coarse, 0.5 * ratio * (columns[:, :, 1] - columns[:, :, 0]), fine)
     return np.stack([middle - half, middle + half], axis=2).reshape(-1, 3)
 
 
-def _splined(coarse: Lattice, field: np.ndarray, fine: Lattice) -> np.ndarray:
+def _interpolated_field(coarse: Lattice, field: np.ndarray, fine: Lattice) -> np.ndarray:
     """Return a field (ny, nx, 3) on the coarse grid's lines, interpolated to the fine grid's lines."""
     from scipy.interpolate import make_interp_spline
 

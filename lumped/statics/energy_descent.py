@@ -25,7 +25,7 @@ DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances; the first that leads away fro
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again
 
 
-def settle(path: LatticePath, load_factor: float) -> LatticeState:
+def descend(path: LatticePath, load_factor: float) -> LatticeState:
     """Return the stable equilibrium at a load factor that descent reaches from a path's last one, disturbed
     if it is at this load factor and unstable. Raises LoadStepFailed without one."""
     problem, state, factor = path.structure, path.state, path.factor
@@ -34,13 +34,13 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
     try:
         if load_factor != path.load_factor:
             u = problem.project_to_supports(state.u, load_factor)
-            state, factor = _descend(path, problem, u, load_factor), None
+            state, factor = _minimise(path, problem, u, load_factor), None
         factor = factor or path.factored(path.tangent(state, load_factor))
         if load_factor != path.load_factor and not factor.negative:
             return state
-        for share in DISTURBANCES:  # of a saddle, as a flat sheet that has buckled
+        for share in DISTURBANCES:  # a saddle is e.g. a flat sheet that has buckled
             u = _disturbed(problem, state, factor, share)
-            minimum = _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
+            minimum = _minimise(path, problem, problem.project_to_supports(u, load_factor), load_factor)
             if not problem.assembly.natural or not path.factored(path.tangent(minimum, load_factor)).negative:
                 break
         return minimum
@@ -48,7 +48,7 @@ def settle(path: LatticePath, load_factor: float) -> LatticeState:
         raise LoadStepFailed(Status.SINGULAR, str(error), 0.0) from None
 
 
-def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
+def _minimise(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
     wait, drive = 0, Drive(load_factor)
     for _ in range(STEPS):
         residual = problem.residual(u, load_factor)
@@ -67,7 +67,9 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
         start, end = (u, drive), (u + share * move, drive)
-        share *= min((one.near(end).share_of_way(one.near(start)) for one in problem.contacts), default=1.0)
+        share *= min(
+            (contact.near(end).share_of_way(contact.near(start)) for contact in problem.contacts), default=1.0
+        )
         before = problem.potential(u, load_factor)
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= before + 1e-4 * share * slope:

@@ -16,8 +16,8 @@ from lumped.lattice import Weights
 from lumped.statics import validity
 from lumped.statics.answer import solution
 from lumped.statics.build import build_problem
-from lumped.statics.coarse_start import FROM, halved, refined
-from lumped.statics.energy_descent import settle
+from lumped.statics.coarse_start import FROM, coarser_springs, interpolated_displacement
+from lumped.statics.energy_descent import descend
 from lumped.statics.fields import SMALL
 from lumped.statics.problem import STRETCH, LatticePath, LatticeState, Problem
 from sheetbench.answers.solution import Iteration, Solution, Status
@@ -174,7 +174,7 @@ def solve_path(
         problem,
         problem,
         problem.inspect,
-        settle if problem.descends else None,
+        descend if problem.descends else None,
         progress,
         None if near is None else problem.start(near),
         problem.scene.sheet.thickness / problem.size,
@@ -204,16 +204,16 @@ def solve_from_best_start(
         raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
     if problem.assembly.coupling is not None:  # its unknowns depend on the grid
         return solve_path(problem, progress=progress)
-    whole = near is None and not problem.items  # whose points are others on another grid
-    large = whole and problem.descends and problem.system.unknowns > FROM
-    springs = halved(problem.scene, calibration) if large else None
+    may_start_coarser = near is None and not problem.items  # contact points differ on another grid
+    large = may_start_coarser and problem.descends and problem.system.unknowns > FROM
+    springs = coarser_springs(problem.scene, calibration) if large else None
     if springs is None:
         return solve_path(problem, "path", near, progress)
     smaller = build_problem(problem.scene, springs)
     path = solve_from_best_start(smaller, springs, progress=progress)
     factorisations, history = path.factorisations, path.history
     if path.status is Status.CONVERGED and not path.snaps and not path.notes:
-        near = refined(smaller.assembly.lattice, path.state.u, problem.assembly.lattice)
+        near = interpolated_displacement(smaller.assembly.lattice, path.state.u, problem.assembly.lattice)
     del smaller, path  # and the memory of their factors
     path = solve_path(problem, "path", near, progress)
     path.factorisations += factorisations

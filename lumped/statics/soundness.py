@@ -58,13 +58,13 @@ def examine(
     sound, kind, mass = len(states), -1, 0
     for k in range(len(states)):
         for i in range(len(positions)):
-            moved = states[k, i, 0] + states[k, i, 1] + states[k, i, 2]
-            if kind < 0 and not math.isfinite(moved):
+            total = states[k, i, 0] + states[k, i, 1] + states[k, i, 2]
+            if kind < 0 and not math.isfinite(total):
                 sound, kind, mass = k, 0, i
-    found, link = strains(states[:sound], links, shortest)
+    largest, link = strains(states[:sound], links, shortest)
     if link >= 0:
         kind, mass = 1, links.nodes[link, 0]
-    for k in range(len(found)):
+    for k in range(len(largest)):
         middle, director = surface(columns, positions, states[k])
         least, which = np.inf, 0
         for j in range(ny - 1):
@@ -78,8 +78,8 @@ def examine(
                 if areas[j, i] > 0.0 and facing < least * areas[j, i]:
                     least, which = facing / areas[j, i], columns[j, i, 0]
         if least <= 0.0:
-            return found[:k], 2, which
-    return found, kind, mass
+            return largest[:k], 2, which
+    return largest, kind, mass
 
 
 @njit

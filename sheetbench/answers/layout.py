@@ -80,7 +80,7 @@ def blocks(table: Table, width: int | None) -> list[Block]:
     naming = next((i for i, one in enumerate(strips) if one.column.numeric or one.column.prose), 1)
     while naming < len(strips) - 1 and len({row[:naming] for row in rows}) < len(rows):
         naming += 1
-    return [_block(part, width) for part in _stacked(strips, max(naming, 1), width)]
+    return [_block(part, width) for part in _split(strips, max(naming, 1), width)]
 
 
 def text(table: Table, most: int | None = None) -> str:
@@ -99,7 +99,7 @@ def _fits(strips: list[_Strip], width: int | None, whole: bool = False) -> bool:
     return width is None or sum(widths) + GAP * (len(strips) - 1) <= width
 
 
-def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
+def _split(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
     """Return the columns in as few blocks as the width allows, each with the first `naming` columns."""
     if _fits(strips, width):
         return [strips]

@@ -56,7 +56,7 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
     """Return the fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal.
     Raises ValueError if an entry of the diagonal is missing."""
     size, leaf = len(starts) - 1, max(2, LEAF // cells.unknowns.shape[1])
-    line, parts, halves = _dissected(cells, size, leaf)
+    line, parts, halves = _dissect(cells, size, leaf)
     at, column = np.nonzero(cells.unknowns[line] >= 0)
     unknown = cells.unknowns[line[at], column]
     low, high = np.zeros(size, np.int64), np.zeros(size, np.int64)
@@ -100,18 +100,18 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
     )  # fmt: skip
 
 
-def _dissected(cells: CoupledCells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _dissect(cells: CoupledCells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return a line of cells (m,), parts (F, 2) as ranges of the line, and the parts' halves (F, 2). A part
     follows its halves, −1 for none. leaf: number of cells in a part that is not halved."""
     orders = np.argsort(cells.places, axis=0, kind="stable").T.copy()
-    parts, halves = _halved(cells.unknowns, orders, size, leaf)
+    parts, halves = _halve(cells.unknowns, orders, size, leaf)
     walk = np.lexsort((-parts[:, 0], parts[:, 1]))
     number = np.append(np.argsort(walk), -1)
     return orders[0], parts[walk], number[halves[walk]]
 
 
 @njit
-def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray]:
+def _halve(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray]:
     """Return parts (F, 2) and their halves (F, 2) of cells (m, k); sort `orders` (2, m) by parts.
 
     orders: the cells along x and along y. A part is cut along an order at the least value of the number of

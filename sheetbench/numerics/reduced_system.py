@@ -59,7 +59,7 @@ class Reduction(NamedTuple):
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
         """Return the reduced matrix (m, m) of blocks (b, 3, 3)."""
         size = len(self.pointers) - 1
-        data = _gathered(blocks.ravel(), self.starts, self.source, self.weight)
+        data = _gather(blocks.ravel(), self.starts, self.source, self.weight)
         return sp.csc_array((data, self.rows, self.pointers), shape=(size, size))
 
 
@@ -229,7 +229,7 @@ def _entries(
 
 
 @njit
-def _gathered(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
+def _gather(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Return the nonzeros of the reduced matrix."""
     if not len(starts):
         return entries[source]

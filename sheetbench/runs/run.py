@@ -161,10 +161,10 @@ class Run(Generic[AnyState]):
         """Run from the last checkpoint or the start to the end or a fault; return status and message. start:
         makes the initial state, with the work of parts that move at once."""
         self._method.forget()
-        state, since = self._resumed() or self._passed(start())[0].state, 0
+        state, since = self._resume() or self._record_step(start())[0].state, 0
         while self.samples <= self._schedule.samples:
             try:
-                last = self._method.go(state, self._goal(state.time) - state.time)
+                last = self._method.go(state, self._next_end(state.time) - state.time)
             except (StepFailed, SingularMatrixError) as failure:
                 return Status.DIVERGED, f"at {state.time:.6g} s: {failure}"
             self.steps += last.steps
@@ -172,7 +172,7 @@ class Run(Generic[AnyState]):
             if self._method.adapts and since >= MOST_STEPS:
                 text = f"at {last.state.time:.6g} s: {since} steps without reaching the next sample"
                 return Status.STEP_LIMIT, f"{text}: add damping or fix the step"
-            before, (last, fault) = self.samples, self._passed(last)
+            before, (last, fault) = self.samples, self._record_step(last)
             if fault is not None:
                 return fault.status, fault.message
             state = last.state
@@ -183,7 +183,7 @@ class Run(Generic[AnyState]):
             self._progress(state.time)
         return self.watch.ending(self._observer.beyond(self.watch.stretch), self._method.notes())
 
-    def _goal(self, time: float) -> float:
+    def _next_end(self, time: float) -> float:
         """Return the latest end of the next step [s]."""
         every, goal, span = self._schedule.every, self._schedule.samples, self._method.span
         if span is not None:
@@ -192,7 +192,7 @@ class Run(Generic[AnyState]):
         after = bisect(kinks, time + 1e-9 * every)
         return float(min([goal * every, *kinks[after : after + 1]]))
 
-    def _passed(self, last: Advance[AnyState]) -> tuple[Advance[AnyState], Fault | None]:
+    def _record_step(self, last: Advance[AnyState]) -> tuple[Advance[AnyState], Fault | None]:
         """Take the samples within a step; return the step, with its end rounded to a sample, and a fault."""
         every, fault = self._schedule.every, None
         number = int(last.state.time / every + 1e-9)
@@ -200,11 +200,11 @@ class Run(Generic[AnyState]):
             if self._method.span is not None and abs(last.state.time - number * every) < 1e-9 * every:
                 last = replace(last, state=replace(last.state, time=number * every))  # type: ignore[type-var]
             samples = self._method.at(every * np.arange(self.samples, number + 1), last)
-            fault = self._take(samples)
+            fault = self._record_samples(samples)
         self.spent = self.spent + np.array([last.dissipated, last.work])
         return last, fault
 
-    def _take(self, samples: Any) -> Fault | None:
+    def _record_samples(self, samples: Any) -> Fault | None:
         """Store samples up to the first faulty one and return its fault; energies are the step's own."""
         observer, rows = self._observer, self._observer.rows(samples)
         rows[:, 4] += self.spent[0]
@@ -236,7 +236,7 @@ class Run(Generic[AnyState]):
         content = {name: value for name, value in content.items() if value is not None}
         self._store.checkpoint(content | {"watch": self.watch.memory()})
 
-    def _resumed(self) -> AnyState | None:
+    def _resume(self) -> AnyState | None:
         """Return the state of the last checkpoint and restore the run's counts, or None without one."""
         checkpoint = self._store.resume()
         if checkpoint is None:

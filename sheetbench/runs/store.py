@@ -70,7 +70,7 @@ class FolderStore:
             self.folder.mkdir(parents=True, exist_ok=True)
         with ExitStack() as held:
             held.enter_context(only_writer(self.folder))
-            self._note()
+            self._check_description()
             self._held = held.pop_all()
         return self
 
@@ -80,13 +80,13 @@ class FolderStore:
     def append(self, name: str, rows: np.ndarray) -> None:
         """Append samples (k, width), or frames (k, rows, 3)."""
         written = np.ascontiguousarray(rows, dtype=float).tobytes()
-        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
+        with self._open(name, os.O_WRONLY | os.O_APPEND) as file:
             file.write(written)
         self._checksums[name] = zlib.crc32(written, self._checksums[name])
 
     def checkpoint(self, content: dict[str, Any]) -> None:
         """Replace the checkpoint, after all appended rows are on disk."""
-        sizes = {name: self._synced(name) for name in APPENDED}
+        sizes = {name: self._sync(name) for name in APPENDED}
         checksums = {CHECKSUM.format(name): self._checksums[name] for name in APPENDED}
         with whole(self.folder / "checkpoint.npz") as partial, partial.open("wb") as file:
             np.savez(file, **{**content, **sizes, **checksums})
@@ -100,24 +100,24 @@ class FolderStore:
         """
         path = self.folder / "checkpoint.npz"
         if not path.exists():
-            self._cut(dict.fromkeys(APPENDED, 0))
+            self._truncate(dict.fromkeys(APPENDED, 0))
             return None
         try:
             content = dict(np.load(path))
             sizes = {name: int(content[name]) for name in APPENDED}
             self._checksums = {name: int(content[CHECKSUM.format(name)]) for name in APPENDED}
         except (OSError, ValueError, LookupError, EOFError, zipfile.BadZipFile) as error:
-            raise self._damaged(path, f"is damaged ({error})") from None
+            raise self._damage_error(path, f"is damaged ({error})") from None
         for name, size in sizes.items():
             appended = self._file(name)
             present = appended.stat().st_size if appended.exists() else 0
             if present < size:
                 fault = f"holds {present} of the {size} bytes that the checkpoint counts"
-                raise self._damaged(appended, fault)
+                raise self._damage_error(appended, fault)
             written = np.memmap(appended, np.uint8, "r", shape=size).data if size else b""
             if zlib.crc32(written) != self._checksums[name]:
-                raise self._damaged(appended, "is not what the run wrote: its checksum is another")
-        self._cut(sizes)
+                raise self._damage_error(appended, "is not what the run wrote: its checksum is another")
+        self._truncate(sizes)
         return content
 
     def rows(self, name: str) -> np.ndarray:
@@ -127,19 +127,19 @@ class FolderStore:
             return np.empty((0, *shape))
         return np.memmap(path, dtype=float, mode="r").reshape(-1, *shape)
 
-    def _note(self) -> None:
+    def _check_description(self) -> None:
         """Write the run's description, or compare it with the description in the folder."""
         path = self.folder / "run.json"
         if not path.exists():
             if (self.folder / "checkpoint.npz").exists():
-                raise self._damaged(path, "is missing beside a checkpoint")
+                raise self._damage_error(path, "is missing beside a checkpoint")
             with whole(path) as partial:
                 text = json.dumps({"asked": self._description}, sort_keys=True)
                 partial.write_text(text, encoding="utf-8")
         try:
             stored = dict(json.loads(path.read_text(encoding="utf-8"))["asked"])
         except (OSError, ValueError, TypeError, LookupError) as error:
-            raise self._damaged(path, f"is damaged ({error})") from None
+            raise self._damage_error(path, f"is damaged ({error})") from None
         requested = self._description
         differing = [key for key in {**stored, **requested} if stored.get(key) != requested.get(key)]
         if differing and set(differing) <= {"version", "source"}:
@@ -154,25 +154,25 @@ class FolderStore:
                 "choose another folder or remove this one"
             )
 
-    def _cut(self, sizes: dict[str, int]) -> None:
+    def _truncate(self, sizes: dict[str, int]) -> None:
         """Cut the appended files to their sizes [bytes], or make them."""
         for name, size in sizes.items():
-            with self._opened(name, os.O_WRONLY | os.O_CREAT) as file:
+            with self._open(name, os.O_WRONLY | os.O_CREAT) as file:
                 os.ftruncate(file.fileno(), size)
 
-    def _damaged(self, path: Path, fault: str) -> BadInput:
+    def _damage_error(self, path: Path, fault: str) -> BadInput:
         return BadInput(f"{path}: {fault}; remove the folder {self.folder} to start the run over")
 
     def _file(self, name: str) -> Path:
         return self.folder / f"{name}.bin"
 
     @contextmanager
-    def _opened(self, name: str, flags: int) -> Iterator[BinaryIO]:
+    def _open(self, name: str, flags: int) -> Iterator[BinaryIO]:
         path = self._file(name)
         with writing(path), os.fdopen(os.open(path, flags | NOT_FOLLOWED, 0o666), "wb") as file:
             yield file
 
-    def _synced(self, name: str) -> int:
-        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
+    def _sync(self, name: str) -> int:
+        with self._open(name, os.O_WRONLY | os.O_APPEND) as file:
             os.fsync(file.fileno())
             return os.fstat(file.fileno()).st_size

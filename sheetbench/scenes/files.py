@@ -15,7 +15,7 @@ from sheetbench.scenes.meaning.plausibility import warn_of_slips
 from sheetbench.scenes.objects.sheet import DRAWN
 from sheetbench.scenes.scene import Scene
 
-MANY = 200  # files beside a missing one that are compared with its name
+MANY = 200  # files in the folder of a missing file that are compared with its name
 
 
 def catalogue() -> dict[str, Path]:

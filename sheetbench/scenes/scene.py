@@ -31,7 +31,7 @@ class Scene(SceneFields, defer_build=False):
     def _faults(self) -> Iterator[object]:
         vars(self)["supports"] = region.with_rims(self)  # the scene is frozen, but not whole yet
         if not self.probes:
-            vars(self)["probes"] = self._usual_probes()
+            vars(self)["probes"] = self._default_probes()
         lx, ly = self.sheet.lengths
         for key, (x, y) in region.marked(self).items():
             off = f"{key} = {[x, y]} is off the sheet, which is 0 ≤ x ≤ {lx:g} m, 0 ≤ y ≤ {ly:g} m"
@@ -43,7 +43,7 @@ class Scene(SceneFields, defer_build=False):
             varied = f"layer: a laminate is the same all over, without {self.varied_by}"
             yield not self.homogeneous and varied
             yield misfit(self.layers, self.sheet, self.material)
-        yield self._unnatural()
+        yield self._natural_fault()
         yield mismatched(self.patches, self.material)
         law = f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
         yield self.springs and self.material.law and law
@@ -53,7 +53,7 @@ class Scene(SceneFields, defer_build=False):
         yield from distances.conflicts(self)
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
 
-    def _usual_probes(self) -> dict[str, PlanPoint]:
+    def _default_probes(self) -> dict[str, PlanPoint]:
         """Return centre P1, middles P2 (y side) and P3 (x side) beside P4, the corner farthest from supports.
 
         A point on a held edge would not move: it is placed a quarter of the sheet inside.
@@ -73,7 +73,7 @@ class Scene(SceneFields, defer_build=False):
         probes = {k: (moved.get((0, x), x), moved.get((1, y), y)) for k, (x, y) in points.items()}
         return {k: nearest(self.region, at) for k, at in probes.items()} if self.pierced else probes
 
-    def _unnatural(self) -> str:
+    def _natural_fault(self) -> str:
         """Return the reason why a natural strain or a temperature is impossible, "" if it is possible."""
         if not (given := self.natural_by):
             return ""

@@ -26,8 +26,7 @@ LEFT_OUT = (
 
 @dataclass(frozen=True)
 class Nearer:
-    """Best of the numbers in use beside ours, of a scene or as the geometric mean of all scenes that both
-    answer."""
+    """Best of the numbers in use and ours, of a scene or as the geometric mean over scenes."""
 
     code: Annotated[str, Column(prose=True)]
     scene: str
@@ -123,8 +122,7 @@ class Codes(Answer):
 
 
 def _of_code(code: CodeResults) -> Table:
-    """Return a table of scenes down, recipes across, below each suite the geometric mean of the scenes
-    answered."""
+    """Return a table of scenes down, recipes across, below each suite the geometric mean."""
     cells = {(row.scene, row.recipe): row for row in code.rows}
     rows = []
     for suite in ("statics", "curves"):

@@ -76,8 +76,7 @@ class CodeResults:
 
 
 def write_results(code: str, title: str, licence: str, rows: Iterable[Trial], arguments: str) -> Path:
-    """Write a code's file of results, and return the file. arguments: of the `study codes` that measured
-    them."""
+    """Write a code's file of results, and return it; arguments: of the `study codes` that measured them."""
     machine = f"{platform.machine()}, Python {platform.python_version()}, one thread"
     date = datetime.now(UTC).date().isoformat()
     head = CodeResults(code, title, licence, date, machine, f"sheetbench study codes {arguments}", ())

@@ -1,5 +1,4 @@
-"""Three problems with one parameter (`studies.master_curves.curves`), solved by lattices, shells and other
-codes.
+"""Three problems with one parameter (`curves`), solved by lattices, shells and other codes.
 
 **Cantilever**: drop over reach H/W against Γ. Exact: the heavy elastica θ'' = −Γ (1 − s) cos θ,
 θ(0) = θ'(1) = 0, solved by collocation.

@@ -30,8 +30,7 @@ def tip(load: float, poisson: float, turned: float) -> np.ndarray:
     down, turn = weight_direction(turned), np.zeros(3)
 
     def from_tip(turn: np.ndarray, load: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return directors (3, 3) and place (3,) at the clamp of a strip with its tip at 0 under a given
-        turn."""
+        """Return directors (3, 3) and place (3,) at the clamp for a given turn of the tip, at 0."""
 
         def slopes(s: float, state: np.ndarray) -> np.ndarray:
             directors, moment = state[:9].reshape(3, 3), state[9:12]

@@ -163,8 +163,7 @@ def share(rows: Sequence[Promise]) -> Share:
 
 
 def _chance(scenes: Sequence[Sequence[bool]]) -> float:
-    """Return the standard error of the share that is kept, from each scene's kept promises; nan of fewer than
-    two."""
+    """Return the standard error of the share that is kept, by scenes; nan of fewer than two."""
     n = len(scenes)
     if n < 2:
         return float("nan")

@@ -1,5 +1,4 @@
-"""Clamped silicone block let go, with three loads: one damper, Maxwell branches, and E and loss factor of
-each run.
+"""Clamped silicone block let go, with three loads: one damper, branches, E and loss factor of each run.
 
 Data: Dubied et al. 2022 (arXiv 2201.12560), srl-ethz/diffPD_sim2real, MIT: C3D files of 100 Hz. The tip is
 the mean of the first three markers, the base the mean of the others. A damped cosine through 2.5 s of a run
@@ -144,13 +143,14 @@ def block(mass: float, material: Material) -> Scene:
 
 
 def identified(mass: float, swing: Swing, time: np.ndarray, tip: np.ndarray) -> Identification:
-    """Return the E and loss factor, of one damper at the run's frequency, with which the shell comes nearest
-    to it."""
+    """Return E and loss factor, of one damper at the run's frequency, of the shell nearest to the run."""
     material = Material(YOUNG, POISSON, DENSITY, loss_factor=2.0 * swing.damping, frequency=swing.frequency)
     moved = np.full((len(time), 3), np.nan)
     moved[:, 2] = tip
     run = Displacements(np.tile(TIP, (len(time), 1)), moved, time)
-    return identify(block(mass, material), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    answer = identify(block(mass, material), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    assert isinstance(answer, Identification)
+    return answer
 
 
 def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.ndarray]:

@@ -1,3 +1,2 @@
-"""Range in which each model holds, degrades, refuses or breaks: the verb `stability` on published, extreme
-scenes.
-"""
+"""Maps of the range in which each model holds, degrades, refuses or breaks, on published and extreme
+scenes."""

@@ -45,8 +45,7 @@ GRID, ELEMENTS = 9, 12
 
 
 def chess_masses(masses: int, ratio: float) -> Row:
-    """Return Verlet's limit, its distance from the measured one, and the midpoint rule's loss of energy; a
-    task."""
+    """Return Verlet's limit, its distance from the measured one, and midpoint's loss of energy; a task."""
     scene = load("one-edge-clamped").replace(gravity=None)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
 

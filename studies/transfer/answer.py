@@ -87,8 +87,7 @@ class Transfer(Answer):
         return tables
 
     def _over_scenes(self) -> Table:
-        """Return a row per method: median and worst error over the scenes, and the worst scene on the finest
-        grid."""
+        """Return a row per method: median and worst error, and the worst scene on the finest grid."""
         lines = []
         for method in self.methods:
             of_method = [row for row in self.static if row["method"] == method]
@@ -147,8 +146,7 @@ class Transfer(Answer):
         return Table.of(Line, lines, caption, "limits", grouped=True)
 
     def _modal(self, grid: int) -> Table:
-        """Return misses of the first frequencies: a row per scene, distribution of the mass, and
-        frequency."""
+        """Return misses of the first frequencies by scene, distribution of the mass, and frequency."""
         entries: list[tuple[dict[str | Column, Any], str, float]] = [
             ({"scene": row["scene"], "masses": row["masses"], _MODE: i}, row["method"], float(miss))
             for row in self.modal

@@ -47,8 +47,7 @@ def measure(scene: dict[str, Any], grids: Sequence[int] = GRIDS, elements: int =
 
 @dataclass(frozen=True)
 class Drawn:
-    """Errors of a scene by masses along the shorter side, the orders by which they fall, and the shell's
-    bar."""
+    """Errors of a scene by masses along the shorter side, their orders, and the shell's bar."""
 
     scene: str
     rims: str

@@ -133,8 +133,7 @@ class _Study:
                 }
 
     def gradings(self, name: str) -> tuple[dict[str, list[float | str]], tuple[str, ...]]:
-        """Return the gradings of the scene's lattices by method, one a grid, and the reasons of chosen
-        ones."""
+        """Return the gradings of the scene's lattices by method, one a grid, and the reasons."""
         specs = lattices(self.scenes[name], [(n, n) for n in self.grids], self.methods)
         chosen, reasons = resolve_each(self.scenes[name], specs, self.grading)
         values = [candidate.settings.get("grading", 0.0) for candidate in chosen]
@@ -251,8 +250,7 @@ class _Study:
         return None if done is None else np.array(done.row["found"], dtype=float)
 
     def _done(self, run: Run) -> Finished | None:
-        """Note a run and return its outcome, None where it has no answer to the whole load or is not done
-        yet."""
+        """Note a run and return its outcome, None without an answer to the whole load, or before it."""
         self.planned.setdefault(run.key, run)
         done = None if self.outcomes is None else self.outcomes[run.key]
         return done if done is not None and _answered(done) else None
@@ -276,8 +274,7 @@ def _misses(f: np.ndarray | None, truth: np.ndarray | None) -> np.ndarray | None
 
 
 def _richardson(fields: Sequence[np.ndarray | None]) -> np.ndarray | None:
-    """Return the limit of the two finest fields, the coarser on cells twice as large, for an error that falls
-    as h²."""
+    """Return the limit of the two finest fields, one on cells twice as large, for errors like h²."""
     if len(fields) < 2 or fields[-1] is None or fields[-2] is None:
         return None
     limit: np.ndarray = fields[-1] + (fields[-1] - fields[-2]) / 3.0

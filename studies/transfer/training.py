@@ -72,8 +72,7 @@ class Trained:
 
 
 def bent_scenes() -> dict[str, Scene]:
-    """Return Habibi et al.'s sheet under a thousandth of its weight, held seven ways, and a force at its free
-    corner."""
+    """Return Habibi et al.'s sheet under 1/1000 of its weight, held seven ways, and with a corner force."""
     feather = Gravity(acceleration=(0.0, 0.0, -9.81e-3))
     bent = {name: _scene(held, feather) for name, held in HELD.items()}
     force = PointLoad(at=(SIDE, SIDE), force=(0.0, 0.0, 1e-4))
@@ -163,7 +162,7 @@ def _error(displacement: np.ndarray, truth: np.ndarray) -> float:
 
 def write_table() -> Path:
     """Train the calibration `central`, and write the rows of its table; return the table's path."""
-    rows = (f"    Row({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
+    rows = (f"    CentralFactors({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
     table = Path(lumped.__file__).parent / "calibration" / "central_table.py"
     head = table.read_text(encoding="utf-8").partition("ROWS = (\n")
     write_text(table, "".join([*head[:2], *rows, ")\n"]))

@@ -116,7 +116,7 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
         kept = MemoryStore({"samples": (6,), "frames": (1, 3)})
         run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), kept, (), None)
         run.watch = Watch(balance, lowest=balance, largest=3.0)
-        fault = run._take(moving)
+        fault = run._record_samples(moving)
         return run.samples, fault
 
     assert checked(1.9) == (1, None)

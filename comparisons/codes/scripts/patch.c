@@ -39,7 +39,7 @@ static double line(const double *d, const double *k, double y, double weight, do
   return energy;
 }
 static double inside(const double *d, const double *k, double *load) { /* over the patch of a cell where its depth is positive */
-  double c[3][3], row[3][3], end[8] = {-1}, p[5] = {0}, energy = 0;
+  double c[3][3], row[3][3], end[8] = {-1}, p[5], r[5] = {0}, energy = 0;
   int n = 1;
   for (int i = 0; i < 3; i++) row[i][0] = d[3 * i + 1], row[i][1] = (d[3 * i + 2] - d[3 * i]) / 2, row[i][2] = (d[3 * i + 2] + d[3 * i]) / 2 - d[3 * i + 1];
   for (int j = 0; j < 3; j++) c[0][j] = row[1][j], c[1][j] = (row[2][j] - row[0][j]) / 2, c[2][j] = (row[2][j] + row[0][j]) / 2 - row[1][j];
@@ -47,9 +47,8 @@ static double inside(const double *d, const double *k, double *load) { /* over t
     for (int i = 0; i < 3; i++) p[i] = c[i][0] + s * c[i][1] + c[i][2];
     n += roots(p, 2, end + n);
   }
-  for (int i = 0; i < 5; i++) p[i] = 0;
-  for (int i = 0; i < 9; i++) p[i / 3 + i % 3] += c[i / 3][1] * c[i % 3][1] - 4 * c[i / 3][2] * c[i % 3][0];
-  n += roots(p, 4, end + n), end[n] = 1; /* and where two meet */
+  for (int i = 0; i < 9; i++) r[i / 3 + i % 3] += c[i / 3][1] * c[i % 3][1] - 4 * c[i / 3][2] * c[i % 3][0];
+  n += roots(r, 4, end + n), end[n] = 1; /* and where two meet */
   for (int i = 2; i < n; i++)
     for (int j = i; j > 1 && end[j] < end[j - 1]; j--) p[0] = end[j], end[j] = end[j - 1], end[j - 1] = p[0];
   for (int m = 0; m < 16 * n; m++) {
@@ -65,10 +64,8 @@ static double inside(const double *d, const double *k, double *load) { /* over t
   return energy;
 }
 static real patch(sheet *s, const unsigned *of) { /* sets the loads of the nine points of a part of a cell; returns the energy */
-  double d[9], k[9], load[9], energy = 0, most = -1, least = 1;
-  for (int n = 0; n < 9; n++) {
-    d[n] = s->touch[of[n]][3], most = n && d[n] < most ? most : d[n], least = n && d[n] > least ? least : d[n];
-  }
+  double d[9], k[9], load[9], energy = 0, most = s->touch[of[0]][3], least = most;
+  for (int n = 0; n < 9; n++) d[n] = s->touch[of[n]][3], most = d[n] > most ? d[n] : most, least = d[n] < least ? d[n] : least;
   if (most + least + 1.5625 * (most - least) <= 0) return 0; /* nowhere deeper than the mean by more than this */
   for (int turn = 0; turn < 2; turn++) { /* k (d^3 - (d - over)^3) / 6 over */
     const double over = POINT_ROW[POINT_OF[of[0]]][6], sign = 1 - 2 * turn;

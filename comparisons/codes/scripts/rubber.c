@@ -1,7 +1,4 @@
-double log(double x);
-double log1p(double x);
-double exp(double x);
-double expm1(double x);
+#include <math.h>
 static double beyond(double x, double logarithm) { /* x - ln(1 + x), no digits lost */
   const double rest = 1. / 4 - x * (1. / 5 - x * (1. / 6 - x / 7));
   return x < 3e-3 && -x < 3e-3 ? x * x * (1. / 2 - x * (1. / 3 - x * rest)) : x - logarithm;

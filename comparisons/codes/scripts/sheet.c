@@ -48,6 +48,7 @@ static void press(const sheet *s, const entry *c, real p, field f) { /* on a bil
     for (int n = 0; n < 4 * P; n++) f[c[n / P] + n % P][e] += p * on[n / P] * PART / 12;
   }
 }
+$rubber
 static void sides(const entry *c, int p, field x, real a[3], real b[3], real q[3]) { /* of a cell, as x has them */
   const real share = (real)1 / (real)(2 * p);
   EACH(e) {
@@ -55,12 +56,12 @@ static void sides(const entry *c, int p, field x, real a[3], real b[3], real q[3
     q[e] = 0;
     for (int n = 0; n < p; n++) {
       const real k = x[c[n]][e], l = x[c[p + n]][e], m = x[c[2 * p + n]][e], o = x[c[3 * p + n]][e];
-      g += m - k, h += o - l, q[e] += 2 * share * ((k - l) + (m - o));
+      g += m - k, h += o - l;
+      if (RUBBER) q[e] += 2 * share * ((k - l) + (m - o));
     }
     a[e] = (g - h) * share, b[e] = (g + h) * share;
   }
 }
-$rubber
 /* adds forces of springs to f, where elastic, and of dampers at a velocity; returns the energy */
 static real springs(sheet *s, field velocity, int elastic) {
   real energy = 0;
@@ -120,12 +121,15 @@ static real springs(sheet *s, field velocity, int elastic) {
       on[0] += t * n[0] + q[1] * x[0] + q[4] * x[1] + q[5] * x[2], on[1] += t * n[1] + q[4] * x[0] + q[2] * x[1] + q[6] * x[2];
       on[2] += t * n[2] + q[5] * x[0] + q[6] * x[1] + q[3] * x[2];
     }
+    real by[4][3];
     EACH(e) {
       const real share = (real)1 / (real)(2 * p), warp = RUBBER ? 4 * on[3] * dq[e] : 0;
       const real fa = 2 * on[0] * a[e] + on[2] * b[e], fb = 2 * on[1] * b[e] + on[2] * a[e];
-      const real by[4] = {warp - fa - fb, fa - fb - warp, warp + fa + fb, fb - fa - warp};
-      for (int n = 0; n < 4 * p; n++) s->f[c[n]][e] += share * by[n / p];
+      by[0][e] = share * (warp - fa - fb), by[1][e] = share * (fa - fb - warp);
+      by[2][e] = share * (warp + fa + fb), by[3][e] = share * (fb - fa - warp);
     }
+    for (int o = 0; o < 4; o++)
+      for (int n = o * p; n < o * p + p; n++) EACH(e) s->f[c[n]][e] += by[o][e];
   }
   return energy;
 }
@@ -209,20 +213,14 @@ static void forces(sheet *s) { /* of all that acts, inwards, at the velocity w *
   for (int i = 0; i < DRAGGED; i++) EACH(e) s->area[i][e] *= DRAG_WEIGHT[i];
   s->stored = springs(s, s->w, 1), s->stored += contact(s), resist(s, s->w, 1);
 }
-static void accelerate(sheet *s, real half) { /* by what each column's masses share and supports hold, and v by half a step of it */
-  for (int m = 0; m < 3 * N; m++) {
-    const int i = m / 3, e = m % 3, first = i - i % P;
-    const real *inverse = COLUMN_ROW[COLUMN_OF[first / P * 3 + e]] + i % P * P;
-    real a = 0;
-    for (int q = 0; q < P; q++) a -= inverse[q] * s->f[first + q][e];
-    s->a[i][e] = a, s->v[i][e] += half * a;
-  }
-}
-static real momentum(field x, int i, int e) {
-  const int first = i - i % P;
+static real across(field x, int i, int e, int from) { /* a row of a column's inverse, from P on of its matrix, of masses */
+  const real *row = COLUMN_ROW[COLUMN_OF[i / P * 3 + e]] + (from + i % P) * P;
   real sum = 0;
-  for (int q = 0; q < P; q++) sum += COLUMN_ROW[COLUMN_OF[first / P * 3 + e]][(P + i % P) * P + q] * x[first + q][e];
+  for (int q = 0; q < P; q++) sum += row[q] * x[i - i % P + q][e];
   return sum;
+}
+static void accelerate(sheet *s, real half) { /* and v by half a step of it */
+  MASSES(i) EACH(e) s->a[i][e] = -across(s->f, i, e, 0), s->v[i][e] += half * s->a[i][e];
 }
 static void follow(sheet *s) { /* histories of natural states */
   int new = 0;
@@ -264,7 +262,7 @@ void sheet_step(sheet *s, int count) {
     }
     s->time += h;
     move(s, h), follow(s), forces(s), accelerate(s, h / 2);
-    if (!(DAMPED || RATED || DRAGGED || POINTS)) continue;
+    if (DAMPED + RATED + DRAGGED + POINTS == 0) continue;
     resist(s, s->w, -1), resist(s, s->v, 1);
     MASSES(i) EACH(e) s->w[i][e] = s->v[i][e] - s->w[i][e];
     if (DAMPED) springs(s, s->w, 0);
@@ -286,11 +284,11 @@ void sheet_reaction(sheet *s, int body, real force[3]) {
   EACH(e) {
     force[e] = s->pressed[body][e];
     for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
-      force[e] += SUMMED_SHARE[n] * (momentum(s->w, (int)SUMMED_AT[n] / 3, e) + s->f[SUMMED_AT[n] / 3][e]);
+      force[e] += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
   }
 }
 real sheet_energy(sheet *s, int kind) {
   real sum = kind == SHEET_ELASTIC ? s->stored : kind == SHEET_POTENTIAL ? s->fallen : 0;
-  if (kind == SHEET_KINETIC) MASSES(i) EACH(e) sum += s->v[i][e] * momentum(s->v, i, e) / 2;
+  if (kind == SHEET_KINETIC) MASSES(i) EACH(e) sum += s->v[i][e] * across(s->v, i, e, P) / 2;
   return sum;
 }

@@ -27,7 +27,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.dynamics.system import System
 
-SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and with obstacles (`lumped.contact`)
+SAFETY, TOUCHING = 0.9, 0.8  # advised share of the limit, without and with obstacles (`lumped.contact`)
 
 
 @dataclass(frozen=True)
@@ -94,11 +94,11 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
     rest = np.zeros_like(u)
     stiffness = system.matrix(u, rest, time, 0.0, 0.0, 1.0)
     touching = sum(item.stiffest(system.lattice_mass) for item in system.items)
-    frequency = math.sqrt(max(_largest(system, stiffness), 0.0) + touching)
+    frequency = math.sqrt(max(_largest_eigenvalue(system, stiffness), 0.0) + touching)
     ratio = 0.0
     if system.resists:
         damping = system.matrix(u, rest, time, 0.0, 1.0, 0.0)
-        ratio = _largest(system, damping) / (2.0 * frequency) if damping.any() else 0.0
+        ratio = _largest_eigenvalue(system, damping) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
     safety = TOUCHING if system.items else SAFETY
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact, safety)
@@ -109,12 +109,12 @@ def soften_items(system: System) -> None:
     if system.items:
         rest = system.prescribed.place(0.0)
         springs = system.assembly.tangent(rest)
-        squared = _largest(system, springs)
+        squared = _largest_eigenvalue(system, springs)
         for item in system.items:
             item.move_freely(system.lattice_mass, squared)
 
 
-def _largest(system: System, blocks: np.ndarray) -> float:
+def _largest_eigenvalue(system: System, blocks: np.ndarray) -> float:
     """Return the largest eigenvalue of M⁻¹A on the free motions, without multipliers, which have no mass."""
     size, moving = system.reduced_mass.shape[0], ~system.algebraic
     value = eigsh(

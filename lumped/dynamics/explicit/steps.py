@@ -77,12 +77,12 @@ def march(
     packing, driven, rate, exerted = arrays.packing, arrays.driven, arrays.rate, zeros(len(arrays.driven))
     w, d, force, resisting = zeros(u.shape), zeros(u.shape), zeros(u.shape), zeros(u.shape)
     tile, load = zeros(packing.length), zeros(u.shape)
-    now, again = Scratch(u, w, force, tile), Scratch(u, d, resisting, tile)
+    predictor, corrector = Scratch(u, w, force, tile), Scratch(u, d, resisting, tile)
     before, taken, work, power = zeros(u.shape), 0.0, 0.0, 0.0
     add_loads(arrays, factors[0], u, load)
     if arrays.damped or len(driven):
         w[:] = v
-        power = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, now)[1]
+        power = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, predictor)[1]
         power += _resist(rate, v, force)
         for i in range(len(driven)):
             exerted[i] = _exerted(arrays, driven[i], a, force, load)
@@ -102,7 +102,7 @@ def march(
             load, before = before, load
             add_loads(arrays, factors[n + 1], u, load)
             work += _work_of_loads(arrays.loads.dead[0], before, load, d)
-        taking = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, now)[1]
+        taking = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, predictor)[1]
         taking += _resist(rate, w, force)
         if not _accelerate(0.5 * h, arrays, load, force, a, v):
             return False, n, taken, work
@@ -112,7 +112,7 @@ def march(
             resisting[:] = 0.0
             if packing.damped:
                 fresh = not packing.keeping
-                taking += at_places(fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, again)[1]
+                taking += at_places(fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, corrector)[1]
             taking += _resist(rate, d, resisting)
             for i in range(len(d)):
                 taking += 2.0 * w[i] * resisting[i]
@@ -121,7 +121,7 @@ def march(
             power = taking
             if not _accelerate(0.0, arrays, load, force, a, v):
                 return False, n, taken, work
-        for i in range(len(driven)):  # by the trapezoidal rule, and what the masses gain by their rates
+        for i in range(len(driven)):  # by the trapezoidal rule, and the gain of kinetic energy
             p, last = driven[i], exerted[i]
             exerted[i] = _exerted(arrays, p, a, force, load)
             work += 0.5 * (last + exerted[i]) * (place[n + 1, i] - place[n, i])

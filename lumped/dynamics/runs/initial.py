@@ -67,11 +67,11 @@ def initial_state(
     v = v if system.prescribed.moving else np.zeros_like(u)
     a = system.accelerate(system.within(State(0.0, u, v, v, memory)).unbalanced(u, v, 0.0))
     if system.constrained:
-        u, a = _constrained(system, u, a)
+        u, a = _with_multipliers(system, u, a)
     return State(0.0, u, v, a, memory)
 
 
-def _constrained(system: System, u: np.ndarray, a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _with_multipliers(system: System, u: np.ndarray, a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return u with the multipliers μ of the chains' constraints, and a less M⁻¹ Jᵀ μ, with which J a = 0.
 
     Only the chains' rows appear in J, and the mass couples them with nothing else: a small dense matrix

@@ -37,7 +37,7 @@ class Start(Generic[State]):
 Place = tuple[State, Forces, float]  # state, forces and load factor at the start of a step
 
 
-def _reused(path: Path[State, Forces], at: Place[State, Forces], factor: Factor) -> Correction | None:
+def _reuse(path: Path[State, Forces], at: Place[State, Forces], factor: Factor) -> Correction | None:
     """Return the correction with old factors, None if the right-hand side depends on the tangent."""
     rows = path.structure.rows(*at)
     return None if rows is None else path.structure.solved(*at, factor, rows)
@@ -61,14 +61,12 @@ def _linear_step(path: Path[State, Forces], target: float, factor: Factor | None
     try:
         correction = None
         if factor is not None:
-            correction = _reused(path, at, factor)
+            correction = _reuse(path, at, factor)
         elif not structure.prestrained:
             correction = structure.correct(*at, path.count)
         if correction is None:
             matrix, rows = structure.linearised(*at)
-            if (
-                structure.prestrained
-            ):  # its tangent would have the stresses of the target without displacement
+            if structure.prestrained:  # else stresses of the target without its displacement
                 matrix = path.tangent(path.state, path.load_factor)
             if factor is None or not structure.symmetric:
                 factor = path.factored(matrix)
@@ -118,17 +116,18 @@ class _Newton(Generic[State, Forces]):
         self.path, self.structure, self.target = path, path.structure, first.target
         self.state, self.works, self.lengths = first.state, [first.work], [first.length]
         self.factor = first.factor if path.structure.linear else None
-        self.before, self.moved, self.blurred, self.again = np.inf, 0.0, 0.0, False
+        self.last_imbalance, self.reused_last = np.inf, False
+        self.distance = self.stress_error = 0.0
 
     def alike(self) -> Factor | None:
         """Return the last factors if the tangent has not changed noticeably since."""
-        unchanged = self.structure.linear or max(self.moved, self.blurred) <= self.path.alike
+        unchanged = self.structure.linear or max(self.distance, self.stress_error) <= self.path.alike
         return self.factor if unchanged else None
 
     def at_rest(self, imbalance: float, relative: float) -> bool:
         """Return whether the residual is in tolerance or rounding, and prescribed displacements are met."""
         limits, last = self.path.limits, self.lengths[-1]
-        rounded = self.works[-1] <= VANISHING * self.works[0] and imbalance > 0.5 * self.before
+        rounded = self.works[-1] <= VANISHING * self.works[0] and imbalance > 0.5 * self.last_imbalance
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or last <= limits.idle):
             settled = imbalance <= self.structure.imbalance_floor(self.state)
@@ -143,18 +142,20 @@ class _Newton(Generic[State, Forces]):
         """Take a step: with the last factors, by one compiled call, or with the assembled tangent."""
         at, last = (self.state, forces, self.target), self.lengths[-1]
         refined = relative <= self.path.limits.refine_below
-        stale = self.again and imbalance > STALE * self.before
+        stale = self.reused_last and imbalance > STALE * self.last_imbalance
         near = self.alike() if refined and not stale else None
-        reused = None if near is None else _reused(self.path, at, near)
-        step = reused or self.structure.correct(*at, self.path.count) or self._assembled(at, not refined)
+        reused = None if near is None else _reuse(self.path, at, near)
+        step = reused or self.structure.correct(*at, self.path.count)
+        step = step or self._correct_assembled(at, not refined)
         if step.factor is not self.factor:
-            self.moved, self.blurred = 0.0, last**2
+            self.distance, self.stress_error = 0.0, last**2
         self.lengths.append(self.structure.length(self.state, step.state))
         self.works.append(abs(float(step.step @ step.rows)))
-        self.moved += self.lengths[-1]
-        self.state, self.factor, self.before, self.again = step.state, step.factor, imbalance, bool(reused)
+        self.distance += self.lengths[-1]
+        self.state, self.factor = step.state, step.factor
+        self.last_imbalance, self.reused_last = imbalance, bool(reused)
 
-    def _assembled(self, at: Place[State, Forces], iterates: bool) -> Correction:
+    def _correct_assembled(self, at: Place[State, Forces], iterates: bool) -> Correction:
         """Return the correction of the tangent, by iterations with the last factors or by new ones."""
         matrix, rows = self.structure.linearised(*at)
         if iterates and (near := self.factor) is not None:

@@ -92,13 +92,13 @@ class _Creep(Generic[State, Forces]):
                 factor = self._factor(self.structure, state)
                 if factor.negative == factor.zero == 0:
                     return state
-                self._leave(state)
+                self._leave_saddle(state)
 
     def _step(self) -> None:
         """Take an accepted step, with as much drag as it needs. Raises LoadStepFailed."""
         while True:
             before = self.path.factorisations
-            state = self._crept()
+            state = self._creep_step()
             if state is not None and self._accepts(state):
                 break
             self.drag, self.careful = FASTER * self.drag, CAUTION
@@ -118,7 +118,7 @@ class _Creep(Generic[State, Forces]):
         self.energy = min(self.energy, energy)
         return True
 
-    def _crept(self) -> State | None:
+    def _creep_step(self) -> State | None:
         """Return the end of a step of creep, None if its iterations fail."""
         structure = self.structure.dragged(self.state, self.load_factor, self.drag)
         state, lengths, first = self.state, list[float](), np.inf
@@ -135,7 +135,7 @@ class _Creep(Generic[State, Forces]):
             if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > SHRINKING * lengths[-2]):
                 return None
             matrix, rows = structure.linearised(state, forces, self.load_factor)
-            factor = self._counted(matrix)
+            factor = self._factor_matrix(matrix)
             if k == 0 and factor.negative:
                 return None
             following = structure.advance(state, forces, self.load_factor, factor.solve(rows))
@@ -156,7 +156,7 @@ class _Creep(Generic[State, Forces]):
             return None
         return self.structure.unextrapolated(state) if self._accepts(state) else None
 
-    def _leave(self, saddle: State) -> None:
+    def _leave_saddle(self, saddle: State) -> None:
         """Leave a saddle towards lower potential along the lowest mode of K v = μ K_m v. K_m is the tangent
         of the material alone. Raises LoadStepFailed."""
         structure, drag = self.structure, FIRST_DRAG
@@ -173,7 +173,7 @@ class _Creep(Generic[State, Forces]):
         mode /= structure.length(saddle, structure.advance(saddle, forces, self.load_factor, mode))
         push = PUSH
         while push > SMALLEST_PUSH:
-            states = [self._pushed(saddle, sign * push * mode) for sign in (1.0, -1.0)]
+            states = [self._push(saddle, sign * push * mode) for sign in (1.0, -1.0)]
             energies = [structure.potential(state, self.load_factor)[0] for state in states]
             lower = int(np.argmin(energies))
             if energies[lower] < self.energy:
@@ -183,7 +183,7 @@ class _Creep(Generic[State, Forces]):
             push /= FASTER
         raise LoadStepFailed(Status.UNSTABLE, "it creeps to a saddle and does not leave it", 0.0)
 
-    def _pushed(self, state: State, step: np.ndarray) -> State:
+    def _push(self, state: State, step: np.ndarray) -> State:
         """Return a state moved by a step (unknowns,), with directors of unit length."""
         while True:
             forces = self.structure.forces(state, self.load_factor)
@@ -196,9 +196,9 @@ class _Creep(Generic[State, Forces]):
     def _factor(self, structure: Creeping[State, Forces], state: State) -> Factor:
         """Return the factors of the true tangent."""
         forces = structure.forces(state, self.load_factor)
-        return self._counted(structure.linearised(state, forces, self.load_factor, mixed=False)[0])
+        return self._factor_matrix(structure.linearised(state, forces, self.load_factor, mixed=False)[0])
 
-    def _counted(self, matrix: csr_matrix) -> Factor:
+    def _factor_matrix(self, matrix: csr_matrix) -> Factor:
         """Return the factors of a matrix. Raises LoadStepFailed after too many factorisations."""
         if self.path.factorisations >= self.path.limit:
             raise LoadStepFailed(Status.STEP_LIMIT, f"not at rest after {FACTORISATIONS} factorisations", 0.0)

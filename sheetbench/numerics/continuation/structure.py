@@ -10,9 +10,7 @@ import numpy as np
 from sheetbench.numerics.direct import SOLVED, Count, Factor
 
 State = TypeVar("State")
-Forces = TypeVar(
-    "Forces", bound=Any
-)  # with `size`, the scale of residuals: size of the forces in balance [N]
+Forces = TypeVar("Forces", bound=Any)  # with `size`, of the forces in balance [N], the scale of residuals
 Matrix = Any  # argument of `Solver.factor`
 
 
@@ -39,9 +37,7 @@ class Solver(Protocol):
 class Structure(Protocol[State, Forces]):
     """Interface of `trace_path`. A structure that inherits it may omit members with a default."""
 
-    prestrained: bool = (
-        False  # whether a natural strain loads it, which may cause stress without displacement
-    )
+    prestrained: bool = False  # whether a natural strain loads it, perhaps without displacement
     linear: bool = False  # whether its tangent is constant, so that the first correction is exact
     contacts: Sequence[Any] = ()  # penalties (`stiffening`)
     size: float = 1.0  # [m]

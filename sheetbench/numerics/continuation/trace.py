@@ -57,7 +57,7 @@ def trace_path(
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        ended = stiffened(path, _traced, near) if structure.contacts else _traced(path, near)
+        ended = stiffened(path, _trace, near) if structure.contacts else _trace(path, near)
         path.fault = ended
         path.status, note = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
@@ -80,14 +80,14 @@ class Ending(NamedTuple):
     careful: int = 0
 
 
-def _traced(path: Path[State, Forces], near: Start[State] | None = None) -> Fault | None:
+def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault | None:
     """Lead a path from rest, or from near the end, to load factor 1; return the fault of an earlier end."""
-    if near is not None and _near(path, near):
+    if near is not None and _trace_near(path, near):
         return None
-    plain = _follow(path)
+    plain = _take_load_steps(path)
     reached = path.state if plain is None else None
-    ended = _carefully(path, plain)
-    fault = _snapped(path, ended)
+    ended = _trace_carefully(path, plain)
+    fault = _trace_snaps(path, ended)
     if fault is None or reached is None:
         return fault
     if path.load_factor > 0.0:
@@ -100,7 +100,7 @@ def _traced(path: Path[State, Forces], near: Start[State] | None = None) -> Faul
     return None
 
 
-def _near(path: Path[State, Forces], near: Start[State]) -> bool:
+def _trace_near(path: Path[State, Forces], near: Start[State]) -> bool:
     """Lead a path to a stable equilibrium close to a start; return False, the path unchanged, without one."""
     before = path.state, path.load_factor, path.factor
     try:
@@ -115,7 +115,7 @@ def _near(path: Path[State, Forces], near: Start[State]) -> bool:
     return False
 
 
-def _carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
+def _trace_carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
     """Lead a path from rest again, by small load steps, if large ones may have left its branch. plain: end of
     the large steps, which is returned if no small one succeeds."""
     budget = 0 if isinstance(plain, Fault) else _careful_budget(path)
@@ -124,7 +124,7 @@ def _carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) 
     stuck = path.state, path.load_factor
     path.rest()
     path.limit = path.factorisations + budget
-    ended = _follow(path, careful=True)
+    ended = _take_load_steps(path, careful=True)
     if plain is not None:
         path.limit = max(path.limit, path.limits.factorisations)  # the rest is for snaps
         if path.load_factor == 0.0:
@@ -133,14 +133,14 @@ def _carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) 
     return Ending(ended, budget)
 
 
-def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
+def _trace_snaps(path: Path[State, Forces], ended: Ending) -> Fault | None:
     """Lead a path past the limit points at which it ends; return the fault of an end before load factor 1."""
     limits, reason = path.limits, ended.reason
     while isinstance(reason, LoadStepFailed):
         halted = reason.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
         allowed = path.factorisations < path.limit and len(path.snaps) < limits.snaps
         if path.settle is None or not (path.structure.symmetric and halted and allowed):
-            return _give_up(path, reason)
+            return _fault_at_end(path, reason)
         left_at, (before, reservation) = path.load_factor, stability(path)
         beyond = min(1.0, left_at + limits.snap_step)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
@@ -151,9 +151,9 @@ def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
             path.put(state, beyond)
         except LoadStepFailed as failure:
             tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
-            return _give_up(path, reason, tried)
+            return _fault_at_end(path, reason, tried)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
-        reason = path.inspect(path) or _follow(path, ended.careful > 0)
+        reason = path.inspect(path) or _take_load_steps(path, ended.careful > 0)
         path.snaps.append(left_at)
         begin = "" if before is Status.CONVERGED else "unstable "
         snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {reservation}"
@@ -161,7 +161,7 @@ def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
     return reason
 
 
-def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed | Fault | None:
+def _take_load_steps(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed | Fault | None:
     """Continue a path to load factor 1; return the reason of an earlier end, else None. careful: no load step
     may leave the branch of its start."""
     limits, size = path.limits, 1.0
@@ -177,7 +177,7 @@ def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed 
             if path.structure.contacts:
                 require_way(path, state, first.target)
             if careful:
-                last, longest = _continuous(path, first, state, last)
+                last, longest = _require_continuous(path, first, state, last)
         except LoadStepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
             rested = path.load_factor == 0.0  # rest is no limit point, however long the first step
@@ -213,7 +213,7 @@ def _refine(path: Path[State, Forces]) -> None:
         return
 
 
-def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
+def _fault_at_end(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
     """Return the fault of a path's end: its load factor, the attempts beyond, and a branching before it. The
     last equilibrium's tangent shows whether the path had branched."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
@@ -239,7 +239,7 @@ def _careful_budget(path: Path[State, Forces]) -> int:
     return budget if unstable or taken > limits.careful_after else 0
 
 
-def _continuous(
+def _require_continuous(
     path: Path[State, Forces], first: Start[State], state: State, factor: Factor | None
 ) -> tuple[Factor, float]:
     """Return the factors of the tangent at an equilibrium, and the largest length of the next linear step.

@@ -26,7 +26,7 @@ MANY_DIGITS = 30
 
 def in_one_line(error: ValidationError, model: type[BaseModel]) -> str:
     """Return the faults of data for `model`, separated by semicolons."""
-    faults = [fault for fault in error.errors(include_url=False) if not _follows(fault)]
+    faults = [fault for fault in error.errors(include_url=False) if not _is_consequence(fault)]
     more = [f"and {len(faults) - SHOWN} more"] if len(faults) > SHOWN else []
     return "; ".join([*(_sentence(fault, json_schema(model)) for fault in faults[:SHOWN]), *more])
 
@@ -56,20 +56,20 @@ _SHORT = _Short()
 _SHORT.maxstring = _SHORT.maxother = LONGEST
 
 
-def _follows(fault: Any) -> bool:
+def _is_consequence(fault: Any) -> bool:
     """Return whether a fault only counts the entries that other faults have left."""
     return fault["type"] == "too_short" and len(fault["input"]) >= fault["ctx"]["min_length"]
 
 
 def _sentence(fault: Any, schema: dict[str, Any]) -> str:
-    where, nodes = _place(fault["loc"], schema)
+    where, nodes = _locate(fault["loc"], schema)
     key, value, facts = in_keys(where), fault["input"], fault.get("ctx", {})
     given = f"{key} = {shown(value)}"
     match fault["type"]:
         case "extra_forbidden":
             if not_modelled := wish(str(where[-1])):
                 return f"{key}: {not_modelled}"
-            keys = _keys(_place(fault["loc"][:-1], schema)[1])
+            keys = _keys(_locate(fault["loc"][:-1], schema)[1])
             near = did_you_mean(str(where[-1]), keys)
             hint = f"did you mean {near}?" if near else f"known here are {', '.join(keys)}"
             return f"{given}: unknown key; {hint}"
@@ -95,7 +95,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
                 return f"{key}: {error}"
             return f"{key}: '{value}' is text: write the number [{unit}] without quotes, or with a unit"
         case "tuple_type":
-            if _keys([entry for node in nodes for entry in _inside(node, 0, schema)]):
+            if _keys([entry for node in nodes for entry in _nodes_inside(node, 0, schema)]):
                 return f"{given}: must be a list of tables, each headed [[{key}]]"
             sizes = [f" of {len(node['prefixItems'])}" for node in nodes if "prefixItems" in node]
             return f"{given}: must be a list{min(sizes, default='')}"
@@ -110,7 +110,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
 
 def unit_at(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
     """Return the SI unit of the number at a location, or None if it has none."""
-    places = (_place(location[:end], schema)[1] for end in range(len(location), 0, -1))
+    places = (_locate(location[:end], schema)[1] for end in range(len(location), 0, -1))
     return next((str(node["unit"]) for nodes in places for node in nodes if "unit" in node), None)
 
 
@@ -139,7 +139,7 @@ def _choose(word: object, nodes: list[dict[str, Any]]) -> str:
     return f"did you mean {near}? " * bool(near) + f"choose one of {', '.join(choices)}"
 
 
-def _place(
+def _locate(
     location: tuple[int | str, ...], schema: dict[str, Any]
 ) -> tuple[list[int | str], list[dict[str, Any]]]:
     """Return the keys and list numbers of a fault's location, and the nodes of the schema there.
@@ -153,7 +153,7 @@ def _place(
         if of_kind and len(nodes) > 1:
             nodes = of_kind
             continue
-        inside = [below for node in nodes for below in _inside(node, part, schema)]
+        inside = [below for node in nodes for below in _nodes_inside(node, part, schema)]
         if isinstance(part, str) and not inside and part in _FORMS:
             continue
         where.append(part)
@@ -164,7 +164,7 @@ def _place(
 _FORMS = {"a number", "a list", "a table"}
 
 
-def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:
+def _nodes_inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:
     """Return the schema's nodes of an entry of a list or a key of a table."""
     if isinstance(part, int):
         items = (node.get("prefixItems") or [])[part : part + 1] or [node.get("items")]

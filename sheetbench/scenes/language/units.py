@@ -95,7 +95,8 @@ def quantity(text: str, unit: str) -> float:
     if match[2]:
         size, dimension = _unit(match[2])
         if dimension != _unit(unit)[1]:
-            raise BadInput(f"'{text}' is {_named(dimension, match[2])}; needed is {_called(unit)}: {example}")
+            needed = f"needed is {_with_article(unit)}: {example}"
+            raise BadInput(f"'{text}' is {_dimension_name(dimension, match[2])}; {needed}")
         value *= size / _unit(unit)[0]
     if abs(value) > LARGEST:
         raise BadInput(f"'{text}' is too large")
@@ -156,15 +157,15 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
     return size, tuple(dimension)
 
 
-def _named(dimension: Dimension, unit: str) -> str:
+def _dimension_name(dimension: Dimension, unit: str) -> str:
     """Return the quantity that a unit measures, with its article."""
     for known in NAMES:
         if _unit(known)[1] == dimension:
-            return _called(known)
+            return _with_article(known)
     return f"in {unit}"
 
 
-def _called(unit: str) -> str:
+def _with_article(unit: str) -> str:
     name = NAMES.get(unit, (f"quantity in {unit}", ""))[0]
     return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 

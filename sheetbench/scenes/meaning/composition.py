@@ -48,7 +48,7 @@ def constants_at(scene: SceneFields, points: np.ndarray) -> Constants:
     constants = sheet.arrays(points.shape[:-1])
     constants.thickness[...] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
     for patch in scene.patches:
-        _put(constants, patch.own, patch.shape.contains(points))
+        _write_constants(constants, patch.own, patch.shape.contains(points))
     return constants
 
 
@@ -62,7 +62,7 @@ def composition_at(scene: SceneFields, points: np.ndarray) -> dict[str, np.ndarr
     return {"patch": patch, **constants} if scene.patches else constants
 
 
-def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
+def _write_constants(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
     """Write a patch's own constants into arrays."""
     for name, value in own.items():
         if name in NUMBERS:
@@ -78,11 +78,11 @@ def parts_between(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> Iterator[
     middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
     plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
     left_over = np.ones((len(y) - 1, len(x) - 1))
-    for area, own in _disjoint(own_patches(scene)):
+    for area, own in _disjoint_areas(own_patches(scene)):
         share = shares_of(area, x, y)
         left_over -= share
         constants = plain.arrays(left_over.shape)
-        _put(constants, own)
+        _write_constants(constants, own)
         yield Part(share, constants)
     yield Part(_without_rounding(left_over), plain.arrays(left_over.shape))
 
@@ -122,7 +122,7 @@ def own_patches(scene: SceneFields) -> tuple[Patch, ...]:
     return tuple(patches)
 
 
-def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
+def _disjoint_areas(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
     """Yield the areas that one set of patches covers, with the constants that differ from the sheet's."""
     import shapely
 
@@ -184,9 +184,9 @@ def mass_over_stiffness(scene: SceneFields) -> float:
     if scene.homogeneous:
         return float(sheet.per_area / sheet.stretching)
     rest, mass, stiffness = area_in(scene, None), 0.0, 0.0
-    for area, own in _disjoint(own_patches(scene)):
+    for area, own in _disjoint_areas(own_patches(scene)):
         constants, size = sheet.arrays(()), scene.region.intersection(area).area
-        _put(constants, own)
+        _write_constants(constants, own)
         rest -= size
         mass, stiffness = mass + size * constants.per_area, stiffness + size * constants.stretching
     return float((mass + rest * sheet.per_area) / (stiffness + rest * sheet.stretching))

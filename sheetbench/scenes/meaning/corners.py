@@ -55,20 +55,20 @@ def conflicts(
     for one, other in combinations(on_edges, 2):
         two = f"support: edge {one.edge} has two supports, {one.kind} and {other.kind}"
         yield one.edge == other.edge and two
-        yield _at_corner("support", one, other, driven, sheet)
+        yield _corner_conflict("support", one, other, driven, sheet)
     supported = {support.edge for support in on_edges}
     for i, actuator in enumerate(actuators):
         held = "has a support, which holds the masses that the actuator would move"
         yield actuator.edge in supported and f"actuator: edge {actuator.edge} {held}"
-        yield from (_on_one_edge(actuator, later) for later in actuators[i + 1 :])
-    yield _held_twice(actuators, supports)
+        yield from (_edge_conflict(actuator, later) for later in actuators[i + 1 :])
+    yield _doubly_held_chain(actuators, supports)
     for motion in actuators:
         if isinstance(motion, EdgeMotion):
             for holder in (*on_edges, *(each for each in actuators if each is not motion)):
-                yield _at_corner("actuator", motion, holder, driven, sheet)
+                yield _corner_conflict("actuator", motion, holder, driven, sheet)
 
 
-def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:
+def _edge_conflict(first: AnyActuator, second: AnyActuator) -> str:
     """Return the reason why two actuators cannot act on one edge, "" if they can or are on two edges."""
     if first.edge != second.edge:
         return ""
@@ -84,7 +84,7 @@ def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:
     return ""
 
 
-def _at_corner(key: str, one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet) -> str:
+def _corner_conflict(key: str, one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet) -> str:
     """Return a sentence on a contradiction at the common corner of two edges, "" without one."""
     if EDGES[one.edge].normal_axis == EDGES[other.edge].normal_axis:
         return ""
@@ -97,26 +97,27 @@ def _at_corner(key: str, one: Holder, other: Holder | Chain, driven: Driven, she
     tables = [table for table in moving if table is not None]
     if not tables and driven.keys().isdisjoint((one.edge, other.edge)):
         return ""  # both at rest
-    axes, turns = ([*(a & b)] for a, b in zip(_held(one), _held(other), strict=True))
+    axes, turns = ([*(a & b)] for a, b in zip(_held_axes(one), _held_axes(other), strict=True))
     samples = sorted({time for table in tables for time in table.time}) or [0.0]
     between = [a + share * (b - a) for (a, b), share in product(pairwise(samples), BETWEEN)]
     largest, moved, turned = 0.0, "", ""
     for time in sorted([*samples, *between]):
         when = f" at t = {time:.3g} s" if tables else ""
-        (u, director), (v, normal) = (_pose(each, corner, driven, sheet, time) for each in (one, other))
+        (u, director), (v, normal) = (_prescribed(each, corner, driven, sheet, time) for each in (one, other))
         for axis in axes:
             if (gap := abs(u[axis] - v[axis])) > max(largest, EXACT * max(sheet.lengths)):
                 mover, held = (one, other) if abs(u[axis]) >= abs(v[axis]) else (other, one)
                 by = f"{'xyz'[axis]} by {gap:.3g} m{when}"
-                largest, moved = gap, f"{_named(mover)} moves the corner that {_named(held)} holds: {by}"
+                moves = f"{_holder_name(mover)} moves the corner that {_holder_name(held)} holds"
+                largest, moved = gap, f"{moves}: {by}"
         if np.abs(director - normal)[turns].max(initial=0.0) > EXACT:
             turner, held = (one, other) if director[2] <= normal[2] else (other, one)
-            where = f"the corner where {_named(held)} holds it otherwise"
-            turned = f"{_named(turner)} turns the director at {where}{when}"
+            where = f"the corner where {_holder_name(held)} holds it otherwise"
+            turned = f"{_holder_name(turner)} turns the director at {where}{when}"
     return (moved and f"{key}: {moved}") or (turned and f"{key}: {turned}")
 
 
-def _held(holder: Holder) -> tuple[set[int], set[int]]:
+def _held_axes(holder: Holder) -> tuple[set[int], set[int]]:
     """Return the axes of position and of director that are held at the corners."""
     every = {0, 1, 2}
     if isinstance(holder, EdgeMotion):
@@ -124,7 +125,7 @@ def _held(holder: Holder) -> tuple[set[int], set[int]]:
     return set(held_axes(holder)), set(tilt_axes(holder))
 
 
-def _pose(
+def _prescribed(
     holder: Holder, corner: PlanPoint, driven: Driven, sheet: Sheet, time: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the displacement [m] and the director (3,) that are prescribed at the corner."""
@@ -139,7 +140,7 @@ def _pose(
     return placed.displacement[0] + shift, UP + np.atleast_2d(placed.director)[0]
 
 
-def _named(holder: Holder) -> str:
+def _holder_name(holder: Holder) -> str:
     if isinstance(holder, EdgeMotion):
         return f"the motion on edge {holder.edge}"
     if isinstance(holder, Curved) and holder.curvature:
@@ -149,14 +150,14 @@ def _named(holder: Holder) -> str:
     return f"the {holder.kind} support on edge {holder.edge}"
 
 
-def _held_twice(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]) -> str:
+def _doubly_held_chain(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]) -> str:
     """Return a sentence on a chain that is held along itself at two places, with a remedy; "" for none."""
     chains = {str(chain.edge): chain for chain in actuators if isinstance(chain, Chain)}
     fixed = {name: support for name, support in named(supports).items() if support.motion is None}
     for number, chain in enumerate(actuators, start=1):
         if not isinstance(chain, Chain):
             continue
-        places = {end: holder for end in (0, 1) if (holder := _holder(chain, end, chains, fixed))}
+        places = {end: holder for end in (0, 1) if (holder := _end_holder(chain, end, chains, fixed))}
         if chain.base != "free":
             places[{"start": 0, "middle": -1, "end": 1}[chain.base]] = f'by its own base = "{chain.base}"'
         if len(places) > 1:
@@ -171,7 +172,7 @@ def _held_twice(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]
     return ""
 
 
-def _holder(chain: Chain, end: int, chains: Mapping[str, Chain], fixed: Mapping[str, AnySupport]) -> str:
+def _end_holder(chain: Chain, end: int, chains: Mapping[str, Chain], fixed: Mapping[str, AnySupport]) -> str:
     """Return a clause on the object that holds an end (0 or 1) of a chain along the chain, "" for none. The
     chain's own base is ignored."""
     along = EDGES[chain.edge].along_axis

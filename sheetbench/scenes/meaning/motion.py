@@ -49,30 +49,30 @@ def at_start(scene: AScene) -> AScene:
     static = scene.initial is not None
     return scene.replace(
         initial=None,
-        gravity=scene.gravity and _now(scene.gravity) if static else None,
-        natural=_state_now(scene.natural, static),
-        temperature=_state_now(scene.temperature, static),
-        patches=tuple(one.replace(natural=_state_now(one.natural, static)) for one in scene.patches),
-        loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
-        supports=tuple(_placed(support) for support in scene.supports),
-        obstacles=tuple(_placed(one).replace(friction=0.0) for one in scene.obstacles),
-        actuators=tuple(_commanded(one, static) for one in scene.actuators),
+        gravity=scene.gravity and _load_at_start(scene.gravity) if static else None,
+        natural=_state_at_start(scene.natural, static),
+        temperature=_state_at_start(scene.temperature, static),
+        patches=tuple(one.replace(natural=_state_at_start(one.natural, static)) for one in scene.patches),
+        loads=tuple(_load_at_start(load).replace(hold=False) for load in scene.loads) if static else (),
+        supports=tuple(_support_at_start(support) for support in scene.supports),
+        obstacles=tuple(_support_at_start(one).replace(friction=0.0) for one in scene.obstacles),
+        actuators=tuple(_actuator_at_start(one, static) for one in scene.actuators),
     )
 
 
-def _now(load: Loaded) -> Loaded:
+def _load_at_start(load: Loaded) -> Loaded:
     return load.replace(history=load.history.still()) if load.history else load
 
 
-def _state_now(state: Loaded | None, static: bool) -> Loaded | None:
-    return state and (_now(state) if static else type(state)())
+def _state_at_start(state: Loaded | None, static: bool) -> Loaded | None:
+    return state and (_load_at_start(state) if static else type(state)())
 
 
-def _placed(held: Held) -> Held:
+def _support_at_start(held: Held) -> Held:
     return held.replace(motion=held.motion.still()) if held.motion else held  # type: ignore[return-value]
 
 
-def _commanded(actuator: Chain | EdgeMotion, static: bool) -> Chain | EdgeMotion:
+def _actuator_at_start(actuator: Chain | EdgeMotion, static: bool) -> Chain | EdgeMotion:
     if isinstance(actuator, EdgeMotion):
         return actuator.still()
     bent = actuator.curvature if static else 0.0

@@ -115,10 +115,12 @@ def sources_of(scene: SceneFields) -> Iterator[Source]:
     for n, patch in reversed([*enumerate(scene.patches, start=1)]):
         if patch.natural is not None:
             area = patch.shape.area if taken is None else patch.shape.area.difference(taken)
-            yield Source(f"patch {n}", patch.natural, *_own(scene, patch.natural), area)
+            yield Source(f"patch {n}", patch.natural, *_strain_and_curvature(scene, patch.natural), area)
             taken = area if taken is None else taken.union(area)
     if scene.natural is not None:
-        yield Source("natural", scene.natural, *_own(scene, scene.natural), taken, within=False)
+        yield Source(
+            "natural", scene.natural, *_strain_and_curvature(scene, scene.natural), taken, within=False
+        )
     if scene.temperature is not None:
         yield Source("temperature", scene.temperature, *thermal(scene, scene.temperature))
 
@@ -172,7 +174,7 @@ def held_at_drawn_size(scene: AnyFields, tension: Callable[[np.ndarray], np.ndar
     return scene.replace(natural=natural.replace(pretension=None, strain=(xx, yy, xy)))
 
 
-def _own(scene: SceneFields, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
+def _strain_and_curvature(scene: SceneFields, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
     strain, curvature = np.array(natural.strain), np.array(natural.curvature)
     if natural.pretension is not None:
         stiffness = resultants(plies_of(scene))[0] * scene.sheet.thickness

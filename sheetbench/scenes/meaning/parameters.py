@@ -43,7 +43,7 @@ FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23"
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
 NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY", "gravity.z", "loadN.KEY"]
 NAMES += ["supportN.z", "actuatorN.KEY"]
-PLACES = {  # by patterns of names, but for those of an edge; a number counts from 1
+PLACES = {  # by patterns of names, without edges' parameters; numbers count from 1
     "|".join((*MATERIAL, *FIBRES, *OF_LAWS)): r"material.\g<0>",
     "thickness": "sheet.thickness",
     "drag": "air.drag",

@@ -35,13 +35,13 @@ BURDEN = 100.0  # a payload's mass over the sheet's
 def slips(scene: SceneFields) -> tuple[str, ...]:
     """Return sentences about a scene's implausible values, none for most scenes."""
     sheet, springs = scene.sheet, scene.springs
-    warnings = [*sheet_slips(sheet), *material_slips(scene.material), *_gravity(scene.gravity)]
-    warnings += _payloads(scene)
+    warnings = [*sheet_slips(sheet), *material_slips(scene.material), *_gravity_slips(scene.gravity)]
+    warnings += _payload_slips(scene)
     if springs is not None:
         warnings += layer_slips(sheet, springs.layer_distance, "springs.layer_distance")
     if not warnings:  # else they may be the reason
-        warnings = [*_strains(scene)]
-    if _unmoved(scene):
+        warnings = [*_strain_slips(scene)]
+    if _nothing_moves(scene):
         warnings.append(
             "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
         )
@@ -91,7 +91,7 @@ def material_slips(material: Material) -> Iterator[str]:
         yield f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³"
 
 
-def _payloads(scene: SceneFields) -> list[str]:
+def _payload_slips(scene: SceneFields) -> list[str]:
     """Return sentences on payloads that are probably not in kilograms."""
     heaviest = BURDEN * mass_of(scene) if scene.masses else 0.0
     return [
@@ -110,7 +110,7 @@ def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> I
         yield f"{key} = {distance:g} m is {times}; lengths are in metres"
 
 
-def _strains(scene: SceneFields) -> Iterator[str]:
+def _strain_slips(scene: SceneFields) -> Iterator[str]:
     """Yield sentences on a weight or loads that would tear the sheet."""
     sheet, young, law = scene.sheet, scene.material.young, scene.material.law
     heaviest, strongest = (WEIGHT_LIMIT, STRETCH_LIMIT) if law is None else (RUBBER, RUBBER)
@@ -129,7 +129,7 @@ def _strains(scene: SceneFields) -> Iterator[str]:
         )
 
 
-def _gravity(gravity: Gravity | None) -> Iterator[str]:
+def _gravity_slips(gravity: Gravity | None) -> Iterator[str]:
     size = hypot(*gravity.acceleration) if gravity else 0.0
     if gravity and size and not EARTH[0] <= size <= EARTH[1]:
         likely = f": {size:g} mm/s² is written {size / 1e3:g}" if EARTH[0] <= size / 1e3 <= EARTH[1] else ""
@@ -139,7 +139,7 @@ def _gravity(gravity: Gravity | None) -> Iterator[str]:
         )
 
 
-def _unmoved(scene: SceneFields) -> bool:
+def _nothing_moves(scene: SceneFields) -> bool:
     """Return whether nothing moves the sheet, so that only its modes are of interest."""
     weight = scene.gravity is not None and any(scene.gravity.acceleration)
     held = (*scene.supports, *scene.obstacles)

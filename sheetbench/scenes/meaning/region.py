@@ -179,10 +179,10 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
         whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
         short = f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
         yield edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole and short
-    yield _moved_apart(scene)
+    yield _motion_conflict(scene)
 
 
-def _moved_apart(scene: SceneFields) -> str:
+def _motion_conflict(scene: SceneFields) -> str:
     """Return a sentence on two supports that move one part of the sheet differently, "" without any."""
     import shapely
 

@@ -28,11 +28,13 @@ def free_rigid_motions(scene: SceneFields) -> list[str]:
     """
     if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
         return []
-    return list(_left_free(scene.sheet, scene.supports, scene.cutouts))
+    return list(_free_motions(scene.sheet, scene.supports, scene.cutouts))
 
 
 @lru_cache(maxsize=64)
-def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]) -> tuple[str, ...]:
+def _free_motions(
+    sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]
+) -> tuple[str, ...]:
     """Return the names of the rigid motions that supports leave free; cached, for every solve needs them."""
     centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
     scale = max(sheet.lengths)
@@ -62,11 +64,11 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
     for axis, name in enumerate("xyz"):
         moved = np.linalg.lstsq(fixed[:, :3], -fixed[:, 3 + axis], rcond=ROUND_OFF)[0]
         if np.linalg.norm(fixed[:, :3] @ moved + fixed[:, 3 + axis]) < ROUND_OFF:
-            in_words.append(f"rotation about {_resting(sheet, axis, scale * moved) or name}")
+            in_words.append(f"rotation about {_resting_edge(sheet, axis, scale * moved) or name}")
     return (*in_words, *["a screw"] * (len(free) - len(in_words)))
 
 
-def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
+def _resting_edge(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
     """Return the edge that rests in a unit rotation about an axis that moves the centre by `moved` [m]. "" if
     no edge rests, for instance if the centre does."""
     for name, edge in EDGES.items():
@@ -84,7 +86,7 @@ def unstopped_motions(scene: SceneFields) -> list[str]:
     if not (free and scene.obstacles):
         return free
     resting = (Held(edge="x0", components=("z",)), Held(edge="x1", components=("z",)))
-    return list(_left_free(scene.sheet, scene.supports + resting, scene.cutouts))
+    return list(_free_motions(scene.sheet, scene.supports + resting, scene.cutouts))
 
 
 def require_static(scene: SceneFields, linear: str = "") -> None:

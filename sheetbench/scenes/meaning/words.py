@@ -40,20 +40,21 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){tapers}, {1e3 * mass:.3g} g",
     )
     rubber = f" at small strains, rubber by the law {material.law}" if material.law else ""
-    rubber += f" ({constants})" if (constants := _own(material.given(CONSTANTS))) else ""
+    rubber += f" ({constants})" if (constants := _constants(material.given(CONSTANTS))) else ""
     dampers = f", dampers of {1e3 * time:.4g} ms · k" if (time := material.dashpot_time) else ""
     drag = f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""
-    elasticity = f"{_elasticity(material)}, {_own({'density': material.density})}"
+    elasticity = f"{_elasticity(material)}, {_constants({'density': material.density})}"
     yield "material", f"{elasticity}{rubber}{_relaxation(material)}{dampers}{drag}"
     for n, layer in enumerate(scene.layers, start=1):
-        yield f"layer {n}", _own({"thickness": layer.thickness, **layer.own})
+        yield f"layer {n}", _constants({"thickness": layer.thickness, **layer.own})
     for n, patch in enumerate(scene.patches, start=1):
-        yield f"patch {n}", f"{patch.shape.in_words()}: {_own(patch.own) or 'not flat at rest'}"
+        yield f"patch {n}", f"{patch.shape.in_words()}: {_constants(patch.own) or 'not flat at rest'}"
     for n, cutout in enumerate(scene.cutouts, start=1):
         yield f"cutout {n}", cutout.shape.in_words()
     for n, payload in enumerate(scene.masses, start=1):
         yield f"mass {n}", _payload(payload, sheet)
-    yield from natural_in_words(scene)
+    for name, natural in natural_in_words(scene):
+        yield f"{name}, natural" if name.startswith("patch") else name, natural
     yield "weight", _weight(scene, mass + carried(scene))
     if scene.air is not None:
         share = 100.0 * scene.air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
@@ -98,8 +99,9 @@ def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
     turned = f" {'facing' if plane else 'along'} ({', '.join(f'{part:.3g}' for part in along)})" * bool(along)
     more = ", moving" if obstacle.motion is not None else ""
     more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
-    at = ", ".join(map(_mm, obstacle.position))
-    return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {1e3 * gap:.4g} mm from the flat sheet"
+    at = ", ".join(map(_mm, obstacle.position)).replace("-", "−")
+    near = 1e3 * gap if abs(gap) > ROUNDING else 0.0
+    return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {near:.4g} mm from the flat sheet"
 
 
 def _outline(scene: SceneFields) -> str:
@@ -122,7 +124,7 @@ SYMBOLS = {
 }  # fmt: skip
 
 
-def _own(constants: Mapping[str, Any]) -> str:
+def _constants(constants: Mapping[str, Any]) -> str:
     """Return constants, by their keys, in words with commas between."""
     return ", ".join(_constant(key, value) for key, value in constants.items())
 
@@ -139,8 +141,8 @@ def _constant(key: str, value: Any) -> str:
 def _elasticity(material: Material) -> str:
     """Return E and ν, or the constants of fibres."""
     if material.kind == "isotropic":
-        return _own(material.given(("young", "poisson")))
-    constants = _own(material.given(("young_1", "young_2", "shear_12", "poisson_12")))
+        return _constants(material.given(("young", "poisson")))
+    constants = _constants(material.given(("young_1", "young_2", "shear_12", "poisson_12")))
     return f"fibres at {degrees(material.ply.angle):.4g}° from x, {constants}"
 
 
@@ -157,7 +159,7 @@ def sheet_in_words(sheet: Sheet, material: Material) -> str:
     """Return the sheet and its material in a line."""
     sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
     at_rest = " at rest" if material.branches.times else ""
-    return f"{sides} mm, {_elasticity(material)}{at_rest}, {_own({'density': material.density})}"
+    return f"{sides} mm, {_elasticity(material)}{at_rest}, {_constants({'density': material.density})}"
 
 
 def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
@@ -184,14 +186,16 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
 
 
 def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
-    """Return the least and the largest normal stress [Pa] in the faces of the layers of the flat sheet."""
-    sums = []
+    """Return the least and the largest normal stress [Pa] along x and y in the faces of the layers of the
+    flat sheet, at the largest factor of a history."""
+    history, sums = source.of.history, []
+    factor = max(history.factor, key=abs) if history else 1.0
     for number, ply in enumerate(plies_of(scene)):
         for z in scene.sheet.thickness * np.array([ply.low, ply.high]):
             own = (source.strain - z * source.curvature) / TENSOR
             if isinstance(source.of, Temperature):
                 own = expansion_of(scene, number) * (source.of.change + z * source.of.gradient)
-            sums.append(-source.of.last_factor * (plane_stress(ply) @ own)[:2])
+            sums.append(-factor * (plane_stress(ply) @ own)[:2])
     return float(np.min(sums)) + 0.0, float(np.max(sums)) + 0.0
 
 

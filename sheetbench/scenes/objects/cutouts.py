@@ -37,7 +37,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
             raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
         plan = sheet.mesh.area
     neck = NECK * min(sheet.lengths)
-    if (number := _idle(plan, cutouts)) is not None:
+    if (number := _first_idle(plan, cutouts)) is not None:
         words = f"cutout {number + 1}.shape: {cutouts[number].shape.in_words()}"
         raise ValueError(f"{words}: no part of it is on what is left of the sheet")
     if cutouts:
@@ -48,12 +48,12 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
         subject = "cutout: they leave" if cutouts else drawn
         parts = f"{count} parts that are connected at points at most" if count else "no part"
         raise ValueError(f"{subject} {parts}; a sheet is one piece")
-    if plan.geom_type != "Polygon":  # slivers beside it
+    if plan.geom_type != "Polygon":  # with slivers
         plan = max(plan.geoms, key=lambda part: part.area)
     return plan
 
 
-def _idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
+def _first_idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
     """Return the number, from 0, of the first cutout that lies outside the plan or in earlier cutouts."""
     import shapely
 

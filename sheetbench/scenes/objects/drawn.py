@@ -2,7 +2,9 @@
 
 [sheet] mesh = "cloth.obj", mesh_scale = "1 mm", mesh_shift = "corner"
 [sheet] outline = "fin.dxf"
+[sheet] outline = "disc"
 
+A disc is a polygon of CORNERS sides in the rectangle of length_x and length_y, an ellipse where these differ.
 A flat mesh lies in a plane x = c, y = c or z = c, which is turned to z = 0: (y, z), (x, −z) or (x, y) become
 (x, y), so that a mesh whose upward axis is y, as in Blender and SOFA, is seen from above. `mesh_scale` is the
 length of the file's unit, 1 m unless given, for a drawing the unit in the file. `mesh_shift` is added to
@@ -22,6 +24,7 @@ import numpy as np
 from sheetbench.scenes.language.units import converted, numbers
 from sheetbench.scenes.objects.plan_mesh import FORMATS, mesh_of, read_file
 
+DISC, CORNERS = "disc", 256
 DRAWINGS = {".dxf": "dxf", ".svg": "svg"}
 FLAT = 1e-6  # of the size: how thick a flat mesh may be
 SIX_DIGITS = 1e-5  # of the size: largest error of the sides of the bounding rectangle
@@ -35,15 +38,22 @@ def from_file(data: Mapping[str, Any]) -> dict[str, Any]:
     rest = {name: value for name, value in data.items() if name not in (key, "mesh_scale", "mesh_shift")}
     sides = numbers(data, {"length_x": "m", "length_y": "m"})
     scale, shift = (converted(data.get(name), "m") for name in ("mesh_scale", "mesh_shift"))
-    if not sides or not _sound(scale, shift):
+    if not sides or not _is_valid(scale, shift):
         return {**data, key: None}  # the keys' own checks report their faults
+    if key == "outline" and Path(data[key]).name == DISC:  # relative to the scene's folder
+        turn = 2.0 * np.pi * np.arange(CORNERS) / CORNERS
+        corners = 0.5 * np.array([*sides.values()]) * (1.0 + np.column_stack([np.cos(turn), np.sin(turn)]))
+        label = "a disc" if len(set(sides.values())) == 1 else "an ellipse"
+        return {**data, key: [tuple(at) for at in corners.tolist()], "drawn_from": label, "holes": []}
     try:
         path = Path(data[key])
         points, parts = read_file(path, FORMATS if key == "mesh" else DRAWINGS)
         unit = float(parts.pop("unit", np.ones(1))[0]) if scale is None else float(str(scale))
-        plan, turned = _in_plane(points, np.concatenate([np.ravel(part) for part in parts.values()]), key)
+        plan, turned = _project_to_plane(
+            points, np.concatenate([np.ravel(part) for part in parts.values()]), key
+        )
         shift = ("corner" if key == "outline" else (0.0, 0.0)) if shift is None else shift
-        places, moved = _placed(unit * plan, shift, np.array([*sides.values()]))
+        places, moved = _shift(unit * plan, shift, np.array([*sides.values()]))
         changes = [turned, f"1 unit of it is {1e3 * unit:.5g} mm" * (unit != 1.0), moved]
         note = ", ".join(filter(None, [path.name, *changes]))
         if key == "mesh":
@@ -55,7 +65,7 @@ def from_file(data: Mapping[str, Any]) -> dict[str, Any]:
         raise ValueError(f"{key}: {data[key]}: {error}") from None
 
 
-def _sound(scale: Any, shift: Any) -> bool:
+def _is_valid(scale: Any, shift: Any) -> bool:
     def number(value: Any) -> bool:
         return isinstance(value, float | int) and isfinite(value)
 
@@ -64,7 +74,7 @@ def _sound(scale: Any, shift: Any) -> bool:
     return placed and (scale is None or (number(scale) and scale > 0.0))
 
 
-def _in_plane(points: np.ndarray, used: np.ndarray, key: str) -> tuple[np.ndarray, str]:
+def _project_to_plane(points: np.ndarray, used: np.ndarray, key: str) -> tuple[np.ndarray, str]:
     """Return plan points (n, 2) of points (n, 2 or 3), and a clause on their turning, "" without one."""
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise ValueError("a point has two or three coordinates")
@@ -83,7 +93,7 @@ def _in_plane(points: np.ndarray, used: np.ndarray, key: str) -> tuple[np.ndarra
     return points[:, [first, second]] * [1.0, sign], f"turned from its {plane} plane" * (normal != 2)
 
 
-def _placed(plan: np.ndarray, shift: Any, sides: np.ndarray) -> tuple[np.ndarray, str]:
+def _shift(plan: np.ndarray, shift: Any, sides: np.ndarray) -> tuple[np.ndarray, str]:
     """Return plan points [m] shifted, and scaled onto the rectangle if nearly on it, and a clause on that."""
     low = plan.min(axis=0, initial=np.inf)
     by = -low if shift == "corner" else 0.5 * sides if shift == "centre" else np.array(shift)

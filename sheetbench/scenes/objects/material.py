@@ -101,6 +101,9 @@ WORDS: Mapping[str, LawKeys] = {
 }
 STRESSES = ("c1", "c2", "c3", "shear")
 CONSTANTS = (*STRESSES, "limit")
+UNDAMPED: Mapping[str, Any] = {
+    "damping_time": 0.0, "loss_factor": None, "frequency": None, "band": None, "relaxation": (),
+}  # fmt: skip
 LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 
@@ -227,11 +230,11 @@ class Material(Fibres):
         for key in keys:
             yield key not in own and f"law = '{self.law}': {key} is missing; it takes {', '.join(keys)}"
         if self.law is not None:
-            yield from self._no_rubber(", ".join(f"{key} = {value:g}" for key, value in own.items()))
-        yield from self._no_fibres(self.given(KEYS))
-        yield from self._damped_twice()
+            yield from self._rubber_faults(", ".join(f"{key} = {value:g}" for key, value in own.items()))
+        yield from self._fibre_faults(self.given(KEYS))
+        yield from self._damping_faults()
 
-    def _no_rubber(self, given: str) -> Iterator[object]:
+    def _rubber_faults(self, given: str) -> Iterator[object]:
         """Yield reasons why a law is not stable at rest, or has pressure under a large enough pull."""
         energy, young = self.energy, self.energy.young(self.poisson)
         stable = f"the shear modulus at small strains is {energy.shear:g} Pa; it must be > 0"
@@ -254,7 +257,7 @@ class Material(Fibres):
             "rubber would push; c2 must be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
         )
 
-    def _no_fibres(self, own: dict[str, float]) -> Iterator[object]:
+    def _fibre_faults(self, own: dict[str, float]) -> Iterator[object]:
         """Yield reasons why the given constants of fibres are impossible."""
         if self.kind != "orthotropic":
             for key, value in own.items():
@@ -267,7 +270,7 @@ class Material(Fibres):
             leave = f"{key} = {given:g}: of an orthotropic material {needed} are given; leave {key} out"
             yield abs(given - value) > 1e-9 * abs(value) and leave
 
-    def _damped_twice(self) -> Iterator[object]:
+    def _damping_faults(self) -> Iterator[object]:
         """Yield reasons why the damping of the material is given twice or incompletely."""
         if self.loss_factor is None:
             yield from (f"{key}: is of a loss_factor; give one" for key in self.given(("frequency", "band")))

@@ -111,7 +111,7 @@ def read_file(path: Path, formats: Mapping[str, str] = FORMATS) -> tuple[np.ndar
     size = path.stat().st_size
     if size > LARGEST:
         raise ValueError(f"larger than {LARGEST // 2**20} MB, which no such file is")
-    # -P: the modules beside the program are not its own
+    # -P: the program does not import modules of its folder
     command = [sys.executable, "-P", mesh_reader.__file__, str(path), kind]
     seconds = SECONDS + PER_MB * size // 2**20
     ended = run(command, b"", seconds, MEMORY_MB, most=LARGEST, variables=ONE_THREAD)

@@ -67,8 +67,9 @@ class Sheet(Frozen):
 
     outline: Annotated[Outline, Unit("m"), _or_file(Outline)] | None = Field(default=None, kw_only=True)
     """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
-    rectangle around it, which begins at x = 0 and y = 0. Or a drawing, as "fin.dxf" or "fin.svg", relative to
-    the scene's file, whose largest ring is the outline; the rings within it are cutouts."""
+    rectangle around it, which begins at x = 0 and y = 0. Or "disc", round in that rectangle; or a drawing, as
+    "fin.dxf" or "fin.svg", relative to the scene's file, whose largest ring is the outline; the rings within
+    it are cutouts."""
     mesh: Annotated[PlanMesh, _or_file(PlanMesh)] | None = Field(default=None, kw_only=True)
     """In place of `outline`: a flat mesh in a file of Gmsh, Wavefront OBJ or another format, as "fin.msh",
     relative to the scene's file. Plate, shell and solid use its triangles and quadrilaterals as their mesh;

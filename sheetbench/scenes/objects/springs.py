@@ -192,7 +192,7 @@ class SpringSet(Frozen):
         both = "neo_hookean_shear: the same cells cannot have area, stretch and shear springs"
         membranes = self.neo_hookean_shear or self.mooney_rivlin
         yield membranes and (self.area or self.stretch or self.shear) and both
-        towards(self.grading, self.graded_edges)  # raises for what is no grading
+        towards(self.grading, self.graded_edges)  # raises BadInput for an invalid grading
 
     def graded(self, sides: tuple[float, float]) -> Graded:
         """Return the grading of the lattice's lines on a sheet with sides [m]."""

@@ -67,7 +67,7 @@ class _Support(_EdgeSupport):
         json_schema_extra={"allOf": [{"oneOf": [{"required": ["edge"]}, {"required": ["where"]}]}]}
     )
 
-    # None beside `where` alone, which `require_rectangle` keeps from models that read edges
+    # None only with `where`, which models that read edges refuse by `require_rectangle`
     edge: Annotated[EdgeName, Field(default=None)]
     """The edge that is supported."""
     where: Annotated[Shape, _or_rim] | None = Field(default=None, kw_only=True)

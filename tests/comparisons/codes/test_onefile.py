@@ -67,10 +67,8 @@ LIKE = (
     "gent",
     "mooney-rivlin",
 )
-ROUGH = (
-    "lifted",
-    "bimetal",
-)  # in single numbers: friction that turns within 1 mm/s; a small difference of energies
+# in single numbers: friction within 1 mm/s; a small difference of energies; reactions of a bent clamp
+ROUGH = ("lifted", "bimetal", "graded")
 ALL = OWN | {name: SCENES[name] for name in LIKE}
 
 

@@ -375,6 +375,29 @@ def test_a_reference_follows_a_measured_motion():
     assert found.settings["elements"] == [1, 1]
 
 
+def test_one_run_has_the_derivatives_of_a_motion(monkeypatch):
+    """In a quarter of the runs of differences at most, and what is found is the same."""
+    springs = lumped.calibrate(DAMPED.sheet, DAMPED.material, (4, 4))
+    run = lumped.simulate(DAMPED, springs, 0.1, every=5e-3, error=1e-7)
+    seen = noisy(run.probes["P4"][1:], 3, 2e-3)
+    measured = Displacements(np.tile(DAMPED.probes["P4"], (20, 1)), seen, run.time[1:])
+    guess, found, runs_made, simulate = DAMPED.replace(young=50e6), [], [], lumped.simulate
+
+    def counted(*given, **options):
+        runs_made[-1] += 1
+        return simulate(*given, **options)
+
+    monkeypatch.setattr(lumped, "simulate", counted)
+    for by_differences in (False, True):
+        if by_differences:
+            monkeypatch.setattr("comparisons.identification.model.OF_SUPPORTS", ("",))
+        runs_made.append(0)
+        found.append(identify(guess, measured, ["young", "loss_factor"], Lattice((4, 4, 2))).unknowns)
+    assert 4 * runs_made[0] <= runs_made[1]
+    for one, other in zip(*(each.values() for each in found), strict=True):
+        assert one.interval == pytest.approx(other.interval, rel=1e-3)
+
+
 def test_branches_are_parameters():
     scene = CANTILEVER.replace(relaxation=(Relaxation(0.2, 0.1), Relaxation(0.1, 1.0)))
     assert parameter(scene, "time_2").value == 1.0

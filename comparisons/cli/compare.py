@@ -55,8 +55,8 @@ def command(
             shell.
         branch (NAME): {BRANCHES}: buckled leaves an unstable equilibrium along its buckling mode. Default:
             path.
-        settle: Begin both models where a strongly damped motion comes to rest: for thin sheets, which fold on
-            the way of statics to the full load.
+        settle: Start both models from the end of a strongly damped motion: for thin sheets, which fold before
+            statics reach the full load.
         sensitivity (NAMES): Parameters of the scene (young, thickness, load1.force.z): a column each, the
             change of every probe's displacement by 1 % more of it.
         duration (S): Compare the motion over this time, from rest.

@@ -78,7 +78,7 @@ class CostRow:
 
 
 def settling(scene: Scene) -> str:
-    """Return advice on the motion that may bring a sheet to rest where statics do not."""
+    """Return advice on a motion that may bring the sheet to rest if statics fail."""
     material = scene.material
     damped = material.damping_rate or material.dashpot_time or material.branches.times or scene.dampers
     until = AT_REST / (material.damping_rate or DEFAULT_RATE)
@@ -183,8 +183,8 @@ class Comparison(Compared, Answer):
 
     @cached_property
     def sensitivities(self) -> dict[str, dict[str, dict[str, float | None]]]:
-        """By model, parameter and probe the share by which 1 % of the parameter moves the probe further out
-        (d|u|/dθ · θ/100|u|), of models that have derivatives. Raises BadInput for unknown parameters."""
+        """Relative change of each probe's |u| by 1 % of a parameter (d|u|/dθ · θ/100|u|), by model, parameter
+        and probe, for models with derivatives. Raises BadInput for unknown parameters."""
         found: dict[str, dict[str, dict[str, float | None]]] = {}
         named = {name: parameter(self.scene, name) for name in self.sensitive_to}
         for solution in self.solutions:

@@ -85,16 +85,16 @@ def _solve(model: Resolved[Any], watch: Watch | None, near: Any = None) -> Solut
 
         branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
         calibrate = None if model.fitted or spec.calibration is None else partial(_springs, model)
-        own: dict[str, Any] = {"linear": spec.linear, "branch": branch, "near": near, "calibrate": calibrate}
-        solution = lumped.solve(scene, model.springs, progress=watch, **own)
+        keywords: dict[str, Any] = {"linear": spec.linear, "branch": branch, "calibrate": calibrate}
+        solution = lumped.solve(scene, model.springs, near=near, progress=watch, **keywords)
         return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference
 
         elements = tuple(spec.counts(scene)[:2])
         try:
-            own = {"elements": elements, "near": near, **spec.options}
-            return fem_reference.solve(scene, spec.kind, progress=watch, **own)
+            keywords = {"elements": elements, "near": near, **spec.options}
+            return fem_reference.solve(scene, spec.kind, progress=watch, **keywords)
         except NoMesh as error:
             return _unanswered(
                 scene, spec, f"no mesh of {spec.size} elements, other numbers may have one: {error}"

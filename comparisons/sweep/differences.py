@@ -41,7 +41,7 @@ def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
     displacement : ndarray, (n, 3) [m]
         Displacements at n points.
     reference : ndarray, (n, 3) [m]
-        Displacements of a reference at these points.
+        Displacements of a reference at the n points.
 
     Returns
     -------

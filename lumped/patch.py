@@ -1,7 +1,7 @@
 """Quadrature over the part of a cell where a depth is positive, as a compiled loop.
 
 A depth q is biquadratic on [−1, 1]², with nine values at −1, 0, 1 along x and y (x fastest). Along x, at each
-y, it is a parabola whose roots end the patch {q > 0}; what is integrated there is a polynomial, exact by
+y, it is a parabola whose roots end the patch {q > 0}; the integrand there is a polynomial, exact by
 Gauss points between the roots. The integral over y is smooth between those y where a root passes a side of
 the cell or two roots meet: there it has the square root of the distance, which y(t) = ½ (3t − t³) makes
 regular. As depth vanishes at the patch's border, ∫ ⟨q⟩² has the derivatives 2 ∫ q φ and 2 ∫ φ φᵀ over the
@@ -36,8 +36,8 @@ def value(c: np.ndarray, n: int, t: float) -> float:
 
 @inner()
 def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
-    """Put where a polynomial of degree n <= 4 changes its sign in (−1, 1) after the first `count` of
-    `out`."""
+    """Append to the first `count` of `out` the places in (−1, 1) where a polynomial of degree n <= 4 changes
+    its sign; return the new count."""
     ends, of = np.full(7, -1.0), np.zeros((5, 5))  # roots of the derivative of one degree less; derivatives
     ends[1], inside = 1.0, 0
     of[n] = c

@@ -41,7 +41,7 @@ Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # energy, loads and slopes 
 class Touching(SheetItem):
     """Contact with one obstacle. share: of its stiffness; in an element's points basis (p, 9) of nodes,
     shares (p, n) of nodes and of a (`tangent_planes`), hats (p, 9) of nodes, none negative; groups (t, 9) of
-    points: those of each part, or one node nine times; levers: ζ (faces, m, 9) [m] of elements' nodes."""
+    points: nine of each part, or one node nine times; levers: ζ (faces, m, 9) [m] of elements' nodes."""
 
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.on = name, obstacle, plan.elements
@@ -96,11 +96,11 @@ class Touching(SheetItem):
         return out
 
     def near(self, shape: SheetShape) -> Near:
-        """Return where points (faces, m, p) are."""
+        """Return the places of points (faces, m, p) beside the obstacle."""
         return near(self.obstacle, self._points(shape.vectors), self.offset, shape.sheet.instant(shape.at))
 
     def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
-        """Return where points are, and how their groups are pressed."""
+        """Return the places of points and the state of their groups."""
         found = self.near(shape)
         depth, stiffness = (
             found.sunk[..., self.groups],
@@ -126,8 +126,8 @@ class Touching(SheetItem):
         return out
 
     def _pulled(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return forces at points (faces, m, p, 3) [N], those of dashpot and friction among them, and the
-        derivatives of these by the points' velocities (faces, m, p, 3, 3)."""
+        """Return forces at points (faces, m, p, 3) [N], the share of dashpot and friction, and its
+        derivatives by the points' velocities (faces, m, p, 3, 3)."""
         found, (_, load, _) = self._pressed(shape)
         velocity = self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
         speed = self.basis @ self._faces(shape.rates) - velocity
@@ -206,7 +206,7 @@ class Touching(SheetItem):
         return {self.name: (self._points(shape.vectors), self._pulled(shape)[0])}
 
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
-        """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""
+        """Return the state of contact and the pressure (n,) [Pa] at the nodes of the plan."""
         found, (energy, load, slope) = self._pressed(shape)
         first, on = self.groups[:, 0], self.on.ravel()
         area = self._at_points((SIMPSON * self.of_groups[None]) @ SPREAD)[0] @ self.hats

@@ -1,4 +1,4 @@
-"""What an answer says of the contact with an obstacle."""
+"""State of the contact with an obstacle, as an answer contains it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: points as near as 
 @dataclass(frozen=True)
 class ContactState:
     """area: that touches [m²]; penetration: the deepest, over the thickness; points: how many, or parts of
-    cells, touch; undecided: how many are so near to touching that the tangent may be that of either."""
+    cells, touch; undecided: how many are so near to touching that the tangent may belong to either state."""
 
     area: float
     penetration: Annotated[float, NUMBER(".2g", "penetration/h")]
@@ -26,8 +26,8 @@ class ContactState:
 
     @classmethod
     def of(cls, depth: np.ndarray, area: np.ndarray) -> ContactState:
-        """Return that of points or parts of cells: depths over the thickness, δ₀ included, < 0 of one that is
-        clear, and areas that touch."""
+        """Return the state of points or parts of cells: depths over the thickness, δ₀ included, < 0 of a
+        clear one, and areas that touch."""
         over, touching = depth - TOUCH, depth > 0.0
         deepest = float(over.max(initial=0.0))
         near = np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)

@@ -5,7 +5,7 @@ method on a quadratic penalty is the primal–dual active-set method, whose set 
 ones are raised at the full load in stages of equal factors, each Newton's method from the last shape with the
 stresses that it extrapolated; all but the last end at a small residual, small enough for what rolls to have
 found its place while its patch is wide. One that fails takes the square root
-of its factor. What is said of the end is that of the last stage. Where soft penalties lead nowhere or through
+of its factor. Status and notes of the end are the last stage's. Where soft penalties lead nowhere or through
 an obstacle, `settle` begins again from rest with stiff ones, in so many load steps that no obstacle moves by
 more than a quarter of its radius in one.
 
@@ -50,7 +50,7 @@ def require_way(path: Path[State, Forces], state: State, load_factor: float) -> 
 
 def softest(structure: Structure[State, Forces]) -> float:
     """Return the share of the stiffness to begin with, and give it: with it the load, or the pressure that
-    bends a plate of this size by what is moved (8 D per size⁴), leaves points DEPTH deep."""
+    bends a plate of this size by the prescribed way (8 D per size⁴), leaves points DEPTH deep."""
     shares, size = [1.0], structure.size
     soften(structure.contacts, 0.0)
     force, gap = structure.loading(), size * structure.gap(structure.rest(), 1.0)
@@ -65,8 +65,8 @@ def softest(structure: Structure[State, Forces]) -> float:
 def stiffened(
     path: Path[State, Forces], trace: Callable[[Path[State, Forces]], Fault | None]
 ) -> Fault | None:
-    """Lead a path from rest to the equilibrium at full load with stiff penalties: what has ended it before,
-    if anything. trace: the usual way there."""
+    """Lead a path from rest to the equilibrium at full load with stiff penalties: the fault that has ended it
+    before, if any. trace: the usual way there."""
     structure, limits, contacts = path.structure, path.limits, path.structure.contacts
     down = path.settle if structure.symmetric else None
     share = softest(structure)
@@ -101,7 +101,7 @@ def stiffened(
 
 
 def _raised(path: Path[State, Forces], share: float) -> Fault | None:
-    """Raise the penalties from a share to all of them: what has ended it before, if anything."""
+    """Raise the penalties from a share to all of them: the fault that has ended it before, if any."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
     path.limits = replace(path.limits, corrections=PATIENT, back=PATIENT)

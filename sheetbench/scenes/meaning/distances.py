@@ -88,8 +88,8 @@ def projector(obstacle: AnyObstacle) -> np.ndarray:
 
 
 def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]) -> Near:
-    """Return where points x (…, 3) [m] that touch at a distance, the offset (…) [m], are beside an obstacle
-    in its `place`."""
+    """Return the places beside an obstacle of points x (…, 3) [m] that touch at a distance, the offset (…)
+    [m]."""
     y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
         normal, depth = np.broadcast_to(obstacle.direction, y.shape), offset - y @ obstacle.direction

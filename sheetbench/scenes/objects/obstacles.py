@@ -41,7 +41,7 @@ class _Obstacle(Frozen):
         return np.asarray(along / (np.linalg.norm(along) or 1.0))
 
     def place(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
-        """Return where its position is, (3,) [m], after a share of its way: at a time [s], or at last."""
+        """Return its position (3,) [m] after a share of its way: at a time [s], or at last."""
         moved = np.zeros(3) if self.motion is None else self.motion.course.at(time)
         return np.asarray(self.position + load_factor * moved)
 

@@ -63,7 +63,7 @@ class CellSurface:
         return np.concatenate([linear[:, :4], -(dot(step, d) / dot(d, d))[..., 0] * d], axis=1), ends
 
     def slopes(self, ends: np.ndarray) -> np.ndarray:
-        """Return derivatives (m, 12, 3, 20, 3) of corners and a by what the linear map gives."""
+        """Return derivatives (m, 12, 3, 20, 3) of corners and a by the vectors of the linear map."""
         step, d = ends
         out, corner, curve = np.zeros((len(d), 12, 3, LINEAR, 3)), np.arange(4), np.arange(4, 12)
         square, dyad = dot(d, d), outer(d, d)
@@ -74,7 +74,7 @@ class CellSurface:
         return out
 
     def second(self, ends: np.ndarray, pull: np.ndarray) -> np.ndarray:
-        """Return Σ f·∂²a (m, 20, 3, 20, 3) by what the linear map gives, of f on a (m, 8, 3)."""
+        """Return Σ f·∂²a (m, 20, 3, 20, 3) by the vectors of the linear map, of f on a (m, 8, 3)."""
         (step, d), f = ends, pull
         square, dyad, along, pulled = dot(d, d), outer(d, d), dot(step, d), dot(f, d)
         both, mixed = outer(step, f), outer(step * pulled[..., 0] + f * along[..., 0], d)

@@ -9,8 +9,8 @@ Where δ is linear between corners of cells, on a plane under a sheet that is fl
 deepest points are corners, columns of masses, and each has a quarter of a cell's area. Else the patch may be
 anywhere in a cell and much smaller than it: the surface is curved at rest (`cell_surface`), δ is known at 3 ×
 3 points of each part of a cell, parts no longer than R/2, and biquadratic between them, and the integral is
-that over the patch (`patch`), whose size and place follow the sheet: a patch may slide, as that of a cradle
-does. At rest ψ = ½ k δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the
+that over the patch (`patch`), whose size and place follow the sheet: the patch of a cradle
+slides. At rest ψ = ½ k δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the
 thickness to give. In motion k is 0.065 ρ h ω_max² at most, cells are straight between masses, and the law is
 rounded over δ₁ = 0.3 h: ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than
 their tributary ones, so that a sheet which lands flat stays flat. Conserving midpoint steps have the mean
@@ -59,8 +59,8 @@ class Pressed(NamedTuple):
 
 
 def parts_of_cells(sides: np.ndarray, radius: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return r, s (p,) of the points of a cell, and numbers (t, 9) of those of each of its parts, as many
-    along its sides (2,) [m] as no part is longer than half a radius, and a multiple `of` 1 or 2."""
+    """Return r, s (p,) of the points of a cell, and for each part the numbers (t, 9) of its points; as many
+    parts along the sides (2,) [m] as none is longer than half a radius, a multiple `of` 1 or 2."""
     n, m = of * np.maximum(1, np.ceil(2.0 * sides / radius / of)).astype(int)
     lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
     s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
@@ -121,7 +121,7 @@ class Contact(LatticeItem):
         return sides, near(self.obstacle, self.shares @ vectors, self.offset[of], at[1])
 
     def near(self, at: Placed) -> Near:
-        """Return where points (m, p) of cells are."""
+        """Return the places of points (m, p) of cells beside the obstacle."""
         return self._surface(at, ...)[1]
 
     def _law(self, depth: np.ndarray, of: Any, tangent: bool = False) -> tuple[np.ndarray, ...]:
@@ -142,7 +142,7 @@ class Contact(LatticeItem):
         return energy[..., 0], load, slope[..., None], depth[..., 0]
 
     def _pressed(self, at: Placed, since: Since = None, tangent: bool = False) -> Pressed:
-        """Return how cells that may touch are pressed; since: what a step from there has in the mean."""
+        """Return the state of cells that may touch; since: the mean of a step from there."""
         if since is None:
             places = self._rest + at[0][self.nodes]
             middle = places.mean(axis=1, keepdims=True)
@@ -237,7 +237,7 @@ class Contact(LatticeItem):
             np.add.at(blocks, self.slots[of][touched], -scale * of_masses)
 
     def _of_masses(self, points: np.ndarray) -> np.ndarray:
-        """Return sums (n,) at masses of values at points (m, p), shared as the straight surface has them."""
+        """Return sums (n,) at masses of values at points (m, p), shared by their weights."""
         return np.bincount(self.nodes.ravel(), (points @ self.weights).ravel(), minlength=self._masses)
 
     def stiffest(self, mass: np.ndarray) -> float:
@@ -256,7 +256,7 @@ class Contact(LatticeItem):
         return lever**2 * self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
-        """Return what there is to say of it at an equilibrium, and its pressure (n,) [Pa] at the masses."""
+        """Return the state of contact at an equilibrium and the pressure (n,) [Pa] at the masses."""
         found = self.near(at)
         _, load, slope, deepest = self._law(found.sunk[:, self.groups], ..., True)
         first, area = self.groups[:, 0], self._of_masses(self.area)

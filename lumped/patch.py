@@ -18,6 +18,11 @@ ALONG, ALONG_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _T, _W = np.polynomial.legendre.leggauss(16)
 ACROSS, ACROSS_WEIGHTS = 0.5 * (3.0 * _T - _T**3), 1.5 * (1.0 - _T**2) * _W
 MOST = 2 * 16 * 4 * 9  # points of a patch
+HALVINGS = 52
+POWERS = np.array(
+    [[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]]
+)  # of a parabola by values at −1, 0, 1
+BERNSTEIN = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
 
 
 @inner()
@@ -31,68 +36,43 @@ def value(c: np.ndarray, n: int, t: float) -> float:
 
 @inner()
 def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
-    """Append to the first `count` of `out` the roots in (−1, 1) of a polynomial of degree n <= 4 at which it
-    changes its sign; return the new count."""
-    ends, derivative = np.empty(7), np.empty(5)
-    ends[0], ends[1] = -1.0, 1.0
-    inside = 0  # roots of the derivative one degree lower
+    """Append to the first `count` of `out` the places in (−1, 1) where a polynomial of degree n <= 4 changes
+    its sign; return the new count."""
+    ends, of = np.full(7, -1.0), np.zeros((5, 5))  # roots of the derivative of one degree less; derivatives
+    ends[1], inside = 1.0, 0
+    of[n] = c
+    for degree in range(n - 1, 0, -1):
+        for k in range(degree + 1):
+            of[degree, k] = (k + 1) * of[degree + 1, k + 1]
     for degree in range(1, n + 1):
-        for k in range(degree + 1):  # the (n − degree)-th derivative
-            factor = 1.0
-            for j in range(n - degree):
-                factor *= k + n - degree - j
-            derivative[k] = factor * c[k + n - degree]
-        roots, new = 0, np.empty(7)
+        found, new = 0, np.full(7, -1.0)
         for j in range(inside + 1):
             a, b = ends[j], ends[j + 1]
-            at_a, at_b = value(derivative, degree, a), value(derivative, degree, b)
-            if at_a * at_b >= 0.0:
-                continue
-            x = 0.5 * (a + b)
-            for turn in range(80):  # false position between bisections
-                f = value(derivative, degree, x)
-                if f * at_a > 0.0:
-                    a, at_a = x, f
-                else:
-                    b, at_b = x, f
-                if f == 0.0 or b - a < 1e-15:
-                    break
-                secant = a - at_a * (b - a) / (at_b - at_a)
-                x = 0.5 * (a + b) if turn % 3 == 2 else secant
-            roots += 1
-            new[roots] = x
-        new[0], new[roots + 1] = -1.0, 1.0
-        ends[:], inside = new, roots
+            at_a = value(of[degree], degree, a)
+            if at_a * value(of[degree], degree, b) < 0.0:
+                for _ in range(HALVINGS):
+                    x = 0.5 * (a + b)
+                    if value(of[degree], degree, x) * at_a > 0.0:
+                        a = x
+                    else:
+                        b = x
+                found += 1
+                new[found] = b
+        new[found + 1], inside = 1.0, found
+        ends[:] = new
     for j in range(inside):
         out[count + j] = ends[j + 1]
     return count + inside
 
 
 @inner()
-def coefficients(q: np.ndarray, c: np.ndarray) -> None:
-    """Set c (3, 3), of y^i x^j, from values (9,)."""
-    row = np.empty((3, 3))
+def transform(by: np.ndarray, q: np.ndarray, c: np.ndarray) -> None:
+    """Set c (3, 3), of y^i x^j or of Bernstein's polynomials, from values (9,)."""
+    c[:] = 0.0
     for i in range(3):
-        a, b, d = q[3 * i], q[3 * i + 1], q[3 * i + 2]
-        row[i, 0], row[i, 1], row[i, 2] = b, 0.5 * (d - a), 0.5 * (d + a) - b
-    for j in range(3):
-        a, b, d = row[0, j], row[1, j], row[2, j]
-        c[0, j], c[1, j], c[2, j] = b, 0.5 * (d - a), 0.5 * (d + a) - b
-
-
-@inner()
-def sign(q: np.ndarray) -> int:
-    """Return 1 if the biquadratic of nine values is positive on all of a cell, −1 if nowhere, by its
-    Bernstein coefficients, else 0."""
-    least, most = np.inf, -np.inf
-    side = np.empty((3, 3))
-    for i in range(3):
-        a, b, d = q[3 * i], q[3 * i + 1], q[3 * i + 2]
-        side[i, 0], side[i, 1], side[i, 2] = a, 2.0 * b - 0.5 * (a + d), d
-    for j in range(3):
-        a, b, d = side[0, j], 2.0 * side[1, j] - 0.5 * (side[0, j] + side[2, j]), side[2, j]
-        least, most = min(least, a, b, d), max(most, a, b, d)
-    return 1 if least > 0.0 else -1 if most <= 0.0 else 0
+        for j in range(3):
+            for k in range(9):
+                c[i, j] += by[i, k // 3] * by[j, k % 3] * q[k]
 
 
 @inner()
@@ -111,18 +91,17 @@ def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, 
 
 @inner()
 def patch(q: np.ndarray, points: np.ndarray) -> int:
-    """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive; return
-    their number."""
-    inside = sign(q)
-    if inside < 0:
+    """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive: how
+    many."""
+    count, c, ends, p = 0, np.empty((3, 3)), np.empty(12), np.zeros(5)
+    transform(BERNSTEIN, q, c)
+    if c.max() <= 0.0:
         return 0
-    count = 0
-    if inside > 0:
+    if c.min() > 0.0:
         for g in range(len(ALONG)):
             count = add_line(ALONG[g], ALONG_WEIGHTS[g], -1.0, 1.0, points, count)
         return count
-    c, ends, p = np.empty((3, 3)), np.empty(12), np.zeros(5)
-    coefficients(q, c)
+    transform(POWERS, q, c)
     ends[0] = -1.0
     stops = 1
     for s in (-1.0, 1.0):  # at the sides

@@ -33,15 +33,15 @@ from sheetbench.scenes.meaning.distances import Near, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 SOFTER, ROUNDED, STIFFER = 0.01, 0.3, 100.0  # in motion: of E/h, over which part of h rounded; of patches
-SPREAD = np.kron(*2 * [np.array([[1.0, 0.0, 0.0], [0.5, 0.0, 0.5], [0.0, 0.0, 1.0]])])  # to a part's corners
+SPREAD = np.kron(*2 * [np.array([[1.0, 0.0, 0.0], [0.5, 0.0, 0.5], [0.0, 0.0, 1.0]])])  # none pulls there
 SIMPSON = np.outer([1.0, 4.0, 1.0], [1.0, 4.0, 1.0]).ravel() / 9.0  # ∫ N dr ds of a part's points
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # energy, loads and slopes of groups (faces, m, t, …)
 
 
 class Touching(SheetItem):
-    """Contact with one obstacle. share: of its stiffness; basis (p, 9): of nodes in an element's points,
-    shares (p, n): of nodes and what takes kinks off, hats (p, 9): of nodes, none negative; groups (t, n) of
-    points: nodes one by one, or nine of each part; levers: ζ (faces, m, 9) [m] of elements' nodes."""
+    """Contact with one obstacle. share: of its stiffness; in an element's points basis (p, 9) of nodes,
+    shares (p, n) of nodes and of a (`tangent_planes`), hats (p, 9) of nodes, none negative; groups (t, 9) of
+    points: nine of each part, or one node nine times; levers: ζ (faces, m, 9) [m] of elements' nodes."""
 
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.on = name, obstacle, plan.elements
@@ -50,13 +50,13 @@ class Touching(SheetItem):
         thickness = (weight * constants.thickness) @ AT_GAUSS[0] / of_nodes
         full = (weight * constants.stretching / constants.thickness**2) @ AT_GAUSS[0] / of_nodes
         self.levers = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), thickness)
-        curled, self.bent = not moving and bool(scene.natural_by or scene.actuators), False
-        self.at_nodes = isinstance(obstacle, Plane) and not curled
-        if self.at_nodes:
+        curled, self.bent, size = not moving and bool(scene.natural_by or scene.actuators), False, 0.25
+        if isinstance(obstacle, Plane) and not curled:
             self.basis = self.hats = self.shares = np.eye(9)
-            self.groups, self.area = np.arange(9)[:, None], of_nodes
+            self.groups, self.area = np.repeat(np.arange(9), 9).reshape(9, 9), of_nodes
         else:
-            self.bent, full = not moving, STIFFER * full
+            self.bent, size = not moving, 1.0
+            full = STIFFER * full if self.bent else full
             least, longest = 4 if self.bent else 2, np.ptp(plan.corners, axis=1).max()
             parts = least * max(1, int(np.ceil(2.0 * longest / obstacle.radius / least)))
             line = np.linspace(-1.0, 1.0, 2 * parts + 1)
@@ -67,10 +67,10 @@ class Touching(SheetItem):
             curves, self.hats = tangent_planes.shares(r, s)
             self.shares = np.hstack([self.basis, curves]) if self.bent else self.basis
             self.area = np.abs(np.linalg.det(jacobians(plan.corners, slope))) / parts**2  # by a part's dr ds
+        self.of_groups = size * self.area[:, self.groups]
         self.thickness, self.full = thickness @ self.basis.T, full @ self.basis.T
         self.offset = (TOUCH + (0.0 if solid else 0.5)) * self.thickness
-        softer = SOFTER if self.at_nodes else SOFTER / STIFFER
-        self.share, self.rounded = (softer, ROUNDED) if moving else (1.0, 0.0)
+        self.share, self.rounded = (SOFTER, ROUNDED) if moving else (1.0, 0.0)
 
     def _faces(self, vectors: np.ndarray) -> np.ndarray:
         """Return φ + ζ d (faces, m, 9, 3) of vectors (m, 18, 3)."""
@@ -96,47 +96,42 @@ class Touching(SheetItem):
         return out
 
     def near(self, shape: SheetShape) -> Near:
-        """Return where points (faces, m, p) are."""
+        """Return the places of points (faces, m, p) beside the obstacle."""
         return near(self.obstacle, self._points(shape.vectors), self.offset, shape.sheet.instant(shape.at))
 
     def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
-        """Return where points are, and how their groups are pressed."""
+        """Return the places of points and the state of their groups."""
         found = self.near(shape)
-        depth, stiffness = found.sunk[..., self.groups], (self.share * self.full * self.area)[:, self.groups]
+        depth, stiffness = (
+            found.sunk[..., self.groups],
+            self.share * self.full[:, self.groups] * self.of_groups,
+        )
         over = self.rounded * self.thickness[:, self.groups[:, :1]] + 0.0 * depth[..., :1]
         steps = [(1.0, 0.0, 3), (-1.0, 1.0, 3)] if self.rounded else [(1.0, 0.0, 2)]
-        out = np.zeros(depth.shape[:-1]), np.zeros(depth.shape), np.zeros((*depth.shape, depth.shape[-1]))
+        out = np.zeros(depth.shape[:-1]), np.zeros(depth.shape), np.zeros((*depth.shape, 9))
         for sign, less, power in steps:
             q, k = depth - less * over, np.broadcast_to(sign * stiffness, depth.shape)
             k = k / over if self.rounded else k
-            for sum_, part in zip(out, self._integrals(q, k, power), strict=True):
-                sum_ += part
+            for total, part in zip(
+                out, patch.integrals(q.reshape(-1, 9), k.reshape(-1, 9), power), strict=True
+            ):
+                total += part.reshape(total.shape)
         return found, out
 
-    def _integrals(self, q: np.ndarray, k: np.ndarray, power: int) -> tuple[np.ndarray, ...]:
-        if not self.at_nodes:
-            found = patch.integrals(q.reshape(-1, 9), k.reshape(-1, 9), power)
-            return tuple(each.reshape(*q.shape[:-1], *each.shape[1:]) for each in found)
-        d = np.maximum(q, 0.0)
-        first, second = (d, d > 0.0) if power == 2 else (0.5 * d * d, d)
-        return (k * first * d)[..., 0] / power, k * first, (k * second)[..., None]
-
-    def _at_points(self, load: np.ndarray, positive: bool = False) -> np.ndarray:
-        """Return sums at points (faces, m, p) of loads of groups; positive: shared among corners of parts,
-        where none pulls."""
-        load = load @ SPREAD if positive and not self.at_nodes else load
+    def _at_points(self, load: np.ndarray) -> np.ndarray:
+        """Return sums at points (faces, m, p) of loads of groups."""
         out = np.zeros((*load.shape[:2], len(self.basis)))
-        for group, points in enumerate(self.groups):
-            out[..., points] += load[:, :, group]
+        face, element = (np.arange(n)[:, None, None] for n in load.shape[:2])
+        np.add.at(out, (face[..., None], element, self.groups), load)
         return out
 
     def _pulled(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return forces at points (faces, m, p, 3) [N], those of dashpot and friction among them, and the
-        derivatives of these by the points' velocities (faces, m, p, 3, 3)."""
+        """Return forces at points (faces, m, p, 3) [N], the share of dashpot and friction, and its
+        derivatives by the points' velocities (faces, m, p, 3, 3)."""
         found, (_, load, _) = self._pressed(shape)
         velocity = self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
         speed = self.basis @ self._faces(shape.rates) - velocity
-        rubbed, by_rate = found.resistance(self._at_points(load, positive=True), speed)
+        rubbed, by_rate = found.resistance(self._at_points(load @ SPREAD), speed)
         return self._at_points(load)[..., None] * found.slope + rubbed, rubbed, by_rate
 
     def force(self, shape: SheetShape) -> np.ndarray:
@@ -211,12 +206,11 @@ class Touching(SheetItem):
         return {self.name: (self._points(shape.vectors), self._pulled(shape)[0])}
 
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
-        """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""
+        """Return the state of contact and the pressure (n,) [Pa] at the nodes of the plan."""
         found, (energy, load, slope) = self._pressed(shape)
         first, on = self.groups[:, 0], self.on.ravel()
-        even = 1.0 if self.at_nodes else SIMPSON
-        area = self._at_points(even * self.area[None][..., self.groups], positive=True)[0] @ self.hats
-        pressed = self._at_points(load, positive=True).sum(axis=0) @ self.hats
+        area = self._at_points((SIMPSON * self.of_groups[None]) @ SPREAD)[0] @ self.hats
+        pressed = self._at_points(load @ SPREAD).sum(axis=0) @ self.hats
         pressure = np.bincount(on, pressed.ravel()) / np.bincount(on, area.ravel())
         touched = slope.sum(axis=(0, 3, 4)) / (self.share * self.full[:, first])
         mean = np.where(energy > 0.0, 2.0 * energy / (load.sum(axis=3) + 1e-300), -np.inf)

@@ -1,4 +1,4 @@
-"""Scenes with obstacles and what is known of them: the heavy elastica that lies down, by shooting."""
+"""Scenes with obstacles and their closed forms: the heavy elastica that lies down, by shooting."""
 
 from __future__ import annotations
 

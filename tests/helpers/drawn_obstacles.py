@@ -1,4 +1,4 @@
-"""Drawn sheets over drawn obstacles, solved on the lattice, and what the geometry says of the answer.
+"""Drawn sheets over drawn obstacles, solved on the lattice, and faults of the answer by geometry.
 
 A solver that reports no equilibrium is not judged.
 """
@@ -59,7 +59,7 @@ def draw(number: int) -> tuple[Scene, tuple[int, int, int]]:
 
 
 def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.ndarray:
-    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface: curved as contact has it,
+    """Return places (m, n, 3) of points INSIDE a cell on the deformed mid-surface: curved as in contact,
     on a plane straight between masses."""
     mesh, (nx, ny, layers) = solution.mesh, grid
     masses = (mesh.points + mesh.point_data["displacement"]).reshape(ny, nx, layers, 3)
@@ -79,7 +79,7 @@ def surface(solution: Solution, grid: tuple[int, int, int], scene: Scene) -> np.
 
 
 def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
-    """Return how often a ray from `start` (3,) up or down, way = ±1, crosses the sheet."""
+    """Return the number of times that a ray from `start` (3,) up or down, way = ±1, crosses the sheet."""
     a, b, c, d = places[:-1, :-1], places[1:, :-1], places[1:, 1:], places[:-1, 1:]
     found = 0
     for corners in (np.stack([a, b, c]), np.stack([a, c, d])):
@@ -95,8 +95,8 @@ def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
 
 
 def sunk(scene: Scene, places: np.ndarray) -> tuple[float, float]:
-    """Return how deep the surface is in the obstacle [m], and how deep it may be: a tenth of the thickness,
-    and what a depth that is biquadratic over half a radius misses of a sheet on a ball, below R/500."""
+    """Return the depth of the surface in the obstacle [m], and the allowed one: a tenth of the thickness, and
+    the error of a depth that is biquadratic over half a radius of a sheet on a ball, below R/500."""
     (obstacle,) = scene.obstacles
     centre = obstacle.place()
     half = 0.5 * scene.sheet.thickness
@@ -108,7 +108,7 @@ def sunk(scene: Scene, places: np.ndarray) -> tuple[float, float]:
 
 
 def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
-    """Return what is wrong with an answer, "" for nothing."""
+    """Return the fault of an answer, "" for none."""
     if solution.status not in (Status.CONVERGED, Status.UNSTABLE) or solution.load_factor < 1.0:
         return ""
     places, (obstacle,) = surface(solution, grid, scene), scene.obstacles

@@ -69,8 +69,8 @@ class StableSteps:
 
 
 def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) -> StableSteps:
-    """Return the steps of a system whose masses are those of the loop; shapes: displacements (size, 3) [m]
-    between which it moves; lowest: natural frequency [Hz]."""
+    """Return the steps of a system with the masses of the loop; shapes: displacements (size, 3) [m] between
+    which it moves; lowest: natural frequency [Hz]."""
     limits = [step_limit(system, u, FOREVER) for u in shapes]
     highest = max(limit.frequency for limit in limits)
     resistance = max(2.0 * limit.damping_ratio * limit.frequency for limit in limits)

@@ -266,7 +266,8 @@ def add_contact(tables: Tables, system: System) -> tuple[int, int]:
 def add_growth(tables: Tables, system: System) -> int:
     """Add the springs' measures without stress as a quadratic form of the factors of natural states, found
     from its values. Return the number of measures, 0 of a sheet that is flat at rest."""
-    state, entries, size = system.assembly.natural, [], 0
+    state: Any = system.assembly.natural
+    entries, size = [], 0
     extra = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
 
     def measured(*sources: tuple[int, float]) -> np.ndarray:

@@ -30,7 +30,7 @@ from fem_reference.shell.element import weighed
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.constants import LAW, STRAIN, Values, by_values, constants_with, values_of
-from fem_reference.surface.location import shares
+from fem_reference.surface.location import interpolate, shares
 from fem_reference.surface.materials import stretched
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import Factor, SingularMatrixError
@@ -127,6 +127,11 @@ class SheetSensitivity:
             rate += self.product(placed)
             step = sheet.expand(shape, self.factor.solve(-sheet.reduce(shape, rate)))
         return sheet.displacement(step + placed)
+
+    def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
+        """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
+        plan = self.sheet.plan
+        return interpolate(plan.mesh, plan.elements, self.pushforward({name: 1.0}), np.asarray(points))
 
     def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:
         """Return λ·∂R/∂e0 or λ·∂R/∂k0 (m, 3) of λ (N,), xx, yy and xy, of one value an element."""

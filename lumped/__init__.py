@@ -18,7 +18,7 @@ from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import require_alike, sections_of
-from lumped.sensitivity import Differentiable, sensitivity
+from lumped.sensitivity import Differentiable
 from lumped.statics.buckling import buckling
 from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
@@ -71,7 +71,6 @@ __all__ = [
     "require_alike",
     "require_integrator",
     "sections_of",
-    "sensitivity",
     "shortest_period",
     "simulate",
     "solve",

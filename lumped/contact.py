@@ -5,24 +5,17 @@ With δ the depth of a place, o = h/2 + δ₀ less its distance from the obstacl
 
     energy ∫ ψ(δ) dA,   force ∫ p n dA,  p = ψ',   tangent ∫ p' n nᵀ − p ∂n/∂x dA over the patch {δ > 0}
 
-On a plane each cell has a point at each of its corners, a column of masses. On a sphere or cylinder these
-sample the contact to first order only: each side l of a cell is in s parts, s = max(2, ⌈2 l/R⌉), with l as
-far as it is across a cylinder's axis, and points are at their middles; at their ends, masses among them, of a
-sheet that rests on the obstacle, or nothing would hold it at the start. In motion areas are as much larger
-or smaller as masses are than their tributary ones, so that a sheet which lands flat stays flat, k is
-0.065 ρ h ω_max² at most, and the law is rounded over δ = 0.3 h: ψ = k d³/6δ up to δ, beyond k (d²/2 − δ d/2 +
-δ²/6). Conserving midpoint steps have the mean force −A (Δψ/Δφ) n̄ (Gonzalez, 1996). `docs/contact.md` has the
-reasons, and what energy they take.
 Where δ is linear between corners of cells, on a plane under a sheet that is flat when nothing acts on it, its
 deepest points are corners, columns of masses, and each has a quarter of a cell's area. Else the patch may be
 anywhere in a cell and much smaller than it: the surface is curved at rest (`cell_surface`), δ is known at 3 ×
 3 points of each part of a cell, parts no longer than R/2, and biquadratic between them, and the integral is
 that over the patch (`patch`), whose size and place follow the sheet: a patch may slide, as that of a cradle
 does. At rest ψ = ½ k δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the
-thickness to give. In motion k is 0.05 ρ h ω_max² at most, cells are straight between masses, and the law is
-rounded over δ₁ = 0.3 h: ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁. Conserving midpoint steps have the mean force of
-Gonzalez (1996), from mean n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|². `docs/contact.md`
-has the reasons, and what energy they take.
+thickness to give. In motion k is 0.065 ρ h ω_max² at most, cells are straight between masses, and the law is
+rounded over δ₁ = 0.3 h: ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than
+their tributary ones, so that a sheet which lands flat stays flat. Conserving midpoint steps have the mean
+force of Gonzalez (1996), from mean n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|².
+`docs/contact.md` has the reasons, and what energy they take.
 """
 
 from __future__ import annotations
@@ -32,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.cell_surface import CellSurface, shapes
+from lumped.cell_surface import LINEAR, CellSurface, shapes
 from lumped.items import LatticeItem, Placed, Since
 from lumped.masses import over_tributary
 from lumped.patch import integrate
@@ -210,8 +203,8 @@ class Contact(LatticeItem):
             by -= np.einsum("mab,ij->maibj", both, projector(self.obstacle)).reshape(by.shape)
         if self.bent:
             sides, linear = sides[:, on], self.surface.linear
-            first = self.surface.slopes(sides).reshape(-1, 36, 48)
-            by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, 16, 3, 16, 3)
+            first = self.surface.slopes(sides).reshape(-1, 36, 3 * LINEAR)
+            by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, LINEAR, 3, LINEAR, 3)
             if not definite:
                 pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], found.slope[on])
                 by -= self.surface.second(sides, pull)
@@ -258,7 +251,9 @@ class Contact(LatticeItem):
 
     def rounding(self, at: Placed) -> float:
         touched = self._pressed(at, tangent=True).slope.sum(axis=(2, 3))
-        return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
+        *wide, layer_distance = self._lattice.spacing
+        lever = 1.0 + 0.25 * self.bent * max(wide) / layer_distance  # by which directors lift a cell's middle
+        return lever**2 * self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
         """Return what there is to say of it at an equilibrium, and its pressure (n,) [Pa] at the masses."""

@@ -24,11 +24,12 @@ from collections.abc import Callable, Iterator, Mapping
 from copy import copy
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import scipy.sparse as sp
 
+from lumped.assembly import Assembly
 from lumped.calibration import MAKERS, Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
 from lumped.loads import Loads
@@ -50,6 +51,7 @@ STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of p
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of what presses in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
 PATCH, OBSTACLE = "patch", "obstacle"  # with which names of what these have begin
+WEIGHTS = "gravity", "load", "mass"
 FIELD = "cells."
 FORCES = "forces"
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
@@ -60,30 +62,65 @@ Calibrate = Callable[[Scene], Calibration]
 Values = Mapping[str, np.ndarray]
 
 
+class Plain:
+    """A scene's lattice with its springs, and what its derivatives keep. calibrate: how springs of a changed
+    scene are found; by the same method without options unless given."""
+
+    last: ClassVar[list[Plain]] = []
+
+    def __init__(self, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None):
+        self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
+        self.problem = build_problem(scene, calibration)
+        self.cells = CellFields(scene, calibration, self.problem.assembly)
+        self._sides: dict[str, tuple[list[tuple[Problem, Calibration]], float]] = {}
+        self._weights: dict[str, np.ndarray | None] = {}
+
+    @classmethod
+    def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Plain:
+        """Return the last one made, where it is of these."""
+        of = calibrate, calibration, scene
+        cls.last = [one for one in cls.last if (one.calibrate, one.calibration, one.scene) == of]
+        cls.last = cls.last or [cls(scene, calibration, calibrate)]
+        return cls.last[0]
+
+    def sides(self, name: str) -> tuple[list[tuple[Problem, Calibration]], float]:
+        """Return `both_sides` of a parameter, the same every time."""
+        if name not in self._sides:
+            self._sides[name] = both_sides(self.calibration, self.problem, name, self.calibrate)
+        return self._sides[name]
+
+    def weight(self, name: str) -> np.ndarray | None:
+        """Return the dead force (n, 3) by a parameter of loads that nothing else depends on, else None."""
+        if name not in self._weights:
+            low, high = (side.loads for side, _ in self.sides(name)[0])
+            alone = name.startswith(WEIGHTS) and not (low.follow or high.follow)
+            rate = (high.last_dead - low.last_dead) / self.sides(name)[1]
+            self._weights[name] = rate if alone else None
+        return self._weights[name]
+
+    def scaled_by(self, name: str) -> bool:
+        """Whether all cells have their E or ρ in proportion to a parameter, which nothing else depends on."""
+        scene, own = self.scene, name in ("young", "density")
+        if not own or scene.layers or scene.obstacles or any(getattr(p, name) for p in scene.patches):
+            return False
+        pulled = scene.natural is not None and scene.natural.pretension is not None
+        return name == "density" or (self.calibration.method.startswith("consistent") and not pulled)
+
+
 class Equilibrium:
-    """Derivatives at a stable equilibrium u (n, 3) [m] of a problem. calibrate: how springs of a changed
-    scene are found; by the same method without options unless given; values: of fields over the cells and
+    """Derivatives at a stable equilibrium u (n, 3) [m] of a lattice. values: of fields over the cells and
     forces, by name, in place of the scene's own."""
 
-    def __init__(
-        self,
-        plain: Problem,
-        calibration: Calibration,
-        u: np.ndarray,
-        calibrate: Calibrate | None = None,
-        values: Values = MappingProxyType({}),
-    ):
-        self.plain, self.calibration, self.u, self.calibrate = plain, calibration, u, calibrate
-        self.cells = CellFields(plain.scene, calibration, plain.assembly)
-        self.values = values
-        self.problem = self.with_values({}) if values else plain
+    def __init__(self, base: Plain, u: np.ndarray, values: Values = MappingProxyType({})):
+        self.base, self.plain, self.cells, self.u, self.values = base, base.problem, base.cells, u, values
+        self.problem = self.with_values({}) if values else self.plain
 
     @classmethod
     def of(
         cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
     ) -> Equilibrium:
         """Return those of a scene's lattice with these springs."""
-        return cls(build_problem(scene, calibration), calibration, u, calibrate)
+        return cls(Plain.of(scene, calibration, calibrate), u)
 
     @property
     def fields(self) -> dict[str, np.ndarray]:
@@ -123,10 +160,10 @@ class Equilibrium:
 
     def names(self) -> list[str]:
         """Return the names of all derivatives."""
-        fields = [
-            name for name in NUMBERS if name != "poisson" or not self.problem.scene.material.ply.young_2
-        ]
-        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(self.problem.scene)]
+        scene = self.problem.scene
+        isotropic = scene.material.kind != "orthotropic" and not scene.layers
+        fields = [name for name in NUMBERS if isotropic or name != "poisson"]
+        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(scene)]
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives of J by name, where J has these by the masses' displacement, (n, 3)."""
@@ -148,20 +185,29 @@ class Equilibrium:
         with one_blas_thread():
             return self.problem.expand(self._factor.solve(rows)) + moved
 
+    def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
+        """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
+        return MidSurface(self.problem.assembly.lattice, points).of(self.pushforward({name: 1.0}))
+
     def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""
         if name == FORCES:
             return self.problem.reduce(np.asarray(change)), np.zeros_like(self.u)
         if not name.startswith(FIELD):
-            _, moved, rows = rates(self.calibration, self.plain, self.u, name, self.calibrate, self.values)
+            _, moved, rows = rates(self.plain, self.u, self.base.sides(name), self.values)
             return change * rows, change * moved
-        base, way = self.base(name), np.asarray(change, dtype=float)
+        base, way = self.field(name), np.asarray(change, dtype=float)
         usual = 1e-5 * np.abs(base).max() or 1e-5
         step = FIELD_STEP.get(name.removeprefix(FIELD), usual) / (np.abs(way).max() or 1.0)
         up, down = (self.with_values({name: base + h * way}).residual(self.u, 1.0) for h in (step, -step))
         return (up.reduced - down.reduced) / (2.0 * step), np.zeros_like(self.u)
 
-    def base(self, name: str) -> np.ndarray:
+    @cached_property
+    def complete(self) -> Assembly:
+        """The lattice with springs of all kinds."""
+        return self.cells.complete(self.fields, self.problem.assembly)
+
+    def field(self, name: str) -> np.ndarray:
         """Return a field over the cells as it is."""
         known = [FIELD + one for one in (*NUMBERS, *STATE)]
         if name not in known:
@@ -179,17 +225,31 @@ class Gradient(Mapping[str, Any]):
     def __init__(self, of: Equilibrium, by_displacement: np.ndarray, adjoint: np.ndarray):
         self._of, self._by, self._adjoint = of, by_displacement, adjoint
 
+    @cached_property
+    def by_forces(self) -> np.ndarray:
+        """λ (n, 3), the derivatives by forces on the masses."""
+        return self._of.problem.expand(self._adjoint)
+
+    @cached_property
+    def _by_constants(self) -> list[np.ndarray]:
+        return self._of.complete.all_families.powers_by_constants(self._of.u, self.by_forces)
+
     def __getitem__(self, name: str) -> Any:
-        by_forces = self._of.problem.expand(self._adjoint)
+        of, name = self._of, parameter_name(name)
         if name == FORCES:
-            return by_forces
+            return self.by_forces
+        if name.startswith(FIELD):
+            of.field(name)
+            at = of.fields, of.complete, self._by_constants, self.by_forces
+            return of.cells.powers(name.removeprefix(FIELD), *at)
+        field = FIELD + name
+        if of.base.scaled_by(name) and field not in of.values:
+            value = getattr(of.plain.scene.material, name)
+            return float(np.sum(self[field] * of.field(field)) / value)
+        if not of.values and (weight := of.base.weight(name)) is not None:
+            return float(np.sum(self.by_forces * weight))
         with one_blas_thread():
-            if name.startswith(FIELD):
-                of = self._of
-                of.base(name)
-                at = of.fields, of.problem.assembly, of.u, by_forces
-                return of.cells.powers(name.removeprefix(FIELD), *at)
-            rows, moved = self._of.rates(name)
+            rows, moved = of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))
 
     def at_rest(self) -> Gradient:
@@ -204,21 +264,19 @@ class Gradient(Mapping[str, Any]):
 
 
 def rates(
-    calibration: Calibration,
     problem: Problem,
     u: np.ndarray,
-    name: str,
-    calibrate: Calibrate | None = None,
+    both: tuple[list[tuple[Problem, Calibration]], float],
     values: Values = MappingProxyType({}),
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
-    force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]."""
+    force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]; both: of `both_sides`."""
     unknowns = problem.constraints.nearest(u - problem.prescribed(1.0))
-    sides, over = both_sides(calibration, problem, name, calibrate)
+    sides, over = both
     found = []
     for changed, springs in sides:
         if values:
-            changed = Equilibrium(changed, springs, u, values=values).problem
+            changed = Equilibrium(Plain(changed.scene, springs), u, values).problem
         placed = changed.expand(unknowns) + changed.prescribed(1.0)
         left = changed.residual(placed, 1.0)
         found.append((left.force, placed, left.reduced))
@@ -226,11 +284,21 @@ def rates(
     return force, moved, rows
 
 
+def parameter_name(name: str) -> str:
+    """Return a parameter's name without the table that it is in."""
+    return name.removeprefix("material.").removeprefix("sheet.")
+
+
 def both_sides(
-    calibration: Calibration, problem: Problem, name: str, calibrate: Calibrate | None = None
+    calibration: Calibration,
+    problem: Problem,
+    name: str,
+    calibrate: Calibrate | None = None,
+    share: float = 0.0,
 ) -> tuple[list[tuple[Problem, Calibration]], float]:
-    """Return the problem with its springs a little below and above a parameter, and how far apart."""
-    scene, name = problem.scene, name.removeprefix("material.").removeprefix("sheet.")
+    """Return the problem with its springs a little below and above a parameter, and how far apart; share: of
+    its value, for steps by that instead."""
+    scene, name = problem.scene, parameter_name(name)
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
     else:
@@ -238,6 +306,7 @@ def both_sides(
         value, low, high = found.value, found.low, found.high
     own = name.partition(".")[2] if name.startswith(PATCH) else name
     step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
+    step = share * abs(value) or step
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()

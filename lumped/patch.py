@@ -1,11 +1,11 @@
 """Quadrature over the part of a cell where a depth is positive, as a compiled loop.
 
 A depth q is biquadratic on [−1, 1]², with nine values at −1, 0, 1 along x and y (x fastest). Along x, at each
-y, it is a parabola whose roots end the patch {q > 0}; what is integrated there is a polynomial, exact by
-Gauss points between the roots. The integral over y is smooth between those y where a root passes a side of
-the cell or two roots meet: there it has the square root of the distance, which y(t) = ½ (3t − t³) makes
-regular. As depth vanishes at the patch's border, ∫ ⟨q⟩² has the derivatives 2 ∫ q φ and 2 ∫ φ φᵀ over the
-patch, by the same points.
+y, it is a parabola whose roots end the patch {q > 0}; the integrand between the roots is a polynomial, exact
+by Gauss points. The integral over y is smooth between the values of y where a root passes a side of the cell
+or two roots meet: there it has the square root of the distance, which y(t) = ½ (3t − t³) makes regular. Since
+the depth vanishes at the patch's border, ∫ ⟨q⟩² has the derivatives 2 ∫ q φ and 2 ∫ φ φᵀ over the patch, with
+the points of ∫ ⟨q⟩².
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ MOST = 2 * 16 * 4 * 9  # points of a patch
 @inner()
 def value(c: np.ndarray, n: int, t: float) -> float:
     """Return a polynomial of degree n with coefficients c (n + 1,) at t."""
-    found = 0.0
+    total = 0.0
     for k in range(n, -1, -1):
-        found = found * t + c[k]
-    return found
+        total = total * t + c[k]
+    return total
 
 
 @inner()
 def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
-    """Put where a polynomial of degree n <= 4 changes its sign in (−1, 1) after the first `count` of
-    `out`."""
+    """Append to the first `count` of `out` the roots in (−1, 1) of a polynomial of degree n <= 4 at which it
+    changes its sign; return the new count."""
     ends, derivative = np.empty(7), np.empty(5)
     ends[0], ends[1] = -1.0, 1.0
     inside = 0  # roots of the derivative one degree lower
@@ -42,7 +42,7 @@ def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
             for j in range(n - degree):
                 factor *= k + n - degree - j
             derivative[k] = factor * c[k + n - degree]
-        found, new = 0, np.empty(7)
+        roots, new = 0, np.empty(7)
         for j in range(inside + 1):
             a, b = ends[j], ends[j + 1]
             at_a, at_b = value(derivative, degree, a), value(derivative, degree, b)
@@ -59,10 +59,10 @@ def add_roots(c: np.ndarray, n: int, out: np.ndarray, count: int) -> int:
                     break
                 secant = a - at_a * (b - a) / (at_b - at_a)
                 x = 0.5 * (a + b) if turn % 3 == 2 else secant
-            found += 1
-            new[found] = x
-        new[0], new[found + 1] = -1.0, 1.0
-        ends[:], inside = new, found
+            roots += 1
+            new[roots] = x
+        new[0], new[roots + 1] = -1.0, 1.0
+        ends[:], inside = new, roots
     for j in range(inside):
         out[count + j] = ends[j + 1]
     return count + inside
@@ -82,8 +82,8 @@ def coefficients(q: np.ndarray, c: np.ndarray) -> None:
 
 @inner()
 def sign(q: np.ndarray) -> int:
-    """Return 1 of nine values whose biquadratic is positive on all of a cell, −1 of one that is nowhere, by
-    its Bernstein coefficients, else 0."""
+    """Return 1 if the biquadratic of nine values is positive on all of a cell, −1 if nowhere, by its
+    Bernstein coefficients, else 0."""
     least, most = np.inf, -np.inf
     side = np.empty((3, 3))
     for i in range(3):
@@ -97,7 +97,8 @@ def sign(q: np.ndarray) -> int:
 
 @inner()
 def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, count: int) -> int:
-    """Put Gauss points between lo and hi at a y after the first `count` of `points` (…, 3): x, y, weight."""
+    """Append Gauss points between lo and hi at a y to the first `count` of `points` (…, 3), x, y, weight;
+    return the new count."""
     lo, hi = max(lo, -1.0), min(hi, 1.0)
     if hi > lo:
         for g in range(len(ALONG)):
@@ -110,8 +111,8 @@ def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, 
 
 @inner()
 def patch(q: np.ndarray, points: np.ndarray) -> int:
-    """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive: how
-    many."""
+    """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive; return
+    their number."""
     inside = sign(q)
     if inside < 0:
         return 0
@@ -172,8 +173,8 @@ def integrate(
     depth: np.ndarray, stiffness: np.ndarray, over: np.ndarray, tangent: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return energies ∫ ψ (m,) [J], loads ∫ ψ' φ (m, 9) [N] and ∫ ψ'' φ φᵀ (m, 9, 9) [N/m] of depths (m, 9)
-    [m], and the deepest (m,); stiffness: k (m, 9) [N/m]; over: δ (m,) [m], 0 for ψ = ½ k d². tangent: whether
-    it is wanted."""
+    [m], and the deepest (m,); stiffness: k (m, 9) [N/m]; over: δ (m,) [m], 0 for ψ = ½ k d²; tangent: whether
+    to compute ∫ ψ'' φ φᵀ."""
     m = len(depth)
     energy, load, by = np.zeros(m), np.zeros((m, 9)), np.zeros((m, 9, 9))
     deepest = np.empty(m)

@@ -2,50 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import Calibration, default
-from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, of_changed
+from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, Plain, of_changed
 from lumped.mid_surface import MidSurface
-from lumped.statics.build import build_problem
 from lumped.statics.problem import LatticePath, Problem
 from lumped.statics.solver import solve_path
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """displacement: (n, 3) [m] at the points; derivatives: parameter → (n, 3) [m per unit of the
-    parameter]."""
-
-    displacement: np.ndarray
-    derivatives: dict[str, np.ndarray]
-
-
-def sensitivity(
-    scene: Scene,
-    calibration: Calibration,
-    parameters: Sequence[str],
-    points: np.ndarray | None = None,
-    calibrate: Calibrate | None = None,
-) -> Sensitivity:
-    """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
-
-    calibrate: how springs of a changed scene are found; by the same method without options unless given.
-
-    Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
-    """
-    of = Differentiable(scene, calibration, calibrate)
-    u = of.solve({})
-    at = MidSurface(of.problem.assembly.lattice, scene.probe_points() if points is None else points)
-    return Sensitivity(at.of(u), {name: at.of(of.pushforward({name: 1.0})) for name in parameters})
+from sheetbench.scenes import AnyScene, require_static, scene_of
 
 
 class Differentiable:
@@ -66,12 +36,9 @@ class Differentiable:
         self.scene = scene_of(scene)
         require_static(self.scene)
         self.calibration, self._calibrate = calibration or default(self.scene), calibrate
-        self._plain = self._at(self.scene, self.calibration)
+        self._base = Plain.of(self.scene, self.calibration, calibrate)
+        self._plain = Equilibrium(self._base, np.zeros_like(self._base.problem.loads.dead))
         self._last, self._values = self._plain, dict[str, np.ndarray]()
-
-    def _at(self, scene: Scene, calibration: Calibration) -> Equilibrium:
-        problem = build_problem(scene, calibration)
-        return Equilibrium(problem, calibration, np.zeros_like(problem.loads.dead), self._calibrate)
 
     @property
     def base(self) -> dict[str, np.ndarray]:
@@ -104,14 +71,19 @@ class Differentiable:
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
             scene, calibration = of_changed(scene, calibration, name, float(values[name]), self._calibrate)
-        plain = self._plain.plain if scene is self.scene else build_problem(scene, calibration)
-        at = Equilibrium(plain, calibration, self._plain.u, self._calibrate, fields)
+        base = self._base if scene is self.scene else Plain(scene, calibration, self._calibrate)
+        at = Equilibrium(base, self._plain.u, fields)
         near = None if at.problem.assembly.coupling is not None else near
         with one_blas_thread():
             path = solve_path(at.problem, near=near)
             if near is not None and path.status is not Status.CONVERGED:
                 path = solve_path(at.problem)
         return at, path
+
+    def at_points(self, points: np.ndarray, names: Iterable[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Return the scene's own displacement (p, 3) at plan points (p, 2), and its derivatives by name."""
+        found = MidSurface(self.problem.assembly.lattice, points).of(self.solve({}))
+        return found, {name: self._last.moved_at(points, name) for name in names}
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives by name, at the last solve's values, of a J that has these by u, (n, 3)."""

@@ -202,7 +202,9 @@ def setup(
     """
     scene = scene_of(scene)
     require_choice("--for", code, WRITERS)
-    require_uniform(scene, f"--for {code}", "its numbers are of one isotropic material and thickness")
+    fabric = "; of Newton's solvers Style3D takes A11, A22 and A66 as tri_aniso_ke (docs/cells.md)"
+    why = f"its numbers are of one isotropic material and thickness{fabric * (code == 'newton')}"
+    require_uniform(scene, f"--for {code}", why)
     require_flat_at_rest(scene, f"--for {code}")
     row = CODES[code]
     if squares < 2:

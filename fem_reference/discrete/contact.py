@@ -10,8 +10,8 @@ p(δ) in sinking is its energy ψ per area, ½ k δ² at rest, and its force giv
 On a plane under a sheet that is flat when nothing acts on it nodes have areas ∫N dA, all positive on nine
 nodes, where they are Simpson's rule, and k = E/h. Else the place that touches may be anywhere in an element,
 and small: δ is biquadratic between 3 × 3 points of each of its parts, no longer than R/2, and integrals are
-those over {δ > 0} (`patch`), with k STIFFER times as much. In motion k is SOFTER, and ψ = k (⟨δ⟩³ − ⟨δ −
-δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
+those over {δ > 0} (`patch`), with k STIFFER times as much; at rest elements join without kinks
+(`tangent_planes`). In motion k is SOFTER, and ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
 """
 
 from __future__ import annotations
@@ -19,9 +19,8 @@ from __future__ import annotations
 from copy import copy
 
 import numpy as np
-from skfem import ElementQuad2
 
-from fem_reference.discrete import patch
+from fem_reference.discrete import patch, tangent_planes
 from fem_reference.discrete.items import SheetItem, Tangent
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface.biquadratic import AT_GAUSS, areas, jacobians
@@ -35,21 +34,14 @@ from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 SOFTER, ROUNDED, STIFFER = 0.01, 0.3, 100.0  # in motion: of E/h, over which part of h rounded; of patches
 SPREAD = np.kron(*2 * [np.array([[1.0, 0.0, 0.0], [0.5, 0.0, 0.5], [0.0, 0.0, 1.0]])])  # to a part's corners
+SIMPSON = np.outer([1.0, 4.0, 1.0], [1.0, 4.0, 1.0]).ravel() / 9.0  # ∫ N dr ds of a part's points
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # energy, loads and slopes of groups (faces, m, t, …)
 
 
-def hats(r: np.ndarray, s: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Return shares (p, 9), none negative, of an element's nodes (9, 2) in places at r, s (p,) of [−1, 1]."""
-    along, across = (
-        np.maximum(1.0 - np.abs(x[:, None] - y), 0.0) for x, y in zip((r, s), nodes.T, strict=True)
-    )
-    return np.asarray(along * across)
-
-
 class Touching(SheetItem):
-    """Contact with one obstacle. share: of its stiffness; basis (p, 9): of nodes in an element's points;
-    groups (t, n) of points: nodes one by one, or nine of each part; levers: ζ (faces, m, 9) [m] of elements'
-    nodes."""
+    """Contact with one obstacle. share: of its stiffness; basis (p, 9): of nodes in an element's points,
+    shares (p, n): of nodes and what takes kinks off, hats (p, 9): of nodes, none negative; groups (t, n) of
+    points: nodes one by one, or nine of each part; levers: ζ (faces, m, 9) [m] of elements' nodes."""
 
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.on = name, obstacle, plan.elements
@@ -58,31 +50,50 @@ class Touching(SheetItem):
         thickness = (weight * constants.thickness) @ AT_GAUSS[0] / of_nodes
         full = (weight * constants.stretching / constants.thickness**2) @ AT_GAUSS[0] / of_nodes
         self.levers = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), thickness)
-        curled = not moving and bool(scene.natural_by or scene.actuators)
-        self.at_nodes, nodes = isinstance(obstacle, Plane) and not curled, 2.0 * ElementQuad2().doflocs - 1.0
+        curled, self.bent = not moving and bool(scene.natural_by or scene.actuators), False
+        self.at_nodes = isinstance(obstacle, Plane) and not curled
         if self.at_nodes:
-            self.basis = self.hats = np.eye(9)
+            self.basis = self.hats = self.shares = np.eye(9)
             self.groups, self.area = np.arange(9)[:, None], of_nodes
         else:
-            longest = np.ptp(plan.corners, axis=1).max()
-            parts = max(2, int(np.ceil(2.0 * longest / obstacle.radius)))
+            self.bent, full = not moving, STIFFER * full
+            least, longest = 4 if self.bent else 2, np.ptp(plan.corners, axis=1).max()
+            parts = least * max(1, int(np.ceil(2.0 * longest / obstacle.radius / least)))
             line = np.linspace(-1.0, 1.0, 2 * parts + 1)
             r, s = (each.ravel() for each in np.meshgrid(line, line, indexing="ij"))
             number = np.arange(len(r)).reshape(len(line), -1)
             self.groups = np.lib.stride_tricks.sliding_window_view(number, (3, 3))[::2, ::2].reshape(-1, 9)
-            (self.basis, slope), self.hats = biquadratic(r, s), hats(r, s, nodes)
-            self.area = (
-                np.abs(np.linalg.det(jacobians(plan.corners, slope))) / parts**2
-            )  # dA per part's dr ds
-            full = STIFFER * full
+            self.basis, slope = biquadratic(r, s)
+            curves, self.hats = tangent_planes.shares(r, s)
+            self.shares = np.hstack([self.basis, curves]) if self.bent else self.basis
+            self.area = np.abs(np.linalg.det(jacobians(plan.corners, slope))) / parts**2  # by a part's dr ds
         self.thickness, self.full = thickness @ self.basis.T, full @ self.basis.T
         self.offset = (TOUCH + (0.0 if solid else 0.5)) * self.thickness
         softer = SOFTER if self.at_nodes else SOFTER / STIFFER
         self.share, self.rounded = (softer, ROUNDED) if moving else (1.0, 0.0)
 
+    def _faces(self, vectors: np.ndarray) -> np.ndarray:
+        """Return φ + ζ d (faces, m, 9, 3) of vectors (m, 18, 3)."""
+        return np.asarray(vectors[:, :9] + self.levers[..., None] * vectors[:, 9:])
+
     def _points(self, vectors: np.ndarray) -> np.ndarray:
         """Return x (faces, m, p, 3) [m] of vectors (m, 18, 3)."""
-        return np.asarray(self.basis @ (vectors[:, :9] + self.levers[..., None] * vectors[:, 9:]))
+        faces = self._faces(vectors)
+        if self.bent:
+            curves = np.broadcast_to(tangent_planes.corrections(vectors), (len(faces), *vectors.shape))
+            faces = np.concatenate([faces, curves], axis=2)
+        return np.asarray(self.shares @ faces)
+
+    def _slopes(self, vectors: np.ndarray, on: np.ndarray) -> np.ndarray:
+        """Return derivatives (faces, k, n, 3, 18, 3) of nodes of faces, and what turns them, by the vectors
+        (k, 18, 3) of elements `on`."""
+        nodes, size = np.arange(9), self.shares.shape[1]
+        out = np.zeros((len(self.levers), len(on), size, 3, 18, 3))
+        out[:, :, nodes, :, nodes] = np.eye(3)
+        out[:, :, nodes, :, nodes + 9] = np.moveaxis(self.levers[:, on], 2, 0)[..., None, None] * np.eye(3)
+        if self.bent:
+            out[:, :, 9:] = tangent_planes.first(vectors)
+        return out
 
     def near(self, shape: SheetShape) -> Near:
         """Return where points (faces, m, p) are."""
@@ -113,13 +124,10 @@ class Touching(SheetItem):
     def _at_points(self, load: np.ndarray, positive: bool = False) -> np.ndarray:
         """Return sums at points (faces, m, p) of loads of groups; positive: shared among corners of parts,
         where none pulls."""
+        load = load @ SPREAD if positive and not self.at_nodes else load
         out = np.zeros((*load.shape[:2], len(self.basis)))
-        face, element = (np.arange(n) for n in load.shape[:2])
-        np.add.at(
-            out,
-            (face[:, None, None, None], element[:, None, None], self.groups),
-            load @ SPREAD if positive and not self.at_nodes else load,
-        )
+        for group, points in enumerate(self.groups):
+            out[..., points] += load[:, :, group]
         return out
 
     def _pulled(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -127,7 +135,7 @@ class Touching(SheetItem):
         derivatives of these by the points' velocities (faces, m, p, 3, 3)."""
         found, (_, load, _) = self._pressed(shape)
         velocity = self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
-        speed = self._points(shape.rates) - velocity
+        speed = self.basis @ self._faces(shape.rates) - velocity
         rubbed, by_rate = found.resistance(self._at_points(load, positive=True), speed)
         return self._at_points(load)[..., None] * found.slope + rubbed, rubbed, by_rate
 
@@ -136,25 +144,28 @@ class Touching(SheetItem):
 
     def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
         """Return forces on the coordinates (N,) of those at points (faces, m, p, 3)."""
-        pull = self.basis.T @ pull
-        both = pull.sum(axis=0), (self.levers[..., None] * pull).sum(axis=0)
-        return shape.sheet.of_surface(np.arange(len(self.on)), np.concatenate(both, axis=1))
+        on = np.flatnonzero(pull.any(axis=(0, 2, 3)))
+        by = self._slopes(shape.vectors[on], on)
+        pull = np.einsum("fmni,fmnijc->mjc", self.shares.T @ pull[:, on], by, optimize=True)
+        return shape.sheet.of_surface(on, pull)
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
         found, (_, load, slope) = self._pressed(shape)
         face, element, group = np.nonzero(load.any(axis=3))
-        points, out = self.groups[group], np.zeros((*load.shape[:2], 27, 27))
+        on, back = np.unique(element, return_inverse=True)
+        points, n = self.groups[group], self.shares.shape[1]
+        out = np.zeros((len(load), len(on), 3 * n, 3 * n))
         change = (
-            self.basis[points][..., None] * found.slope[face[:, None], element[:, None], points][:, :, None]
+            self.shares[points][..., None] * found.slope[face[:, None], element[:, None], points][:, :, None]
         )
-        change = change.reshape(len(face), points.shape[1], 27)
-        np.add.at(out, (face, element), change.swapaxes(1, 2) @ slope[face, element, group] @ change)
-        geometric = self._at_points(load) / found.touch
-        both = np.einsum("fmp,pa,pb->fmab", geometric, self.basis, self.basis, optimize=True)
-        return self._between(
-            np.einsum("fmab,ij->fmaibj", both, projector(self.obstacle))
-            - out.reshape(*both.shape[:3], 3, 9, 3)
+        change = change.reshape(len(face), points.shape[1], 3 * n)
+        np.add.at(out, (face, back), -change.swapaxes(1, 2) @ slope[face, element, group] @ change)
+        loads = self._at_points(load)[:, on]
+        both = np.einsum(
+            "fmp,pa,pb->fmab", loads / found.touch[:, on], self.shares, self.shares, optimize=True
         )
+        out += np.einsum("fmab,ij->fmaibj", both, projector(self.obstacle)).reshape(out.shape)
+        return self._between(shape, on, out, (loads[..., None] * found.slope[:, on]).sum(axis=0))
 
     def rate(self, shape: SheetShape, low: Touching, high: Touching, over: float) -> np.ndarray:
         """Return the derivative of the force (N,) by what differs between two, `over` which they differ:
@@ -168,17 +179,23 @@ class Touching(SheetItem):
         pull = self._at_points(more)[..., None] * found.slope + self._at_points(load)[..., None] * turned
         return self._onto(shape, pull)
 
-    def _between(self, blocks: np.ndarray) -> Tangent | None:
-        """Return derivatives (faces, m, 9, 3, 9, 3) of nodes' forces by their places as elements have
-        them."""
-        on = np.flatnonzero(blocks.any(axis=(0, 2, 3, 4, 5)))
-        by = np.stack([np.ones_like(self.levers), self.levers])[:, :, on]  # of φ, and of d
-        out = np.einsum("rfea,cfeb,feaibj->eraicbj", by, by, blocks[:, on], optimize=True)
-        return (on, out.reshape(-1, 18, 3, 18, 3)) if len(on) else None
+    def _between(
+        self, shape: SheetShape, on: np.ndarray, by: np.ndarray, pull: np.ndarray | None = None
+    ) -> Tangent | None:
+        """Return derivatives of elements' forces by their vectors from those (faces, k, 3 n, 3 n) of what
+        points are shares of; pull: at points (k, p, 3)."""
+        vectors = shape.vectors[on]
+        first = self._slopes(vectors, on).reshape(*by.shape[:3], 54)
+        out = (first.swapaxes(-1, -2) @ by @ first).sum(axis=0).reshape(-1, 18, 3, 18, 3)
+        if self.bent and pull is not None:
+            out += tangent_planes.second(vectors, self.shares[:, 9:].T @ pull)
+        return (on, out) if len(on) else None
 
     def damping(self, shape: SheetShape) -> Tangent | None:
         by_rate = self._pulled(shape)[2]
-        return self._between(np.einsum("pa,pb,fmpij->fmaibj", self.basis, self.basis, by_rate, optimize=True))
+        on = np.flatnonzero(by_rate.any(axis=(0, 2, 3, 4)))
+        by = np.einsum("pa,pb,fmpij->fmaibj", self.shares, self.shares, by_rate[:, on], optimize=True)
+        return self._between(shape, on, by.reshape(*by.shape[:2], 27, 27))
 
     def potential(self, shape: SheetShape) -> float:
         return float(self._pressed(shape)[1][0].sum())
@@ -197,17 +214,12 @@ class Touching(SheetItem):
         """Return what there is to say of it, and the pressure (n,) [Pa] at the nodes of the plan."""
         found, (energy, load, slope) = self._pressed(shape)
         first, on = self.groups[:, 0], self.on.ravel()
-        even = (
-            patch.integrals(np.ones((1, 9)), np.ones((1, 9)), 2)[1] if not self.at_nodes else np.ones((1, 1))
-        )
+        even = 1.0 if self.at_nodes else SIMPSON
         area = self._at_points(even * self.area[None][..., self.groups], positive=True)[0] @ self.hats
         pressed = self._at_points(load, positive=True).sum(axis=0) @ self.hats
         pressure = np.bincount(on, pressed.ravel()) / np.bincount(on, area.ravel())
         touched = slope.sum(axis=(0, 3, 4)) / (self.share * self.full[:, first])
-        mean = np.divide(
-            2.0 * energy, load.sum(axis=3), out=np.full(energy.shape, -np.inf), where=energy > 0.0
-        )
-        deepest = (
-            np.maximum(found.sunk[..., self.groups].max(axis=3), mean).max(axis=0) / self.thickness[:, first]
-        )
+        mean = np.where(energy > 0.0, 2.0 * energy / (load.sum(axis=3) + 1e-300), -np.inf)
+        deepest = np.maximum(found.sunk[..., self.groups].max(axis=3), mean).max(axis=0)
+        deepest /= self.thickness[:, first]
         return ContactState.of(deepest, touched), pressure

@@ -81,8 +81,9 @@ def iterate(
     arrays: Arrays,
     factors: np.ndarray,
 ) -> tuple[bool, int]:
-    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has corrections
-    `left`: whether that is done, and what corrections are left then, with other factors; 0 if it is lost."""
+    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has
+    corrections `left`: whether that is done, and what corrections are left then, with other factors; 0 if it
+    is lost."""
     last = np.inf
     while left > 0:
         length = correct(u, base_u, base_v, by, external, arrays, factors)

@@ -30,8 +30,8 @@ UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
 
 class StepEquation(NamedTuple):
-    """The equation of a step or stage: time t [s], û and v̂ (size, 3), (c₂ [1/s²], c₁ [1/s]), of a system with
-    its branches there."""
+    """The equation of a step or stage: time t [s], û and v̂ (size, 3), (c₂ [1/s²], c₁ [1/s]), of a system
+    with its branches there."""
 
     system: System
     time: float
@@ -134,6 +134,17 @@ class Newton:
         left = system.problem.reduce(system.momentum(a) - system.unbalanced(u, v, state.time))
         factor = self._factor if self._key == by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
+
+    def correction(self, left: np.ndarray) -> np.ndarray | None:
+        """Return the change (n, 3) [m] with which the factors kept take a residual (m,) off, None without."""
+        problem, band = self._system.problem, self._system.problem.system.band
+        if self._factored is not None and band is not None:
+            found = banded.solve_unrefined(self._factors, band.width, band.order, left)
+        elif self._factor is not None:
+            found = self._factor.solve(left, SOLVED)
+        else:
+            return None
+        return problem.expand(found)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -63,12 +64,19 @@ def softest(structure: Structure[State, Forces]) -> float:
 
 
 def stiffened(
-    path: Path[State, Forces], trace: Callable[[Path[State, Forces]], Fault | None]
+    path: Path[State, Forces],
+    trace: Callable[[Path[State, Forces]], Fault | None],
+    near: Start[State] | None = None,
 ) -> Fault | None:
     """Lead a path from rest to the equilibrium at full load with stiff penalties: what has ended it before,
-    if anything. trace: the usual way there."""
+    if anything. trace: the usual way there; near: a state from which a descent may lead to it."""
     structure, limits, contacts = path.structure, path.limits, path.structure.contacts
     down = path.settle if structure.symmetric else None
+    if near is not None and down is not None:
+        path.put(near.state, 0.0)
+        with suppress(LoadStepFailed):
+            path.put(down(path, 1.0), 1.0)
+            return path.inspect(path)
     share = softest(structure)
     while True:  # what leads nowhere is too soft, where nothing else is left
         soften(contacts, share)

@@ -23,11 +23,11 @@ class _Obstacle(Frozen):
     position: Annotated[Vector3, Unit("m")]
     """A point of the plane, the sphere's centre, a point of the cylinder's axis."""
     motion: Motion | None = Field(default=None, kw_only=True)
-    """How the obstacle moves over time; statics bring it to its last place as the load grows."""
+    """How the obstacle moves over time; at rest it stands where its motion ends."""
     friction: NonNegative = Field(default=0.0, kw_only=True)
     """Coefficient of friction, in motion only."""
     contact_damping: Annotated[NonNegative, Unit("s/m")] = Field(default=0.0, kw_only=True)
-    """τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
+    """Time τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
     obstacle at a speed v ≪ 1/τ leaves it at about (1 − 2 τ v/3) v."""
 
     def _faults(self) -> Iterator[object]:

@@ -1,0 +1,85 @@
+"""The mid-surface of nine-node elements without kinks between them: tangents across the nodes' directors.
+
+At a node i a biquadratic φ has the slopes φ,k along r and s, which differ from those of its neighbours where
+a line of nodes bears a force. Less what of them is along the director,
+
+    P = φ + Σ_ik σ(r − r_i) L(s) a_ik …,   a_ik = −(φ,k·d_i) d_i/|d_i|²,
+    σ(x) = x − 3/2 x|x| up to |x| = ½,  sgn(x) ½ (1 − |x|)² up to 1,
+
+with the quadratic shape functions L across: all elements at a node have its tangent plane. σ, of slope 1 at
+0, is made of parabolas that join without a kink, so that P is biquadratic on each of 4 × 4 parts.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from skfem import ElementQuad2
+
+from fem_reference.surface.biquadratic import lagrange, shape
+
+NODES = 2.0 * ElementQuad2().doflocs - 1.0  # (9, 2)
+SLOPES = shape(*NODES.T)[1]  # (2, 9, 9), of φ by r, s at nodes
+LINEAR = np.zeros((2, 9, 2, 18))  # φ,k and d at each node by φ and d of all
+LINEAR[:, :, 0, :9] = SLOPES
+LINEAR[:, range(9), 1, range(9, 18)] = 1.0
+EYE = np.eye(3)
+
+
+def shares(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return shares (p, 18) of a along r, then s, in places at r, s (p,) of [−1, 1], and (p, 9) of nodes,
+    linear between them."""
+    away = np.stack([r, s])[..., None] - NODES.T[:, None]
+    far = np.abs(away)
+    hats, ends = np.maximum(1.0 - far, 0.0), np.array([-1.0, 0.0, 1.0])
+    turn = np.where(far < 0.5, away * (1.0 - 1.5 * far), 0.5 * np.sign(away) * hats**2)
+    along, across = (
+        lagrange(ends, x)[:, (y + 1.0).astype(int)] for x, y in zip((r, s), NODES.T, strict=True)
+    )
+    return np.hstack([turn[0] * across, along * turn[1]]), hats[0] * hats[1]
+
+
+def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return a bᵀ (…, 3, 3) of vectors (…, 3)."""
+    return np.asarray(a[..., :, None] * b[..., None, :])
+
+
+def _at_nodes(vectors: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return φ,k and d (m, 2, 9, 3), and φ,k·d and d·d (m, 2, 9, 1), of vectors (m, 18, 3)."""
+    slope, d = np.einsum("kivj,ejc->vekic", LINEAR, vectors, optimize=True)
+    return slope, d, (slope * d).sum(-1, keepdims=True), (d * d).sum(-1, keepdims=True)
+
+
+def corrections(vectors: np.ndarray) -> np.ndarray:
+    """Return a (m, 18, 3) along r, then s."""
+    _, d, along, square = _at_nodes(vectors)
+    return np.asarray(-along / square * d).reshape(-1, 18, 3)
+
+
+def first(vectors: np.ndarray) -> np.ndarray:
+    """Return derivatives (m, 18, 3, 18, 3) of a by the vectors."""
+    slope, d, along, square = _at_nodes(vectors)
+    along, square, dyad = along[..., None], square[..., None], outer(d, d)
+    by = np.stack(
+        [-dyad / square, -(along * EYE + outer(d, slope)) / square + 2.0 * along * dyad / square**2]
+    )
+    return np.einsum("vekicd,kivj->ekicjd", by, LINEAR, optimize=True).reshape(-1, 18, 3, 18, 3)
+
+
+def second(vectors: np.ndarray, pull: np.ndarray) -> np.ndarray:
+    """Return Σ f·∂²a (m, 18, 3, 18, 3) by the vectors, of f on a (m, 18, 3)."""
+    slope, d, along, square = _at_nodes(vectors)
+    f = pull.reshape(d.shape)
+    pulled = (f * d).sum(-1, keepdims=True)
+    turned = slope * pulled + f * along
+    mixed, both = outer(d, f) + pulled[..., None] * EYE, outer(slope, f) + outer(f, slope)
+    cross = outer(turned, d) + outer(d, turned)
+    along, pulled, square, dyad = along[..., None], pulled[..., None], square[..., None], outer(d, d)
+    by = np.zeros((2, 2, *dyad.shape))
+    by[0, 1] = -mixed / square + 2.0 * pulled * dyad / square**2
+    by[1, 0] = by[0, 1].swapaxes(-1, -2)
+    by[1, 1] = (
+        -both / square
+        + 2.0 * (cross + along * pulled * EYE) / square**2
+        - 8.0 * along * pulled * dyad / square**3
+    )
+    return np.einsum("kivj,vwekicd,kiwl->ejcld", LINEAR, by, LINEAR, optimize=True)

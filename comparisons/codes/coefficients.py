@@ -149,7 +149,7 @@ def nearest(
 
 
 def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
-    """The error in a scene of a mesh of this cell, however fine: that of a shell with the cell's moduli.
+    """The error in a scene of a mesh of this cell, however fine: the one of a shell with the cell's moduli.
 
     elements: along the side of a square, as many in all on others. The shell takes large rotations, like
     these meshes. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, or

@@ -171,9 +171,9 @@ def lattice_files(
     """Return the files of a scene's lattice with these springs, and sentences about parts of the scene that
     are left out.
 
-    code: of `CODES`, whose file comes beside them, or that has files of its own; precision: of those that
-    step it. Raises BadInput for lattices that files cannot hold (`lumped.describe`), and for features that
-    the code lacks.
+    code: of `CODES`, whose file comes beside them, or that has files of its own; precision: of programs in
+    motion. Raises BadInput for lattices that files cannot hold (`lumped.describe`), and for features that the
+    code lacks.
     """
     import lumped
 

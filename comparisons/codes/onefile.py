@@ -40,7 +40,7 @@ NONE = 255  # no second source
 
 @dataclass(frozen=True)
 class Program:
-    """texts: the files by name; points, bodies, sources: names of what it takes and answers; step: [s]."""
+    """texts: the files by name; points, bodies, sources: names of its inputs and outputs; step: [s]."""
 
     texts: dict[str, str]
     points: list[str]

@@ -1,9 +1,9 @@
 """Equilibria of many designs of one lattice, side by side on all cores.
 
 Designs of moduli and forces on springs of the linear laws start at the scene's own equilibrium, and go on in
-one compiled loop that holds no lock: steps with the factors there, near the end with those of a tangent of
-their own, which is to be positive definite, made again where a step takes less than nine tenths off.
-Whatever does not end so, and other designs, follow the load path (`Differentiable.path`).
+one compiled loop that holds no lock: steps with its factors, near the end with the factors of their own
+tangent, which has to be positive definite, made again where a step takes less than nine tenths off. Designs
+that do not end so, and others, follow the load path (`Differentiable.path`).
 """
 
 from __future__ import annotations

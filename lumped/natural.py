@@ -58,9 +58,9 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
 def rates(
     lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray], curvature: bool
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return of families, which are those of a flat sheet, the cells beside each spring (q, m), and the rates
-    (q, m, n, 3) of its constants and natural δg₀ by their natural strain xx, yy and xy, or curvature; state:
-    strain and curvature, (rows, columns, 2, 2)."""
+    """Return of a flat sheet's families the cells beside each spring, (q, m), and the rates (q, m, n, 3) of
+    its constants and natural δg₀ by their natural strain xx, yy and xy, or curvature; state: strain and
+    curvature, (rows, columns, 2, 2)."""
     nothing = np.zeros((1, 0), int), np.zeros((1, 0, 1, 3))
     return [
         nothing if one is None else (one.cells.T, one.rates(*state, curvature))
@@ -128,7 +128,7 @@ class _Natural:
         return np.concatenate([0.0 * by_size if curvature else by_size, by_change], axis=2)
 
     def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
-        """Return those of the constants, which are of the natural sides, of cells (1, c, n, 3)."""
+        """Return the rates (1, c, n, 3) of cells' constants, as their sides are natural ones."""
         drawn = self.family.sides[..., :2]  # type: ignore[union-attr]
         now = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
         sides = drawn + drawn @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]

@@ -155,8 +155,8 @@ class Comparison(Compared, Answer):
 
     @cached_property
     def sensitivities(self) -> dict[str, dict[str, dict[str, float | None]]]:
-        """By model, parameter and probe the share by which 1 % of the parameter moves the probe further out
-        (d|u|/dθ · θ/100|u|), of models that have derivatives. Raises BadInput for unknown parameters."""
+        """Return by model, parameter and probe the change of |u| by 1 % of the parameter, as a share of |u|,
+        of models with derivatives. Raises BadInput for unknown parameters."""
         found: dict[str, dict[str, dict[str, float | None]]] = {}
         named = {name: parameter(self.scene, name) for name in self.sensitive_to}
         for solution in self.solutions:

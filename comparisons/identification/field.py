@@ -5,9 +5,9 @@ deviations of the measurements, by p (one adjoint solution a number, `lumped.gra
 
     |r + J δp|² + α |L p|²,     |L p|² ≈ ∫ |∇p|² dA,
 
-with the α that leaves |r + J δp|² = m, what noise leaves (Morozov's discrepancy principle). Then
-R = (JᵀJ + α LᵀL)⁻¹ JᵀJ says how the values found mix the true ones: its trace is how many numbers the data
-tell, and a cell of area A has the mean of about A/R_cc. Their noise has the covariance
+with the α that leaves |r + J δp|² = m, as noise does (Morozov's discrepancy principle). Values found are a
+mixture R = (JᵀJ + α LᵀL)⁻¹ JᵀJ of the true ones: its trace is the count of independent numbers in the data,
+and a cell of area A has the mean of about A/R_cc. The covariance of their noise is
 (JᵀJ + α LᵀL)⁻¹ JᵀJ (JᵀJ + α LᵀL)⁻¹.
 Source: Aster, Borchers and Thurber, Parameter Estimation and Inverse Problems (2013), chapters 4 and 10.
 """
@@ -46,9 +46,9 @@ SUMMARY += tuple(NUMBER(".4g", name) for name in ("least", "median", "most"))
 
 @dataclass(frozen=True, repr=False)
 class FieldIdentification(Answer):
-    """Of cells (rows, columns), nan where there are none: values, deviation: the standard deviation that
-    noise gives them, resolved: the side [m] of the square whose mean each is; centres (rows, columns, 2) [m];
-    chi: χ²/m of m numbers; told: how many numbers the data tell; start: the scene's own value."""
+    """A field over cells (rows, columns), nan where there are none: values; deviation: standard deviation by
+    noise; resolved: the side [m] of the square whose mean a value is; centres (rows, columns, 2) [m]; chi:
+    χ²/m of m numbers; told: count of independent numbers in the data; start: the scene's own value."""
 
     file_name = "identification"
     scene: Scene
@@ -87,7 +87,7 @@ class FieldIdentification(Answer):
         return (Picture("identification", compose, (self,), formats=RASTER),)
 
     def result(self) -> str:
-        """Return the range of values, and what the data tell."""
+        """Return the range of values and the count of independent numbers."""
         least, most = (quantity(float(of(self.values)), self.unit, ".4g") for of in (np.nanmin, np.nanmax))
         return f"{self.name} from {least} to {most}; the data tell {self.told:.0f} numbers"
 

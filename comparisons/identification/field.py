@@ -29,7 +29,7 @@ from comparisons.models.spec import Lattice
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import RASTER, Picture
-from sheetbench.answers.table import MILLIMETRES, NUMBER, Table, quantity, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, Column, Table, quantity, unit
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import parameter
@@ -40,7 +40,7 @@ STEPS, SMALL, LONGEST = 30, 1e-4, 1.0  # of p: the change that ends the search, 
 SMOOTHING = (-8.0, 8.0)  # log₁₀ of α beside its size that gives both terms the same weight
 COLUMNS = (*(MILLIMETRES(".1f", axis) for axis in "xy"), "unit", NUMBER(".4g", "value"))
 COLUMNS += (NUMBER(".2g", "± of noise"), MILLIMETRES(".0f", "resolved"))
-SUMMARY = ("unknown", "numbers told", MILLIMETRES(".0f", "resolved"), "unit")
+SUMMARY: tuple[str | Column, ...] = ("unknown", "numbers told", MILLIMETRES(".0f", "resolved"), "unit")
 SUMMARY += tuple(NUMBER(".4g", name) for name in ("least", "median", "most"))
 
 
@@ -71,9 +71,9 @@ class FieldIdentification(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row a cell, after one of all of them."""
-        parts = self.centres, self.values, self.deviation, self.resolved
-        parts = zip(*(part[np.isfinite(self.values)].tolist() for part in parts), strict=True)
-        rows = [(*at, unit(self.unit), *numbers) for at, *numbers in parts]
+        parts, there = (self.centres, self.values, self.deviation, self.resolved), np.isfinite(self.values)
+        each = zip(*(part[there].tolist() for part in parts), strict=True)
+        rows = [(*at, unit(self.unit), *numbers) for at, *numbers in each]
         return (*self.printed(), Table.listed(f"{self.name} of the cells", COLUMNS, rows, "field"))
 
     def printed(self) -> tuple[Table, ...]:
@@ -146,34 +146,40 @@ def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> F
     told = slopes.T @ slopes
     inverse = np.linalg.inv(told + smoothing * rough)
     resolution, noise = inverse @ told, inverse @ told @ inverse
-    of_cells = np.full((3, *base.shape), np.nan)
-    areas = lattice.cell_areas[there]
-    of_cells[:, there] = (
-        values[there],
-        values[there] * np.sqrt(np.diag(noise)),
-        np.sqrt(areas / np.clip(np.diag(resolution), 1e-9, 1.0)),
+    spread, own_share = np.sqrt(np.diag(noise)), np.clip(np.diag(resolution), 1e-9, 1.0)
+    square = lattice.cell_areas[there] / own_share
+    shown, deviation, resolved = np.full((3, *base.shape), np.nan)
+    shown[there], deviation[there], resolved[there] = values[there], values[there] * spread, np.sqrt(square)
+    middles, own = [line.at[:-1] + 0.5 * line.widths for line in lattice.lines], parameter(scene, name)
+    return FieldIdentification(
+        scene=scene,
+        name=name,
+        unit=own.unit,
+        start=own.value,
+        settings=model.settings,
+        centres=np.stack(np.meshgrid(*middles), axis=-1),
+        values=shown,
+        deviation=deviation,
+        resolved=resolved,
+        chi=float(left @ left) / count,
+        smoothing=smoothing,
+        told=float(np.trace(resolution)),
+        evaluations=evaluations,
+        converged=converged,
     )
-    middles = [line.at[:-1] + 0.5 * line.widths for line in lattice.lines]
-    own, chi, trace = parameter(scene, name), float(left @ left / count), float(np.trace(resolution))
-    centres = np.stack(np.meshgrid(*middles), axis=-1)
-    shown = scene, name, own.unit, own.value, model.settings, centres
-    return FieldIdentification(*shown, *of_cells, chi, float(smoothing), trace, evaluations, converged)
 
 
 def _roughness(there: np.ndarray, widths_x: np.ndarray, widths_y: np.ndarray) -> np.ndarray:
-    """Return LᵀL over the cells that there are."""
-    number = np.full(there.shape, -1)
-    number[there] = np.arange(there.sum())
-    found = np.zeros((int(there.sum()),) * 2)
-    for axis, (across, along) in enumerate(((widths_x, widths_y), (widths_y, widths_x))):
-        numbers = number if axis == 0 else number.T
-        weight = along[:, None] / (0.5 * (across[1:] + across[:-1]))
-        a, b = numbers[:, :-1], numbers[:, 1:]
-        both = (a >= 0) & (b >= 0)
-        a, b, weight = a[both], b[both], weight[both]
-        for row, column, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
-            np.add.at(found, (row, column), sign * weight)
-    return found
+    """Return LᵀL over the present cells."""
+    units, found = np.zeros((*there.shape, int(there.sum()))), 0.0
+    units[there] = np.eye(units.shape[2])
+    apart_x, apart_y = (0.5 * (widths[1:] + widths[:-1]) for widths in (widths_x, widths_y))
+    weights = widths_y[:, None] / apart_x, widths_x / apart_y[:, None]
+    both = there[:, 1:] & there[:, :-1], there[1:] & there[:-1]
+    for axis, weight, pair in zip((1, 0), weights, both, strict=True):
+        rows = np.sqrt(weight[pair])[:, None] * np.diff(units, axis=axis)[pair]
+        found = found + rows.T @ rows
+    return np.asarray(found)
 
 
 def _smoothed(slopes: np.ndarray, wanted: np.ndarray, rough: np.ndarray) -> tuple[np.ndarray, float]:

@@ -135,7 +135,9 @@ def identified(mass: float, swing: Swing, time: np.ndarray, tip: np.ndarray) -> 
     moved = np.full((len(time), 3), np.nan)
     moved[:, 2] = tip
     run = Displacements(np.tile(TIP, (len(time), 1)), moved, time)
-    return identify(block(mass, own), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    found = identify(block(mass, own), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    assert isinstance(found, Identification)
+    return found
 
 
 def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.ndarray]:

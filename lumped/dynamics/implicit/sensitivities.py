@@ -64,7 +64,8 @@ class Sided:
         if self.systems[0].items or not np.array_equal(*places):
             raise BadInput(f"sensitivities: {name}: not by supports' places, nor beside obstacles")
         self.half, self.largest, self.memories = 0.5 * over, 0.0, [state.memory for state in states]
-        self.change: Change = 0.5 * np.subtract(*([state.u, state.v, state.a] for state in states))
+        high_at, low_at = (np.array([state.u, state.v, state.a]) for state in states)
+        self.change: Change = 0.5 * (high_at - low_at)
 
     def residual(self, systems: Sequence[System], at: Change, change: Change, time: float) -> np.ndarray:
         """Return half the difference of both sides' residuals (n, 3) [N]."""
@@ -76,7 +77,8 @@ class Sided:
         """Return half the difference of both sides' accelerations where they begin anew."""
         found = []
         for system, sign, memory in zip(self.systems, SIGNS, self.memories, strict=True):
-            state = State(time, *(at + sign * self.change), memory)
+            u, v, a = at + sign * self.change
+            state = State(time, u, v, a, memory)
             found.append(system.accelerate(system.within(state).unbalanced(state.u, state.v, time)))
         return np.asarray(0.5 * (found[0] - found[1]))
 
@@ -118,7 +120,7 @@ class SensitiveEsdirk(Esdirk):
             one.change[2] = one.accelerated(own[:, 0], start)
         tables[:, 0] = one.change
         ends = zip(one.systems, (own[:, 0] + one.change, own[:, 0] - one.change), one.memories, strict=True)
-        sides = [EsdirkStep(system, State(start, *at, memory), h) for system, at, memory in ends]
+        sides = [EsdirkStep(of, State(start, at[0], at[1], at[2], memory), h) for of, at, memory in ends]
         for i in range(1, len(STAGES)):
             u, v = (tables[k, 0] + h * np.tensordot(STAGES[i, :i], tables[k + 1, :i], 1) for k in (0, 1))
             inside, base = [side.in_stage(i) for side in sides], (u + v / c1, v)

@@ -1,11 +1,10 @@
-"""What every cell of a sheet is made of, as fields: a lattice of any values, and derivatives by all of them.
+"""Fields over the cells of a sheet, E, ν, h, ρ and natural state: lattices of any values, and derivatives.
 
 Springs of a cell follow from its own section by the closed form of `lumped.calibration.closed_form`, at the
-layer distance that the lattice has, so that what would be negative springs at the least distance may be
-slightly so here. Along edges and rims a cell keeps the factor f of its twisting stiffness, which is that of
-the lattice's own calibration: f depends on how cells across a strip differ (`lumped.calibration.edge_twist`).
-As each cell's constants depend on that cell alone, one difference with all cells changed at once gives the
-derivatives of all.
+lattice's own layer distance, so that some springs may be slightly negative here. Along edges and rims a cell
+keeps the factor f of its twisting stiffness from the lattice's own calibration, as f depends on all cells
+across a strip (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone: one
+difference with all cells changed at once gives all rates, a sparse matrix, which is made once a lattice.
 
 Fields over the cells (rows, columns), from y0 to y1, each row from x0 to x1:
 
@@ -64,7 +63,7 @@ Rate = tuple[
 
 
 class CellFields:
-    """Of a scene's lattice `assembly` with the springs of a calibration."""
+    """The fields of a scene's lattice `assembly` with the springs of a calibration."""
 
     def __init__(self, scene: Scene, calibration: Calibration, assembly: Assembly):
         self.scene, self.calibration, self.assembly = scene, calibration, assembly
@@ -190,7 +189,7 @@ class CellFields:
         return assembly
 
     def _grown(self, families: AllFamilies, fields: Fields) -> Assembly:
-        """Return the lattice with these springs in the natural state of fields."""
+        """Return the lattice of these springs in the natural state of fields."""
         assembly, natural = copy(self.assembly), self.assembly.natural
         assembly.natural = None
         assembly._take(families)
@@ -202,8 +201,7 @@ class CellFields:
         return assembly
 
     def complete(self, fields: Fields, assembly: Assembly) -> Assembly:
-        """Return the lattice of these fields with springs of the mid-surface, which it has some of at other
-        values."""
+        """Return the lattice of these fields with springs of the mid-surface, which other values need."""
         if len(assembly.springs[2]):
             return assembly
         own = self.springs(fields)
@@ -213,8 +211,8 @@ class CellFields:
     def powers(
         self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray], v: np.ndarray
     ) -> np.ndarray:
-        """Return the derivatives by a field of the power v·(f − f_int), of the complete lattice of these
-        fields; by: those of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
+        """Return the derivatives of v·(f − f_int) by a field, of the complete lattice of these fields; by:
+        the derivatives of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
         base, found = fields.get(name, self.base[name]), np.zeros(1)
         if name != "density":
             rates = self._rates(name, fields, assembly, [one.shape for one in by])
@@ -228,8 +226,7 @@ class CellFields:
     def _rates(
         self, name: str, fields: Fields, assembly: Assembly, shapes: list[tuple[int, ...]]
     ) -> sp.csr_array:
-        """Return the rates of all constants, of these shapes, by a field: at the scene's own values those
-        kept."""
+        """Return the rates of all constants, of these shapes, by a field; kept at the scene's own values."""
         others = fields.keys() - {name} if name == "young" else fields.keys()
         own, kept = others & {*OF_SECTION, *STATE}, self._kept
         if own or name not in kept:
@@ -252,8 +249,7 @@ class CellFields:
         return kept[name]
 
     def _made(self, name: str, fields: Fields, assembly: Assembly) -> list[Rate]:
-        """Make the rates: springs are linear in E, else by a difference of what each cell gives to its
-        springs."""
+        """Return the rates by cells and kinds of springs: linear in E, else by a central difference."""
         if name == "density":
             return []
         if name in STATE:
@@ -283,8 +279,8 @@ class CellFields:
         return found
 
     def _of_cells(self, fields: Fields, assembly: Assembly) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield of each kind of springs the cells beside each, (q, m), and what they give to its constants,
-        (q, m, n)."""
+        """Yield of each kind of springs the cells beside each, (q, m), and their shares (q, m, n) of its
+        constants."""
         lattice, springs = assembly.lattice, self.springs(fields)
         these = lattice.links_of(assembly.links.nodes)
         yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
@@ -305,7 +301,7 @@ class CellFields:
             yield np.empty((1, 0), int), np.empty((1, 0, 1))
 
     def _of_masses(self, weight: np.ndarray) -> np.ndarray:
-        """Return what a unit of mass per area of every cell adds to weight · masses, weight (n,)."""
+        """Return the derivative of weight · masses by the mass per area of every cell; weight: (n,)."""
         lattice = self.assembly.lattice
         layers = lattice.grid[2]
         shares = shares_of_layers(self.scene, lattice) if self.scene.layers else np.full(layers, 1.0 / layers)

@@ -6,16 +6,17 @@ tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/d�
 
     dJ/dθ = λ · ∂(f − f_int)/∂θ + ∂J/∂u · dg/dθ                                          (`pullback`).
 
-By what all cells are made of (`lumped.cell_fields`) ∂f_int/∂θ · λ is a loop over the springs, each with its
-law's derivatives by its constants. By a number of the scene ∂R/∂θ is a central difference of the residual at
-fixed q, of springs found again and supports and loads bound again. The residual is linear in every spring
-constant and in E, where that is exact to rounding; in the thickness, ν, a layer distance, a curvature or a
-tilt its relative error is of order 1e-8. Contact is differentiated with what touches now, and a load at a
-line of the grid, where its shares have a kink, has the mean of both sides.
+The derivatives by fields over the cells (`lumped.cell_fields`) are a sparse product of λ · ∂f_int/∂(constants
+of the springs), one loop with each law's own derivatives; those by E and ρ of an even sheet are its sums, and
+loads have theirs by λ alone. Other parameters of the scene have ∂R/∂θ as a central difference of the residual
+at fixed q, of springs, supports and loads made anew on both sides, which a lattice keeps. The residual is
+linear in every spring constant, and its difference is exact but for rounding; in the thickness, ν, a layer
+distance, a curvature or a tilt its relative error is of order 1e-8. Obstacles go on touching the same masses,
+and a load at a line of the grid, where its shares have a kink, has the mean of both sides.
 
-Names: those of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …; "material.young" and
-"sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, … where a direction has
-its own), layer_distance; "cells.young", … over all cells; "forces" (n, 3) [N] on the masses.
+Names: the parameters of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …;
+"material.young" and "sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, …
+in each direction), layer_distance; "cells.young", … over all cells; "forces" (n, 3) [N] on the masses.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from lumped.calibration import MAKERS, Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
+from lumped.pattern import SHARED_UP_TO
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import sections_of
 from lumped.statics.build import build_problem
@@ -46,11 +48,11 @@ from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, pu
 from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
-CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
+CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # sources of the springs
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
-STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of what presses in by 1e-8 m
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
-PATCH, OBSTACLE = "patch", "obstacle"  # with which names of what these have begin
+PATCH, OBSTACLE = "patch", "obstacle"  # beginnings of names
 WEIGHTS = "gravity", "load", "mass"
 FIELD = "cells."
 FORCES = "forces"
@@ -60,37 +62,43 @@ FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of
 
 Calibrate = Callable[[Scene], Calibration]
 Values = Mapping[str, np.ndarray]
+Sides = tuple[list[tuple[Problem, Calibration]], float]  # as of `both_sides`
 
 
 class Plain:
-    """A scene's lattice with its springs, and what its derivatives keep. calibrate: how springs of a changed
-    scene are found; by the same method without options unless given."""
+    """A scene's lattice with its springs, and parts of its derivatives that do not depend on its shape.
+    calibrate: finds the springs of a changed scene; the same method without options does so by default."""
 
-    last: ClassVar[list[Plain]] = []
+    _last: ClassVar[list[tuple[Any, Plain]]] = []
 
     def __init__(self, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None):
         self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
         self.problem = build_problem(scene, calibration)
         self.cells = CellFields(scene, calibration, self.problem.assembly)
-        self._sides: dict[str, tuple[list[tuple[Problem, Calibration]], float]] = {}
+        self._sides: dict[str, Sides] = {}
         self._weights: dict[str, np.ndarray | None] = {}
 
     @classmethod
     def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Plain:
-        """Return the last one made, where it is of these."""
-        of = calibrate, calibration, scene
-        cls.last = [one for one in cls.last if (one.calibrate, one.calibration, one.scene) == of]
-        cls.last = cls.last or [cls(scene, calibration, calibrate)]
-        return cls.last[0]
+        """Return the lattice of a scene; a small one that is equal to the last is not made again."""
+        springs = calibration.springs, calibration.method, calibration.grading, calibration.masses
+        key = calibrate, scene, calibration.grid, springs, id(calibration.cells)
+        for last, found in cls._last:
+            if last == key:
+                return found
+        found = cls(scene, calibration, calibrate)
+        if found.problem.assembly.lattice.mass_count <= SHARED_UP_TO:
+            cls._last = [(key, found)]
+        return found
 
-    def sides(self, name: str) -> tuple[list[tuple[Problem, Calibration]], float]:
-        """Return `both_sides` of a parameter, the same every time."""
+    def sides(self, name: str) -> Sides:
+        """Return `both_sides` of a parameter, made once."""
         if name not in self._sides:
             self._sides[name] = both_sides(self.calibration, self.problem, name, self.calibrate)
         return self._sides[name]
 
     def weight(self, name: str) -> np.ndarray | None:
-        """Return the dead force (n, 3) by a parameter of loads that nothing else depends on, else None."""
+        """Return the derivative (n, 3) of dead loads by a parameter of theirs alone, None of another one."""
         if name not in self._weights:
             low, high = (side.loads for side, _ in self.sides(name)[0])
             alone = name.startswith(WEIGHTS) and not (low.follow or high.follow)
@@ -99,9 +107,11 @@ class Plain:
         return self._weights[name]
 
     def scaled_by(self, name: str) -> bool:
-        """Whether all cells have their E or ρ in proportion to a parameter, which nothing else depends on."""
-        scene, own = self.scene, name in ("young", "density")
-        if not own or scene.layers or scene.obstacles or any(getattr(p, name) for p in scene.patches):
+        """Return whether a parameter is E or ρ of all cells in proportion, and of nothing else."""
+        scene = self.scene
+        if name not in ("young", "density") or scene.layers or scene.obstacles:
+            return False
+        if not getattr(scene.material, name) or any(getattr(patch, name) for patch in scene.patches):
             return False
         pulled = scene.natural is not None and scene.natural.pretension is not None
         return name == "density" or (self.calibration.method.startswith("consistent") and not pulled)
@@ -119,7 +129,7 @@ class Equilibrium:
     def of(
         cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
     ) -> Equilibrium:
-        """Return those of a scene's lattice with these springs."""
+        """Return the derivatives at u of a scene's lattice with these springs."""
         return cls(Plain.of(scene, calibration, calibrate), u)
 
     @property
@@ -163,21 +173,22 @@ class Equilibrium:
         scene = self.problem.scene
         isotropic = scene.material.kind != "orthotropic" and not scene.layers
         fields = [name for name in NUMBERS if isotropic or name != "poisson"]
-        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(scene)]
+        own = (name for name in names_of(scene) if not name.endswith(OVER_TIME))
+        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *own]
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
-        """Return the derivatives of J by name, where J has these by the masses' displacement, (n, 3)."""
+        """Return the derivatives of J by name; by_displacement: ∂J/∂u (n, 3) of the masses."""
         with one_blas_thread():
             adjoint = self._transposed.solve(self.problem.reduce(by_displacement))
         return Gradient(self, by_displacement, adjoint)
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
-        """Return those of a J that has these by the displacement at plan points (p, 2), (p, 3)."""
+        """Return the derivatives of J by name; weights: ∂J/∂u (p, 3) at plan points (p, 2)."""
         middle = MidSurface(self.problem.assembly.lattice, points)
         return self.pullback(middle.shared(weights, len(self.u)))
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
-        """Return how the displacement (n, 3) moves with these changes of parameters."""
+        """Return the change (n, 3) [m] of the displacement by changes of parameters, to first order."""
         rows, moved = np.zeros(self.problem.system.unknowns), np.zeros_like(self.u)
         for name, change in changes.items():
             rate, placed = self.rates(name, change)
@@ -220,7 +231,7 @@ def _fields(values: Values) -> dict[str, np.ndarray]:
 
 
 class Gradient(Mapping[str, Any]):
-    """Derivatives of a number J by name, each found when it is asked for; adjoint: K⁻ᵀ Tᵀ ∂J/∂u, (m,)."""
+    """Derivatives of a number J by name, each computed on access; adjoint: K⁻ᵀ Tᵀ ∂J/∂u, (m,)."""
 
     def __init__(self, of: Equilibrium, by_displacement: np.ndarray, adjoint: np.ndarray):
         self._of, self._by, self._adjoint = of, by_displacement, adjoint
@@ -253,7 +264,7 @@ class Gradient(Mapping[str, Any]):
         return float(self._adjoint @ rows + np.sum(self._by * moved))
 
     def at_rest(self) -> Gradient:
-        """Return those of J by the free unknowns alone, where supports do not move."""
+        """Return the derivatives of J by the free unknowns alone, where supports do not move."""
         return Gradient(self._of, np.zeros_like(self._by), self._adjoint)
 
     def __iter__(self) -> Iterator[str]:
@@ -266,7 +277,7 @@ class Gradient(Mapping[str, Any]):
 def rates(
     problem: Problem,
     u: np.ndarray,
-    both: tuple[list[tuple[Problem, Calibration]], float],
+    both: Sides,
     values: Values = MappingProxyType({}),
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
@@ -295,9 +306,9 @@ def both_sides(
     name: str,
     calibrate: Calibrate | None = None,
     share: float = 0.0,
-) -> tuple[list[tuple[Problem, Calibration]], float]:
-    """Return the problem with its springs a little below and above a parameter, and how far apart; share: of
-    its value, for steps by that instead."""
+) -> Sides:
+    """Return the problem and springs a little below and above a parameter, and the distance between both;
+    share: of its value, for steps by that share."""
     scene, name = problem.scene, parameter_name(name)
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
@@ -323,9 +334,8 @@ def both_sides(
 def of_changed(
     scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
 ) -> tuple[Scene, Calibration]:
-    """Return the scene with another value, and its springs: by the same method where what they are found from
-    has changed, unless `calibrate` finds them."""
-    if name.startswith(OBSTACLE):  # unchecked: what begins at one begins by so little within it
+    """Return the scene with another value, and its springs, found anew where their sources have changed."""
+    if name.startswith(OBSTACLE):  # unchecked: a sheet that begins on one is within it by so little
         fields = SceneFields.model_construct(**dict(scene))
         changed = scene.model_copy(update=dict(put(fields, name, value)))
     else:

@@ -1,4 +1,4 @@
-"""How displacements depend on numbers of a scene, and a lattice as a function that is differentiated."""
+"""A lattice as a differentiable function of numbers of its scene."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Differentiable:
 
     @property
     def base(self) -> dict[str, np.ndarray]:
-        """The fields over the cells as the scene has them, and no forces."""
+        """The scene's own fields over the cells, and zero forces."""
         fields = {FIELD + name: field for name, field in self._plain.cells.base.items()}
         return {**fields, FORCES: np.zeros_like(self._plain.u)}
 
@@ -57,7 +57,7 @@ class Differentiable:
 
     def solve(self, values: Mapping[str, Any]) -> np.ndarray:
         """Return the displacement (n, 3) [m] of the stable equilibrium with these values, sought from the
-        last one first. Raises NoEquilibrium where there is none, BadInput for other names."""
+        last solution first. Raises NoEquilibrium where there is none, BadInput for other names."""
         at, path = self.path(values, None if self._last is self._plain else self._last.u)
         require_stable("lumped", path.status, path.notes)
         at.u, self._last = path.state.u, at
@@ -65,8 +65,8 @@ class Differentiable:
         return path.state.u
 
     def path(self, values: Mapping[str, Any], near: np.ndarray | None) -> tuple[Equilibrium, LatticePath]:
-        """Return the path to the equilibrium with these values, sought first from `near` (n, 3), and what has
-        its derivatives once its u is known."""
+        """Return the path to the equilibrium with these values, sought first from `near` (n, 3), and its
+        derivatives, which lack u."""
         scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
@@ -86,12 +86,12 @@ class Differentiable:
         return found, {name: self._last.moved_at(points, name) for name in names}
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
-        """Return the derivatives by name, at the last solve's values, of a J that has these by u, (n, 3)."""
+        """Return the derivatives of J by name at the last solve's values; by_displacement: ∂J/∂u (n, 3)."""
         return self._solved().pullback(by_displacement)
 
     def vjp(self, values: Mapping[str, Any], by_displacement: np.ndarray) -> dict[str, np.ndarray]:
-        """Return the derivatives by each of these values, of its shape, of a J that has these by u, (n, 3);
-        with a solve where these are not the last one's."""
+        """Return the derivatives of J by each of these values, of its shape, by_displacement: ∂J/∂u (n, 3);
+        values that are not the last solve's are solved first."""
         last = self._values
         same = last.keys() == values.keys() and self._last is not self._plain
         if not (same and all(np.array_equal(value, last[name]) for name, value in values.items())):
@@ -100,7 +100,7 @@ class Differentiable:
         return {name: np.reshape(found[name], np.shape(value)) for name, value in values.items()}
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
-        """Return how u moves with changes of values, at those of the last solve."""
+        """Return the change (n, 3) [m] of u by changes of the last solve's values, to first order."""
         return self._solved().pushforward(changes)
 
     def _solved(self) -> Equilibrium:

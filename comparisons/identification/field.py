@@ -5,9 +5,9 @@ deviations of the measurements, by p (one adjoint solution a number, `lumped.gra
 
     |r + J δp|² + α |L p|²,     |L p|² ≈ ∫ |∇p|² dA,
 
-with the α that leaves |r + J δp|² = m, what noise leaves (Morozov's discrepancy principle). Then
-R = (JᵀJ + α LᵀL)⁻¹ JᵀJ says how the values found mix the true ones: its trace is how many numbers the data
-tell, and a cell of area A has the mean of about A/R_cc. Their noise has the covariance
+with the α that leaves |r + J δp|² = m, as noise does (Morozov's discrepancy principle). Values found are a
+mixture R = (JᵀJ + α LᵀL)⁻¹ JᵀJ of the true ones: its trace is the count of independent numbers in the data,
+and a cell of area A has the mean of about A/R_cc. The covariance of their noise is
 (JᵀJ + α LᵀL)⁻¹ JᵀJ (JᵀJ + α LᵀL)⁻¹.
 Source: Aster, Borchers and Thurber, Parameter Estimation and Inverse Problems (2013), chapters 4 and 10.
 """
@@ -29,7 +29,7 @@ from comparisons.models.spec import Lattice
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.report import RASTER, Picture
-from sheetbench.answers.table import MILLIMETRES, NUMBER, Table, quantity, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, Column, Table, quantity, unit
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import parameter
@@ -38,15 +38,10 @@ SUFFIX = "=field"
 FIELDS = ("young", "thickness", "density")
 STEPS, SMALL, LONGEST = 30, 1e-4, 1.0  # of p: the change that ends the search, the largest of a step
 SMOOTHING = (-8.0, 8.0)  # log₁₀ of α beside its size that gives both terms the same weight
-RESOLVED = MILLIMETRES(".0f", "resolved")
-COLUMNS = (
-    *(*(MILLIMETRES(".1f", axis) for axis in "xy"), "unit", NUMBER(".4g", "value")),
-    *(NUMBER(".2g", "± of noise"), RESOLVED),
-)
-SUMMARY = (
-    *("unknown", "numbers told", RESOLVED, "unit"),
-    *(NUMBER(".4g", name) for name in ("least", "median", "most")),
-)
+COLUMNS = (*(MILLIMETRES(".1f", axis) for axis in "xy"), "unit", NUMBER(".4g", "value"))
+COLUMNS += (NUMBER(".2g", "± of noise"), MILLIMETRES(".0f", "resolved"))
+SUMMARY: tuple[str | Column, ...] = ("unknown", "numbers told", MILLIMETRES(".0f", "resolved"), "unit")
+SUMMARY += tuple(NUMBER(".4g", name) for name in ("least", "median", "most"))
 
 
 @dataclass(frozen=True, repr=False)
@@ -77,11 +72,9 @@ class FieldIdentification(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row a cell, after one of all of them."""
-        present = np.isfinite(self.values)
-        parts = (
-            part[present].tolist() for part in (self.centres, self.values, self.deviation, self.resolved)
-        )
-        rows = [(*at, unit(self.unit), *numbers) for at, *numbers in zip(*parts, strict=True)]
+        parts, there = (self.centres, self.values, self.deviation, self.resolved), np.isfinite(self.values)
+        each = zip(*(part[there].tolist() for part in parts), strict=True)
+        rows = [(*at, unit(self.unit), *numbers) for at, *numbers in each]
         return (*self.printed(), Table.listed(f"{self.name} of the cells", COLUMNS, rows, "field"))
 
     def printed(self) -> tuple[Table, ...]:
@@ -95,7 +88,7 @@ class FieldIdentification(Answer):
         return (Picture("identification", compose, (self,), formats=RASTER),)
 
     def result(self) -> str:
-        """Return the range of values, and what the data tell."""
+        """Return the range of values and the count of independent numbers."""
         least, most = (quantity(float(of(self.values)), self.unit, ".4g") for of in (np.nanmin, np.nanmax))
         return f"{self.name} from {least} to {most}; the data tell {self.told:.0f} numbers"
 
@@ -154,36 +147,40 @@ def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> F
     told = slopes.T @ slopes
     inverse = np.linalg.inv(told + smoothing * rough)
     resolution, noise = inverse @ told, inverse @ told @ inverse
-    of_cells = np.full((3, *base.shape), np.nan)
-    areas = lattice.cell_areas[there]
-    of_cells[:, there] = (
-        values[there],
-        values[there] * np.sqrt(np.diag(noise)),
-        np.sqrt(areas / np.clip(np.diag(resolution), 1e-9, 1.0)),
+    spread, own_share = np.sqrt(np.diag(noise)), np.clip(np.diag(resolution), 1e-9, 1.0)
+    square = lattice.cell_areas[there] / own_share
+    shown, deviation, resolved = np.full((3, *base.shape), np.nan)
+    shown[there], deviation[there], resolved[there] = values[there], values[there] * spread, np.sqrt(square)
+    middles, own = [line.at[:-1] + 0.5 * line.widths for line in lattice.lines], parameter(scene, name)
+    return FieldIdentification(
+        scene=scene,
+        name=name,
+        unit=own.unit,
+        start=own.value,
+        settings=model.settings,
+        centres=np.stack(np.meshgrid(*middles), axis=-1),
+        values=shown,
+        deviation=deviation,
+        resolved=resolved,
+        chi=float(left @ left) / count,
+        smoothing=smoothing,
+        told=float(np.trace(resolution)),
+        evaluations=evaluations,
+        converged=converged,
     )
-    middles = [line.at[:-1] + 0.5 * line.widths for line in lattice.lines]
-    own, chi, trace = parameter(scene, name), float(left @ left / count), float(np.trace(resolution))
-    centres = np.stack(np.meshgrid(*middles), axis=-1)
-    shown = scene, name, own.unit, own.value, model.settings, centres
-    result, deviation, resolved = of_cells
-    ending = chi, float(smoothing), trace, evaluations, converged
-    return FieldIdentification(*shown, result, deviation, resolved, *ending)
 
 
 def _roughness(there: np.ndarray, widths_x: np.ndarray, widths_y: np.ndarray) -> np.ndarray:
-    """Return LᵀL over the cells that there are."""
-    number = np.full(there.shape, -1)
-    number[there] = np.arange(there.sum())
-    found = np.zeros((int(there.sum()),) * 2)
-    for axis, (across, along) in enumerate(((widths_x, widths_y), (widths_y, widths_x))):
-        numbers = number if axis == 0 else number.T
-        weight = along[:, None] / (0.5 * (across[1:] + across[:-1]))
-        a, b = numbers[:, :-1], numbers[:, 1:]
-        both = (a >= 0) & (b >= 0)
-        a, b, weight = a[both], b[both], weight[both]
-        for row, column, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
-            np.add.at(found, (row, column), sign * weight)
-    return found
+    """Return LᵀL over the present cells."""
+    units, found = np.zeros((*there.shape, int(there.sum()))), 0.0
+    units[there] = np.eye(units.shape[2])
+    apart_x, apart_y = (0.5 * (widths[1:] + widths[:-1]) for widths in (widths_x, widths_y))
+    weights = widths_y[:, None] / apart_x, widths_x / apart_y[:, None]
+    both = there[:, 1:] & there[:, :-1], there[1:] & there[:-1]
+    for axis, weight, pair in zip((1, 0), weights, both, strict=True):
+        rows = np.sqrt(weight[pair])[:, None] * np.diff(units, axis=axis)[pair]
+        found = found + rows.T @ rows
+    return np.asarray(found)
 
 
 def _smoothed(slopes: np.ndarray, wanted: np.ndarray, rough: np.ndarray) -> tuple[np.ndarray, float]:

@@ -1,13 +1,13 @@
-"""How a motion depends on numbers of its scene: derivatives along `esdirk`, stage by stage, in the same run.
+"""Derivatives of a motion by numbers of its scene, along `esdirk`, stage by stage, in the same run.
 
-Of R(u, v, a, t; θ) = 0, the equations of motion, s = du/dθ has in every stage
+With the equations of motion R(u, v, a, t; θ) = 0, s = du/dθ has in every stage
 
     R_u s + R_v s′ + R_a s″ + R_θ = 0,   s′ = ŝ′ + c₁ (s − ŝ),   s″ = c₂ (s − ŝ),
 
 linear, with the matrix of the stage's own equation, whose factors stand. They may be of a state near by, so
 that each solution is corrected until it no longer changes. The left side is half the difference of R at
-θ ± δ and u ± δ s, of two systems a parameter, over δ; so what branches remember is followed too, on either
-side. Steps are those of the motion: s is the derivative of what the run answers, at frozen steps.
+θ ± δ and u ± δ s, of two systems a parameter, over δ; so the memory of branches is followed too, on either
+side. s is the derivative of the run's own answer, at frozen steps.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def require_followed(names: Sequence[str], integrator: str, keeping: Mapping[str
 
 
 class Sided:
-    """A parameter's two systems, half of what their states are apart, and what their branches remember."""
+    """A parameter's two systems, half the difference of their states, and the memories of their branches."""
 
     def __init__(self, scene: Scene, calibration: Calibration, weights: Weights, name: str):
         (low, high), over = both_sides(
@@ -74,7 +74,7 @@ class Sided:
         return np.asarray(0.5 * (high - low))
 
     def accelerated(self, at: Change, time: float) -> np.ndarray:
-        """Return half of what their accelerations are apart where both begin anew."""
+        """Return half the difference of both sides' accelerations where they begin anew."""
         found = []
         for system, sign, memory in zip(self.systems, SIGNS, self.memories, strict=True):
             u, v, a = at + sign * self.change

@@ -53,7 +53,7 @@ FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 
 
 def settling(scene: Scene) -> str:
-    """Return which motion may bring a sheet to rest that statics do not."""
+    """Return advice for a sheet without an answer from statics: its motion may come to rest."""
     material = scene.material
     damped = material.damping_rate or material.dashpot_time or material.branches.times or scene.dampers
     until = AT_REST / (material.damping_rate or SLOW)

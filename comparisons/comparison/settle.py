@@ -2,9 +2,9 @@
 
     ω² = a/L + E h²/(ρ L⁴)
 
-is of the loads, which give the sheet of mass M and shorter side L the acceleration a, and of its bending. A
-drag of CREEPING ω · mass leaves nothing to swing, and in LONG/ω even what is unstable has left its saddle.
-Inertia and the material's own dampers do not matter then, and are long steps of an implicit rule.
+is the rate of the loads, which give a sheet of shorter side L the acceleration a, and of bending. Under a
+drag of CREEPING ω · mass nothing swings, and within LONG/ω a sheet has left its unstable equilibria too.
+Inertia and the material's own dampers do not matter then, so that an implicit rule takes long steps.
 """
 
 from __future__ import annotations

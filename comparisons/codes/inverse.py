@@ -131,7 +131,8 @@ def sheet_of(
 
     given: parameters of the code by their names; cell: the mesh, by default the usual one of the code, with
     vertices `spacing` [m] apart; density [kg/m³]: for codes without a parameter for it. Raises BadInput for
-    unknown names, numbers that contradict each other, and a mesh without a spacing on which the bending depends.
+    unknown names, numbers that contradict each other, and a mesh without a spacing on which the bending
+    depends.
     """
     require_choice("--from", code, CODES)
     row, asked = CODES[code], f"--from {code}:"

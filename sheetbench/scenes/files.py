@@ -21,7 +21,7 @@ MANY = 200  # files beside a missing one that are compared with its name
 def catalogue() -> dict[str, Path]:
     """Names and files of the scenes that come with the package."""
     folder = Path(str(resources.files("sheetbench.scenes") / "catalogue"))
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+    return {path.stem: path for path in sorted(folder.glob("*.toml"), key=lambda path: path.stem)}
 
 
 AnyScene = Scene | str | Path

@@ -1,9 +1,9 @@
 """Which sheet another code's numbers are: the table of coefficients read the other way.
 
-The code's parameters, functions of coefficients C, thickness and density (`comparisons.codes.table`), are
-solved for these. The cell of the code's mesh then has a membrane A, of which ν = A12/A11 and
-E h = A11 (1 − ν²), and its hinges are those of `coefficients.nearest` for one bending stiffness D11 of a
-sheet of that ν. An isotropic sheet that has both is h = √(12 D11/A11) thick.
+Coefficients C, thickness and density follow from the code's parameters, which are functions of them
+(`comparisons.codes.table`). The cell of the code's mesh then has a membrane A with ν = A12/A11 and
+E h = A11 (1 − ν²), and `coefficients.nearest` has its hinges for one bending stiffness D11 of a sheet of
+this ν. An isotropic sheet with both is h = √(12 D11/A11) thick.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ QUANTITIES = {  # of the sheet: symbol and unit
 
 @dataclass(frozen=True, repr=False)
 class SheetOfCode(Answer):
-    """What numbers of a code are as a sheet. given: its parameters; spacing [m]: distance of the nodes;
-    membrane: A11 [N/m]; poisson; bending: D11 [N·m], None where nothing given says it; areal: ρ h
-    [kg/m²], rho: ρ [kg/m³], those of them that are given."""
+    """The sheet that numbers of a code describe. given: parameters of the code; spacing [m]: distance of the
+    nodes; membrane: A11 [N/m]; poisson; bending: D11 [N·m]; areal: ρ h [kg/m²]; rho: ρ [kg/m³]. The last
+    three are None where no parameter determines them."""
 
     code: Code
     given: Mapping[str, float]
@@ -79,7 +79,7 @@ class SheetOfCode(Answer):
 
     @property
     def impossible(self) -> str:
-        """Why no isotropic sheet has these numbers, "" where one has."""
+        """The reason why no isotropic sheet has these numbers, "" where one has."""
         if self.poisson > MOST_POISSON:
             return f"ν = {self.poisson:.3g} is of no isotropic material, whose ν is below 0.5"
         if self.bending is None:
@@ -127,11 +127,12 @@ def sheet_of(
     spacing: float | None = None,
     density: float | None = None,
 ) -> SheetOfCode:
-    """Return the sheet that a code's numbers are.
+    """Return the sheet that a code's numbers describe.
 
-    given: parameters of the code by their names; cell: its mesh, the code's own choice unless given, with
-    vertices `spacing` [m] apart; density [kg/m³]: where no parameter says it. Raises BadInput for unknown
-    names, numbers that contradict each other, and a mesh without a spacing on which the bending depends.
+    given: parameters of the code by their names; cell: the mesh, by default the usual one of the code, with
+    vertices `spacing` [m] apart; density [kg/m³]: for codes without a parameter for it. Raises BadInput for
+    unknown names, numbers that contradict each other, and a mesh without a spacing on which the bending
+    depends.
     """
     require_choice("--from", code, CODES)
     row, asked = CODES[code], f"--from {code}:"
@@ -172,11 +173,11 @@ NAMES = ("lambda_h", "mu_h", "hinge", "thickness", "density", "k", "layers")
 
 
 def solved(code: Code, given: Mapping[str, float]) -> dict[str, float]:
-    """Return the coefficients, thickness and density that a code's parameters say, those that they do.
+    """Return the coefficients, thickness and density that a code's parameters determine.
 
-    Unknowns are logarithms, and artanh of λh/(λh + 2 μh), residuals logarithms of parameters over those given
-    where both are positive. Where only ρ h is known it is "areal" [kg/m²]. Raises BadInput for numbers that
-    no coefficients have.
+    Unknowns are logarithms, and artanh of λh/(λh + 2 μh); residuals are logarithms of parameters over given
+    values where both are positive. If ρ h alone is known, it is "areal" [kg/m²]. Raises BadInput for numbers
+    that no coefficients have.
     """
     limp = {name for name in given if given[name] == 0.0 and name in BENDS}
     keys = [key for key in code.keys if key.name in given.keys() - limp]

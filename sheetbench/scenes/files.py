@@ -27,7 +27,7 @@ def catalogue() -> dict[str, Path]:
         The TOML file of each scene by its name.
     """
     folder = Path(str(resources.files("sheetbench.scenes") / "catalogue"))
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+    return {path.stem: path for path in sorted(folder.glob("*.toml"), key=lambda path: path.stem)}
 
 
 AnyScene = Scene | str | Path

@@ -1,6 +1,6 @@
-"""Derivatives of a motion by numbers of its scene, along `esdirk`, stage by stage, in the same run.
+"""Derivatives of a motion by numbers of its scene, stage by stage along a run of `esdirk`.
 
-With the equations of motion R(u, v, a, t; θ) = 0, s = du/dθ has in every stage
+The equations of motion R(u, v, a, t, θ) = 0 give for the derivative s = du/dθ in every stage
 
     R_u s + R_v s′ + R_a s″ + R_θ = 0,   s′ = ŝ′ + c₁ (s − ŝ),   s″ = c₂ (s − ŝ),
 

@@ -1,7 +1,7 @@
 """A step of `esdirk`: its stages, and the motion between its ends.
 
-Between the ends the motion is the polynomial of fifth degree û, v̂, â through the displacements, velocities and
-accelerations of both ends, corrected, since stiff springs magnify its error, to the solution of
+Between the ends the motion is the polynomial of fifth degree û, v̂, â through the displacements, velocities
+and accelerations of both ends, corrected, since stiff springs magnify its error, to the solution of
 
     M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
 

@@ -60,8 +60,8 @@ def _stages() -> np.ndarray:
 
 
 def _cumulative() -> np.ndarray:
-    """Return the coefficients (8, 7) of θ⁰ to θ⁷: the integral from 0 to θ of what passes through the values at the
-    abscissae, corrected in proportion to θ so that it ends in the weights of the method."""
+    """Return the coefficients (8, 7) of θ⁰ to θ⁷: the integral from 0 to θ of what passes through the values
+    at the abscissae, corrected in proportion to θ so that it ends in the weights of the method."""
     found = np.zeros((8, 7))
     powers = np.linalg.inv(np.vander(ABSCISSAE, increasing=True))  # values → coefficients
     found[1:] = powers / np.arange(1.0, 8.0)[:, None]

@@ -157,7 +157,7 @@ class Score(ShownAnswer):
 
     def notes(self) -> list[str]:
         notes = [
-            "error: largest difference over the reference's largest value; distinguishable: above its doubt",
+            "error: largest difference over the reference's largest value; distinguishable: above that bar",
             "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %",
         ]
         if self.unanswered:

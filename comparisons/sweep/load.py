@@ -42,8 +42,7 @@ def warnings(costs: Iterable[Mapping[str, Any]], samples: Iterable[Sequence[floa
     cores = [cost.get("machine", {}).get("cpu_count") or os.cpu_count() or 1 for cost in known]
     busy = [(cost["load_average"], most) for cost, most in zip(known, cores, strict=True)]
     busy = [(load, most) for load, most in busy if load > most]
-    sentences = []
-    workers = sorted({str(cost.get("worker", "this machine")) for cost in known})
+    sentences, workers = [], sorted({str(cost.get("worker", "this machine")) for cost in known})
     machines = {str(cost.get("machine")) for cost in known if "machine" in cost}
     if len(workers) > 1 or len(machines) > 1:
         sentences.append(f"times are not of one machine ({', '.join(workers)}): compare them with care")

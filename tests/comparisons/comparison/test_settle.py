@@ -7,8 +7,10 @@ from commands import one_line, run
 import fem_reference
 from comparisons.comparison.branches import shape
 from comparisons.comparison.comparison import compare
-from comparisons.comparison.settle import CREEPING, LONG, frequency
-from comparisons.models.spec import Lattice
+from comparisons.comparison.settle import CREEPING, LONG, frequency, settled
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Lattice
 from sheetbench.scenes import Scene
 
 PILLOW = Scene(
@@ -36,6 +38,27 @@ def test_an_inflated_pillow_is_at_rest_where_its_motion_ends(masses):
     assert lattice == pytest.approx(shell, rel=0.02) and shell == pytest.approx(44.8e-3, rel=0.04)
     assert [found.branch(one) for one in found.solutions] == ["of motion"] * 2
     assert found.expected is None and found.bar is None
+
+
+@pytest.mark.nightly
+def test_a_rag_comes_to_rest_on_a_ball():
+    """A quarter of 0.5 m on a radius of 0.1 m, 0.15 kg/m², bending length 35 mm. The lattice of 17 masses,
+    which leaves the symmetry by rounding, has its corner at −159 mm."""
+    rag = Scene(
+        name="rag",
+        sheet={"length_x": 0.25, "length_y": 0.25, "thickness": 0.834e-3},
+        material={"young": 1.187e6, "poisson": 0.3, "density": 179.86},
+        gravity={"acceleration": (0.0, 0.0, -9.81)},
+        supports=tuple({"kind": "symmetric", "edge": edge} for edge in ("x0", "y0")),
+        obstacles=({"kind": "sphere", "position": (0.0, 0.0, -0.100417), "radius": 0.1},),
+    )
+    model = resolve(rag, Elements("shell", 8))
+    near, ended = settled(model)
+    found = solve(model, "", near)
+    assert not ended and found.status == "converged" and found.balance.holds
+    across, along, corner = found.displacement([[0.125, 0.25], [0.25, 0.125], [0.25, 0.25]])[:, 2]
+    assert across == pytest.approx(along, rel=1e-6) and corner == pytest.approx(-0.159, rel=0.03)
+    assert found.reactions["obstacle 1"][2] == pytest.approx(0.15 * 0.25**2 * 9.81, rel=1e-3)
 
 
 def test_where_statics_lead_alike_nothing_is_changed():

@@ -37,7 +37,7 @@ from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import natural_at
-from sheetbench.scenes.meaning.parameters import names_of, parameter, put
+from sheetbench.scenes.meaning.parameters import names_of, parameter, put, short_name
 from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-4  # of a parameter, or of 1 where it is zero
@@ -169,7 +169,7 @@ class SheetSensitivity:
 
     def ends(self, name: str) -> tuple[tuple[Scene, Scene], float]:
         """Return the scene on both sides of a parameter, and how far apart these are. Raises BadInput."""
-        name = name.removeprefix("material.").removeprefix("sheet.")
+        name = short_name(name)
         found = parameter(self.scene, name)
         step = STEP * (abs(found.value) or 1.0)
         at = (max(found.value - step, found.low), min(found.value + step, found.high))

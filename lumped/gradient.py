@@ -44,7 +44,7 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put
+from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put, short_name
 from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
@@ -246,7 +246,7 @@ class Gradient(Mapping[str, Any]):
         return self._of.complete.all_families.powers_by_constants(self._of.u, self.by_forces)
 
     def __getitem__(self, name: str) -> Any:
-        of, name = self._of, parameter_name(name)
+        of, name = self._of, short_name(name)
         if name == FORCES:
             return self.by_forces
         if name.startswith(FIELD):
@@ -295,11 +295,6 @@ def rates(
     return force, moved, rows
 
 
-def parameter_name(name: str) -> str:
-    """Return a parameter's name without the table that it is in."""
-    return name.removeprefix("material.").removeprefix("sheet.")
-
-
 def both_sides(
     calibration: Calibration,
     problem: Problem,
@@ -309,7 +304,7 @@ def both_sides(
 ) -> Sides:
     """Return the problem and springs a little below and above a parameter, and the distance between both;
     share: of its value, for steps by that share."""
-    scene, name = problem.scene, parameter_name(name)
+    scene, name = problem.scene, short_name(name)
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
     else:

@@ -32,7 +32,7 @@ from sheetbench.answers.report import RASTER, Picture
 from sheetbench.answers.table import MILLIMETRES, NUMBER, Column, Table, quantity, unit
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.parameters import parameter
+from sheetbench.scenes.meaning.parameters import parameter, short_name
 
 SUFFIX = "=field"
 FIELDS = ("young", "thickness", "density")
@@ -115,8 +115,7 @@ class FieldIdentification(Answer):
 def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> FieldIdentification:
     """Return the field of young, thickness or density over a lattice's cells. Raises BadInput for other names
     and data that come without a standard deviation, of a motion or of a surface."""
-    name = name.removeprefix("material.").removeprefix("sheet.")
-    require_choice("unknown", name, FIELDS)
+    require_choice("unknown", name := short_name(name), FIELDS)
     if not isinstance(measured, Displacements) or measured.time is not None:
         raise BadInput(f"unknown = '{name}{SUFFIX}': displacements of points at rest are needed")
     if measured.deviation is None:

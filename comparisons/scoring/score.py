@@ -154,12 +154,8 @@ class Score(ShownAnswer):
 
     def notes(self) -> list[str]:
         notes = [
-<<<<<<< HEAD
             "error: largest difference over the reference's largest value; distinguishable: yes if the error "
             "is larger than the reference's error bar",
-=======
-            "error: largest difference over the reference's largest value; distinguishable: above that bar",
->>>>>>> w/front
             "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %",
         ]
         if self.unanswered:

@@ -37,7 +37,6 @@ def warnings(costs: Iterable[Mapping[str, Any]], samples: Iterable[Sequence[floa
     Times are unreliable if the load exceeded the number of processors, or if their samples [s] scatter by
     more than SCATTER. costs: the `conditions` of each time, as far as known.
     """
-<<<<<<< HEAD
     costs = [cost for cost in costs if cost.get("load_average") is not None]
     cores = [cost.get("machine", {}).get("cpu_count") or os.cpu_count() or 1 for cost in costs]
     loads = [(cost["load_average"], count) for cost, count in zip(costs, cores, strict=True)]
@@ -45,14 +44,6 @@ def warnings(costs: Iterable[Mapping[str, Any]], samples: Iterable[Sequence[floa
     sentences = []
     workers = sorted({str(cost.get("worker", "this machine")) for cost in costs})
     machines = {str(cost.get("machine")) for cost in costs if "machine" in cost}
-=======
-    known = [cost for cost in costs if cost.get("load_average") is not None]
-    cores = [cost.get("machine", {}).get("cpu_count") or os.cpu_count() or 1 for cost in known]
-    busy = [(cost["load_average"], most) for cost, most in zip(known, cores, strict=True)]
-    busy = [(load, most) for load, most in busy if load > most]
-    sentences, workers = [], sorted({str(cost.get("worker", "this machine")) for cost in known})
-    machines = {str(cost.get("machine")) for cost in known if "machine" in cost}
->>>>>>> w/front
     if len(workers) > 1 or len(machines) > 1:
         sentences.append(f"times are not of one machine ({', '.join(workers)}): compare them with care")
     elif workers and workers != ["this machine"]:

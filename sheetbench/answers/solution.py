@@ -70,11 +70,6 @@ COMPONENTS = ("ux", "uy", "uz")
 STEP = 1e-5  # of the largest displacement, for differences of a function of displacements
 
 
-def _parameter_name(key: str) -> str:
-    """Return the name of a scene's parameter from its key: "material.young" is young."""
-    return key.removeprefix("material.").removeprefix("sheet.")
-
-
 def comparable(status: str, load_factor: float) -> bool:
     """Return whether an answer may be compared with others by its status and load factor. It must be an
     equilibrium under the whole load, stable and physical or not."""
@@ -321,7 +316,7 @@ class Solution(Answer):
         points = np.array([*self.points.values()]) if at is None else np.reshape(at, (-1, 2))
         found = self.sensitivity().at_points(points, self._by_displacements(of, points))
         if by is not None:
-            return {name: found[_parameter_name(name)] for name in by}
+            return {name: found[name] for name in by}
         every = {}
         for name in found:
             with suppress(BadInput):  # as a clamp's tilt is where another one shares its corner

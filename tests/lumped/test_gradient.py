@@ -241,6 +241,19 @@ def test_a_field_is_that_of_the_scene_that_has_it():
     assert thicker == pytest.approx(found["thickness"], rel=2e-2)
 
 
+def test_a_second_gradient_of_a_scene_makes_no_lattice_and_no_springs(monkeypatch):
+    scene = scene_of("one-edge-clamped")
+    springs = calibrated(scene, GRID)
+    u = solve_path(build_problem(scene, springs)).state.u
+    first = dict(Equilibrium.of(scene, springs, u).pullback(np.ones_like(u)))
+    assert len(first) == 15 and {"poisson", "cells.poisson", "tilt_x0"} <= first.keys()
+    for made in ("build_problem", "of_changed"):
+        monkeypatch.delattr(f"lumped.gradient.{made}")
+    again = Equilibrium.of(scene, springs, u).pullback(2.0 * np.ones_like(u))
+    for name, value in first.items():
+        assert np.allclose(again[name], 2.0 * value, rtol=1e-9, atol=1e-12 * np.abs(value).max()), name
+
+
 def test_an_equilibrium_that_is_none_or_unstable_has_no_derivatives():
     flat = scene_of(
         "one-edge-clamped", gravity=None, loads=(EdgeLoad(edge="x1", force_per_length=(-60.0, 0, 0)),)

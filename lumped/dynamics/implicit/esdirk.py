@@ -6,8 +6,8 @@
 with the coefficients of `tableau`. Every stage is one equation for uᵢ with common factors, because aᵢᵢ = γ;
 the first stage is the last one of the previous step. The error of a step, h Σ (bᵢ − b̂ᵢ) vᵢ, is controlled
 relative to the largest displacement so far, or to a tenth of the displacement to which the forces at the
-start lead. Energies dissipated by dampers and supplied by loads and supports are h Σ bᵢ Pᵢ. Prescribed motions of
-supports are exact at every stage.
+start lead. Energies dissipated by dampers and supplied by loads and supports are h Σ bᵢ Pᵢ. Prescribed
+motions of supports are exact at every stage.
 
 Steps may be longer than the distance of samples, which lie within them (`esdirk_step`). They end where
 something changes its course: a load's history, a support's motion. No chains: their constraints would lower

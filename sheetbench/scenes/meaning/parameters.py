@@ -100,6 +100,11 @@ class Parameter(NamedTuple):
     high: float
 
 
+def short_name(name: str) -> str:
+    """Return a parameter's name without its table: "material.young" is young."""
+    return name.removeprefix("material.").removeprefix("sheet.")
+
+
 def parameter(scene: SceneFields, name: str) -> Parameter:
     """Return the parameter of this name. Raises BadInput if the scene has none."""
     path = _paths(scene, name)[0]
